@@ -1,0 +1,67 @@
+# Finds what Orthostat stands on, and says in words what to install when something is missing.
+find_package(PkgConfig REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C)
+
+function(orthostat_missing what package)
+  message(FATAL_ERROR "Orthostat needs ${what}, which was not found. On Debian or Ubuntu: apt-get install ${package} "
+                      "(scripts/setup installs everything).")
+endfunction()
+
+# Imported target Orthostat::<name> from one header and some libraries.
+function(orthostat_find name what package header libraries)
+  find_path(ORTHOSTAT_${name}_INCLUDE ${header} PATH_SUFFIXES trilinos)
+  set(found)
+  foreach(library IN LISTS libraries)
+    find_library(ORTHOSTAT_${name}_${library} NAMES ${library})
+    if(NOT ORTHOSTAT_${name}_${library})
+      orthostat_missing("${what} (library ${library})" ${package})
+    endif()
+    mark_as_advanced(ORTHOSTAT_${name}_${library})
+    list(APPEND found ${ORTHOSTAT_${name}_${library}})
+  endforeach()
+  if(NOT ORTHOSTAT_${name}_INCLUDE)
+    orthostat_missing("${what} (header ${header})" ${package})
+  endif()
+  mark_as_advanced(ORTHOSTAT_${name}_INCLUDE)
+  add_library(Orthostat::${name} INTERFACE IMPORTED)
+  set_target_properties(Orthostat::${name} PROPERTIES INTERFACE_LINK_LIBRARIES "${found}"
+                        INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${ORTHOSTAT_${name}_INCLUDE}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${ORTHOSTAT_${name}_INCLUDE}")
+endfunction()
+
+orthostat_find(METIS "METIS" libmetis-dev metis.h "metis")
+find_package(LAPACK QUIET)
+if(NOT LAPACK_FOUND)
+  orthostat_missing("LAPACK" liblapack-dev)
+endif()
+add_library(Orthostat::LAPACK INTERFACE IMPORTED)
+set_target_properties(Orthostat::LAPACK PROPERTIES INTERFACE_LINK_LIBRARIES LAPACK::LAPACK)
+orthostat_find(Trilinos "Trilinos (Epetra, AztecOO, ML, Amesos)"
+               "libtrilinos-epetra-dev libtrilinos-aztecoo-dev libtrilinos-ml-dev libtrilinos-amesos-dev" ml_include.h
+               "trilinos_ml;trilinos_amesos;trilinos_aztecoo;trilinos_epetra")
+orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
+orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
+
+# Parallel HDF5 goes by its own names, beside a serial one.
+pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi)
+if(NOT ORTHOSTAT_HDF5_FOUND)
+  pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-mpi)
+endif()
+if(NOT ORTHOSTAT_HDF5_FOUND)
+  orthostat_missing("parallel HDF5" libhdf5-openmpi-dev)
+endif()
+add_library(Orthostat::HDF5 ALIAS PkgConfig::ORTHOSTAT_HDF5)
+
+# Gmsh's library is loaded when a .msh file is read and not before: it takes 40 ms and 22 MiB that no other case needs.
+find_path(ORTHOSTAT_GMSH_INCLUDE gmshc.h)
+find_library(ORTHOSTAT_GMSH_LIBRARY gmsh)
+if(NOT ORTHOSTAT_GMSH_INCLUDE OR NOT ORTHOSTAT_GMSH_LIBRARY)
+  orthostat_missing("Gmsh's library" libgmsh-dev)
+endif()
+mark_as_advanced(ORTHOSTAT_GMSH_INCLUDE ORTHOSTAT_GMSH_LIBRARY)
+execute_process(COMMAND readelf -d "${ORTHOSTAT_GMSH_LIBRARY}" OUTPUT_VARIABLE gmsh_dynamic)
+string(REGEX MATCH "SONAME[^\[]*\\[([^]]*)\\]" gmsh_soname_line "${gmsh_dynamic}")
+set(gmsh_soname "${CMAKE_MATCH_1}")
+add_library(Orthostat::GmshHeader INTERFACE IMPORTED)
+set_target_properties(Orthostat::GmshHeader PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${ORTHOSTAT_GMSH_INCLUDE}"
+                      INTERFACE_COMPILE_DEFINITIONS "ORTHOSTAT_GMSH_SONAME=\"${gmsh_soname}\"")

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_AXES_H
+#define ORTHOSTAT_AXES_H
+
+#include "orthostat/context.h"
+
+/* Material axes as a 3×3 row-major array: rows e1, e2, e3, right-handed and orthonormal. */
+
+typedef enum {
+    OST_AXES_NONE,        /* not given: world axes */
+    OST_AXES_FIXED,       /* three rows */
+    OST_AXES_EULER,       /* angles in degrees, intrinsic z-x'-z'' unless another sequence is named */
+    OST_AXES_QUATERNION,  /* w x y z */
+    OST_AXES_CYLINDRICAL, /* follow an axis: axial, radial, tangential */
+    OST_AXES_CURVE,       /* follow a polyline: tangent, normal, binormal */
+    OST_AXES_CELLS,       /* nine numbers a tet, from the mesh or a text file */
+    OST_AXES_GRADIENT     /* gradients of two harmonic potentials between named boundaries */
+} OstAxesKind;
+
+/* Which direction of the frame each material axis takes. */
+typedef enum { OST_AXIAL, OST_RADIAL, OST_TANGENTIAL } OstCylindricalDirection;
+
+/* How the axes of a region are given; plain data, arrays owned by whoever made it. */
+typedef struct OstAxesSpec {
+    OstAxesKind kind;
+    double fixed[9];                  /* FIXED; EULER and QUATERNION are turned into this too */
+    double origin[3];                 /* CYLINDRICAL */
+    double axis[3];                   /* CYLINDRICAL */
+    OstCylindricalDirection order[3]; /* CYLINDRICAL: e1, e2, e3 take these; CURVE: axial is the tangent */
+    int point_count;                  /* CURVE */
+    double *points;                   /* CURVE: point_count × 3 */
+    double up[3];          /* CURVE: e2 lies in the plane of tangent and up; zero: shortest way from the curve */
+    char *cells_file;      /* CELLS: text file, nine numbers a line in the mesh file's order; NULL: the mesh's field */
+    char *from[2], *to[2]; /* GRADIENT: boundary names at potential 0 and 1, of e1 and of e2 */
+} OstAxesSpec;
+
+/* Local. Accepts rows that are orthonormal and right-handed to 1e-6 and makes them so to rounding; raises
+ * OST_INVALID_INPUT with `what` and the reason (not finite, not a unit vector, not orthogonal, left-handed). */
+OstStatus ost_axes_check(OstContext *ctx, const char *what, double axes[9]);
+
+/* Local. Axes from angles in degrees about a sequence such as "zxz" (lower case: turned frame) or "XYZ" (fixed frame),
+ * and from a quaternion w x y z of any length but 0. */
+OstStatus ost_axes_from_euler(OstContext *ctx, const char *sequence, const double degrees[3], double axes[9]);
+OstStatus ost_axes_from_quaternion(OstContext *ctx, const double quaternion[4], double axes[9]);
+
+/* Local. Do these axes differ from point to point? */
+int ost_axes_vary(const OstAxesSpec *spec);
+
+/* Local. Axes at a point, for the kinds given by a formula (FIXED to CURVE). Raises OST_INVALID_INPUT where they are
+ * not defined (on the cylinder's axis, where the curve's tangent is parallel to up). */
+OstStatus ost_axes_at(OstContext *ctx, const OstAxesSpec *spec, const double point[3], double axes[9]);
+
+/* Local. e1 along g1, e2 along what of g2 is orthogonal to it, e3 = e1 × e2; raises if either is (nearly) zero. */
+OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const double g2[3], double axes[9]);
+
+#endif

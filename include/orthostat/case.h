@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_H
+#define ORTHOSTAT_CASE_H
+
+#include "orthostat/axes.h"
+#include "orthostat/material.h"
+#include "orthostat/mesh.h"
+#include "orthostat/solver.h"
+
+/* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case. */
+
+typedef enum {
+    OST_SELECT_ALL,
+    OST_SELECT_BOUNDARY, /* named groups of points, curves or faces */
+    OST_SELECT_PLANE,    /* |(x - point)·normal| <= tolerance */
+    OST_SELECT_BOX,
+    OST_SELECT_SPHERE,
+    OST_SELECT_CYLINDER, /* an endless cylinder's inside, or its shell between inner and outer radius */
+    OST_SELECT_VERTICES, /* labels, or a .bou file */
+    OST_SELECT_NEAREST   /* the one vertex nearest to a point */
+} OstSelectionKind;
+
+typedef struct OstSelection {
+    OstSelectionKind kind;
+    int line;            /* in the case file, for messages */
+    OstNames boundaries; /* BOUNDARY */
+    double point[3];     /* PLANE, SPHERE centre, CYLINDER origin, NEAREST; BOX minimum */
+    double direction[3]; /* PLANE normal, CYLINDER axis; BOX maximum */
+    double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
+    double
+        tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
+    OstGlobal vertex_count; /* VERTICES */
+    OstGlobal *vertices;
+    char *vertices_file;
+} OstSelection;
+
+typedef enum { OST_CONSTRAIN_DISPLACEMENT, OST_CONSTRAIN_SLIDE } OstConstraintKind;
+
+typedef struct OstConstraint {
+    OstConstraintKind kind;
+    int line;
+    OstSelection on;
+    int held[3];            /* DISPLACEMENT: is the component held? (false: the word free) */
+    double displacement[3]; /* DISPLACEMENT */
+    double normal[3];       /* SLIDE: the plane's normal */
+} OstConstraint;
+
+typedef enum {
+    OST_LOAD_TOTAL_FORCE, /* over the selection */
+    OST_LOAD_POINT_FORCE, /* on each selected vertex */
+    OST_LOAD_TRACTION,
+    OST_LOAD_PRESSURE,
+    OST_LOAD_GRAVITY,
+    OST_LOAD_BODY_FORCE
+} OstLoadKind;
+
+typedef enum { OST_SHARE_AUTO, OST_SHARE_FACES, OST_SHARE_VERTICES } OstShare;
+
+typedef struct OstLoad {
+    OstLoadKind kind;
+    int line;
+    OstSelection on; /* not used by GRAVITY and BODY_FORCE */
+    char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
+    double vector[3];
+    double pressure;
+    OstShare
+        share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any */
+} OstLoad;
+
+typedef struct OstCaseMaterial {
+    char *region; /* "all" or a region's name */
+    int line;
+    OstOrthotropic constants;
+    double density;
+    OstAxesSpec axes;
+} OstCaseMaterial;
+
+typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_FILE } OstMeshKind;
+
+typedef struct OstCase {
+    OstContext *ctx;
+    char *path; /* of the case file; files it names are relative to its folder */
+    char *title;
+    OstMeshKind mesh_kind;
+    OstTubeShape tube;
+    OstBlockShape block;
+    char *mesh_file; /* resolved path */
+    int order;       /* of the elements: 1 */
+    int material_count;
+    OstCaseMaterial *materials;
+    int constraint_count;
+    OstConstraint *constraints;
+    int load_count;
+    OstLoad *loads;
+    OstSolverOptions solver; /* accuracy and solver sections over the defaults */
+    char *output_file;       /* resolved path, or NULL */
+    unsigned output_fields;  /* bits of OstOutputField */
+} OstCase;
+
+/* Columns: name, its word in the case file. */
+#define OST_OUTPUT_FIELD_TABLE(X)                \
+    X(OST_FIELD_DISPLACEMENT, "displacement")    \
+    X(OST_FIELD_REACTION, "reaction")            \
+    X(OST_FIELD_STRESS, "stress")                \
+    X(OST_FIELD_STRAIN, "strain")                \
+    X(OST_FIELD_ENERGY, "strain_energy_density") \
+    X(OST_FIELD_AXES, "axes")                    \
+    X(OST_FIELD_REGION, "region")                \
+    X(OST_FIELD_RANK, "rank")
+#define OST_OUTPUT_FIELD_ENUM(name, word) name,
+typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
+#undef OST_OUTPUT_FIELD_ENUM
+
+/* Collective. Reads and checks a case file (rank 0 reads the file, every rank parses). Raises OST_FILE_FAILED if there
+ * is none, OST_INVALID_INPUT as "path:line:column: what was found, what was expected, what to do" (unknown keys with
+ * the nearest known one). Nothing of the mesh is looked at. */
+OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
+void ost_case_destroy(OstCase **c);
+
+/* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from
+ * the context, the caller's to free. Raises OST_INVALID_INPUT with the case's line if a name does not exist (naming
+ * those that do), a label is not in the mesh, or nothing at all is selected. */
+OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
+                           OstLocal **nodes);
+
+/* Collective. The selected faces, outward: items of 2-D boundaries, or faces of the body's surface all of whose nodes
+ * are selected. `faces` has `count` × *nodes_per_face local node numbers. A count of 0 on all ranks is no error here.
+ */
+OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
+                           int *nodes_per_face, OstLocal **faces);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CONTEXT_H
+#define ORTHOSTAT_CONTEXT_H
+
+#include "orthostat/ledger.h"
+#include "orthostat/status.h"
+
+#include <mpi.h>
+#include <stdint.h>
+
+/* Numbers local to a rank, and numbers over the whole body. */
+typedef int32_t OstLocal;
+typedef int64_t OstGlobal;
+
+/* Carries the communicator, the error text, the log and the ledger; first argument of every fallible function. */
+typedef struct OstContext OstContext;
+
+typedef enum { OST_LOG_QUIET, OST_LOG_NORMAL, OST_LOG_VERBOSE } OstLogLevel;
+
+/* Collective. Duplicates `comm` (MPI must be initialised); free with ost_context_destroy, which nulls the pointer.
+ * Returns OST_LIBRARY_FAILED if MPI does, OST_OUT_OF_MEMORY. */
+OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx);
+void ost_context_destroy(OstContext **ctx);
+
+MPI_Comm ost_comm(const OstContext *ctx);
+int ost_rank(const OstContext *ctx);
+int ost_size(const OstContext *ctx);
+
+/* Local. Text of the last failure ("" if none) and the source line that raised it. */
+const char *ost_error_text(const OstContext *ctx);
+const char *ost_error_origin(const OstContext *ctx);
+
+/* Collective. Every rank passes its own status; all return the one of the lowest rank that failed, with its text. */
+OstStatus ost_agree(OstContext *ctx, OstStatus status);
+
+/* Local; rank 0 prints to standard error, the others are silent. Progress shows only on a terminal; fraction in [0, 1],
+ * or negative to erase the line. */
+void ost_log_set_level(OstContext *ctx, OstLogLevel level);
+OstLogLevel ost_log_level(const OstContext *ctx);
+void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void ost_warn(OstContext *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ost_progress(OstContext *ctx, const char *what, double fraction);
+
+/* Seconds on a clock that only moves forward. */
+double ost_seconds(void);
+
+#endif

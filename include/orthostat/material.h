@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MATERIAL_H
+#define ORTHOSTAT_MATERIAL_H
+
+#include "orthostat/context.h"
+
+/* Conventions, after Li and Barbič, "Stable Orthotropic Materials" (2014), eq. 1-2: strain [e11 e22 e33 2e12 2e23
+ * 2e31], stress [s11 s22 s33 s12 s23 s31], shear order 12, 23, 31; nu_ij is the contraction along j when pulled along
+ * i, and nu_ij / E_i = nu_ji / E_j. Stiffness C (sigma = C epsilon), compliance S = C^-1, both 6×6 row-major. Units are
+ * the user's, consistently. */
+
+typedef enum { OST_SHEAR_GEOMETRIC, OST_SHEAR_ARITHMETIC, OST_SHEAR_MIN, OST_SHEAR_MAX } OstShearRule;
+
+/* The nine constants of an orthotropic material, in its own axes. */
+typedef struct OstOrthotropic {
+    double youngs_modulus[3]; /* E1 E2 E3 */
+    double poissons_ratio[3]; /* nu12 nu23 nu31 */
+    double shear_modulus[3];  /* G12 G23 G31 */
+} OstOrthotropic;
+
+/* A material ready for use: definite, with what the kernels need. Made by ost_material_create_*; plain data, copy
+ * freely. */
+typedef struct OstMaterial {
+    char name[64];
+    double density; /* mass per volume; 0 if the scene has no use for it */
+    int isotropic;  /* all nine constants those of an isotropic body: axes do not matter */
+    OstOrthotropic constants;
+    double stiffness[36];  /* C in material axes: 3×3 normal block, diagonal shear block */
+    double compliance[36]; /* S = C^-1, eq. 4 */
+    double condition;      /* largest over smallest eigenvalue of the normalised normal block */
+} OstMaterial;
+
+/* Local. Constants of the isotropic body, of the stable one-parameter family (eq. 18 and 22), and of the transversely
+ * isotropic body with plane 1-2 and axis 3 (section 3.1; nu_pz and G_zp default, when NaN, to the family's eq. 20 and
+ * 22). */
+OstOrthotropic ost_orthotropic_isotropic(double youngs_modulus, double poissons_ratio);
+OstOrthotropic ost_orthotropic_family(const double youngs_modulus[3], double nu, OstShearRule rule);
+OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double nu_plane, double nu_plane_axis,
+                                          double g_axis);
+
+/* Local. The shear moduli of eq. 22 for a rule. */
+void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRule rule, double shear_modulus[3]);
+
+/* Local. Checks the constants and fills `material`. Definiteness is decided by the eigenvalues of the normalised normal
+ * block (D^1/2 S_n D^1/2 with D = diag E: ones on the diagonal, -sqrt(nu_ij nu_ji) off it, signs kept). Raises
+ * OST_INVALID_INPUT naming `name`, the violated inequality with its numbers, the largest stable value, and the stable
+ * family as the way out. */
+OstStatus ost_material_create(OstContext *ctx, const char *name, const OstOrthotropic *constants, double density,
+                              OstMaterial *material);
+
+/* Local. C in world axes, eq. 9: axes are rows e1, e2, e3 (so Q of the paper is their transpose). */
+void ost_material_rotate_stiffness(const double stiffness[36], const double axes[9], double rotated[36]);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_H
+#define ORTHOSTAT_MESH_H
+
+#include "orthostat/context.h"
+
+/* Tets have 4 or 10 nodes. Vertices 0-3 are positively oriented: (x1-x0)·((x2-x0)×(x3-x0)) > 0. The six mid-edge nodes
+ * follow in VTK's order: 01 12 02 03 13 23. Faces have 3 or 6 nodes (vertices, then mid-edges 01 12 20), curves 2 or 3,
+ * points 1. */
+
+/* A named group of points, curves or faces. */
+typedef struct OstBoundary {
+    char *name;
+    int dimension;      /* 0 points, 1 curves, 2 faces */
+    int nodes_per_item; /* 1; 2, 3; 3, 6 */
+    OstLocal count;
+    OstGlobal *nodes; /* count × nodes_per_item: global numbers in a chunk, local numbers in a mesh */
+} OstBoundary;
+
+/* Names shared by every rank. */
+typedef struct OstNames {
+    int count;
+    char **name;
+} OstNames;
+
+/* This rank's share of a mesh before it is partitioned. Numbers are global, from 0. Ranges are contiguous over ranks;
+ * a reader of a serial format gives everything to rank 0. Boundaries are the same list, in the same order, on every
+ * rank, with this rank's share of the items. */
+typedef struct OstMeshChunk {
+    OstContext *ctx;
+    int nodes_per_tet;
+    OstGlobal global_nodes, global_tets;
+    OstGlobal first_node, first_tet;
+    OstLocal node_count, tet_count;
+    double *coordinates;   /* node_count × 3 */
+    OstGlobal *node_label; /* numbers as in the file; NULL: 1, 2, 3, ... */
+    OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
+    OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
+    int32_t *tet_region;   /* index into regions */
+    double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
+    OstNames regions;
+    int boundary_count;
+    OstBoundary *boundaries;
+} OstMeshChunk;
+
+/* One rank's piece of the partitioned mesh: its own nodes, every tet that touches one of them, and the other nodes of
+ * those tets as ghosts. Local numbers: owned nodes first, then ghosts grouped by owner. Tets: those this rank owns (the
+ * owner of a tet is the owner of its node with the lowest global number) first. Boundaries hold every item that touches
+ * an owned node, and points only where owned; regions and boundary names are the same on every rank. */
+typedef struct OstMesh {
+    OstContext *ctx;
+    int nodes_per_tet;
+    OstGlobal global_nodes, global_tets;
+    OstLocal node_count, owned_nodes;
+    OstLocal tet_count, owned_tets;
+    OstGlobal first_node;   /* global number of local node 0 after partition: owned nodes are first_node + i */
+    OstGlobal *node_number; /* node_count: global numbers after partition (contiguous over ranks) */
+    OstGlobal *node_label;  /* node_count: numbers as in the file */
+    OstGlobal *tet_label;   /* tet_count */
+    double *coordinates;    /* node_count × 3 */
+    OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
+    int32_t *tet_region;    /* tet_count */
+    double *tet_axes;       /* NULL, or tet_count × 9 */
+    OstNames regions;
+    int boundary_count;
+    OstBoundary *boundaries;
+    struct OstHalo *halo; /* over nodes */
+} OstMesh;
+
+/* The tube of Li and Barbič's Fig. 6: divisions around × radial × axial hexes of six tets. Node (k, j, i), k along the
+ * axis, j around, i through the wall, has label (k·around + j)·(radial + 1) + i + 1 and, for axis y, lies at (r cos θ,
+ * origin_y + length k/axial, r sin θ), θ = 2πj/around. The other axes turn this cyclically. Region "tube"; boundaries
+ * "bottom", "top", "ends", "inner", "outer". */
+typedef struct OstTubeShape {
+    int axis; /* 0 x, 1 y, 2 z */
+    double origin[3];
+    double length;
+    double radii[2];
+    OstLocal around, radial, axial;
+} OstTubeShape;
+
+/* A box origin + [0, size]: nx × ny × nz hexes of six tets. Node (a, b, c) has label (a·(ny+1) + b)·(nz+1) + c + 1.
+ * Region "block"; boundaries "xmin", "xmax", "ymin", "ymax", "zmin", "zmax". */
+typedef struct OstBlockShape {
+    double origin[3];
+    double size[3];
+    OstLocal divisions[3];
+} OstBlockShape;
+
+/* Collective. Each rank makes its share only. */
+OstStatus ost_chunk_create_tube(OstContext *ctx, const OstTubeShape *shape, OstMeshChunk **chunk);
+OstStatus ost_chunk_create_block(OstContext *ctx, const OstBlockShape *shape, OstMeshChunk **chunk);
+void ost_chunk_destroy(OstMeshChunk **chunk);
+
+/* Collective. Checks the chunk (finite coordinates, no inverted or flat tet, node numbers in range, no node used twice
+ * by a tet), partitions it with METIS into as many parts as there are ranks, moves every piece to its rank, and checks
+ * that each vertex is used by a tet. The chunk is consumed: destroyed, and the pointer nulled. Raises OST_INVALID_INPUT
+ * naming the tet or vertex by its label, and OST_LIMIT_EXCEEDED where METIS' 32-bit numbers would overflow. */
+OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh);
+void ost_mesh_destroy(OstMesh **mesh);
+
+/* Local. Number of a region or boundary by name, or -1; and the names in one line, for messages. */
+int ost_mesh_find_region(const OstMesh *mesh, const char *name);
+int ost_mesh_find_boundary(const OstMesh *mesh, const char *name);
+void ost_names_list(const OstNames *names, char *text, size_t size);
+
+/* Local. Does this rank own the item with these local nodes? (The owner of its lowest global number does.) */
+int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes);
+
+/* Collective. Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edges. `tet`
+ * is the tet behind each. Arrays are the caller's to free (ost_surface_destroy). */
+typedef struct OstSurface {
+    OstLocal count;
+    int nodes_per_face;
+    OstLocal *nodes; /* count × nodes_per_face, local numbers */
+    OstLocal *tet;
+} OstSurface;
+OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
+void ost_surface_destroy(OstSurface **surface);
+
+/* Local. Signed volume of a tet's four vertices; edge-based shape measure 6√2·V / (mean edge)³, 1 for a regular tet. */
+double ost_tet_volume(const double *coordinates, const OstLocal *nodes);
+double ost_tet_quality(const double *coordinates, const OstLocal *nodes);
+
+#endif

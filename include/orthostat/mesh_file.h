@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_FILE_H
+#define ORTHOSTAT_MESH_FILE_H
+
+#include "orthostat/material.h"
+#include "orthostat/mesh.h"
+
+/* Materials that came with a mesh (.veg): for each region its material and axes. count is 0 where the format has none.
+ */
+typedef struct OstFileMaterials {
+    int count;             /* as many as regions, in their order, or 0 */
+    OstMaterial *material; /* count */
+    double *axes;          /* count × 9 */
+} OstFileMaterials;
+
+/* Collective. Reads a mesh by its file's ending: .msh (Gmsh 2.2 and 4.1, ASCII and binary), .veg (Vega FEM), .vtkhdf.
+ * Serial formats are read by rank 0, .vtkhdf by all ranks in parallel. Raises OST_FILE_FAILED or OST_INVALID_INPUT with
+ * file:line where there is one, what was found and what was expected. Cubic .veg elements are refused by name. */
+OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
+void ost_file_materials_destroy(OstFileMaterials **materials);
+
+/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments); `labels` in memory from the
+ * context, owned by the caller. Read by rank 0, given to all. */
+OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstGlobal **labels);
+
+/* Collective. `width` numbers a line for each of `lines` lines (blank lines and # comments skipped), as axes.txt holds;
+ * rank 0 reads and hands each rank the lines of the given labels (1-based line numbers). */
+OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal lines, OstLocal count,
+                         const OstGlobal *labels, double *values);
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_H
+#define ORTHOSTAT_H
+
+#include "orthostat/axes.h"
+#include "orthostat/case.h"
+#include "orthostat/context.h"
+#include "orthostat/field.h"
+#include "orthostat/ledger.h"
+#include "orthostat/material.h"
+#include "orthostat/mesh.h"
+#include "orthostat/mesh_file.h"
+#include "orthostat/plan.h"
+#include "orthostat/result.h"
+#include "orthostat/scene.h"
+#include "orthostat/solver.h"
+#include "orthostat/status.h"
+
+#endif

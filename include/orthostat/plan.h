@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PLAN_H
+#define ORTHOSTAT_PLAN_H
+
+#include "orthostat/case.h"
+#include "orthostat/mesh_file.h"
+
+/* The work a case calls for: every effect the program knows, on or off with the reason, and the size of the job,
+ * foreseen before anything large is allocated. */
+typedef struct OstPlanEffect {
+    const char *label;
+    int on;
+    char reason[160];
+} OstPlanEffect;
+
+/* Columns: name, label, the ledger's account (OST_LEDGER_COUNT: none of its own). */
+#define OST_EFFECT_TABLE(X)                                                             \
+    X(OST_PLAN_ORTHOTROPY, "orthotropy", OST_EFFECT_ORTHOTROPY)                         \
+    X(OST_PLAN_VARYING_AXES, "varying axes", OST_EFFECT_VARYING_AXES)                   \
+    X(OST_PLAN_GRADIENT_AXES, "gradient axes", OST_EFFECT_GRADIENT_AXES)                \
+    X(OST_PLAN_REGIONS, "several materials", OST_EFFECT_REGIONS)                        \
+    X(OST_PLAN_GIVEN_DISPLACEMENT, "given displacement", OST_EFFECT_GIVEN_DISPLACEMENT) \
+    X(OST_PLAN_SLIDING, "sliding support", OST_EFFECT_SLIDING)                          \
+    X(OST_PLAN_POINT_FORCE, "point force", OST_EFFECT_POINT_FORCE)                      \
+    X(OST_PLAN_SURFACE_LOAD, "surface load", OST_EFFECT_SURFACE_LOAD)                   \
+    X(OST_PLAN_BODY_FORCE, "body force", OST_EFFECT_BODY_FORCE)
+#define OST_PLAN_ENUM(name, label, account) name,
+typedef enum { OST_EFFECT_TABLE(OST_PLAN_ENUM) OST_PLAN_COUNT } OstPlanIndex;
+#undef OST_PLAN_ENUM
+
+typedef struct OstPlan {
+    OstPlanEffect effect[OST_PLAN_COUNT];
+    OstRecipe recipe;
+    char recipe_reason[160];
+    OstGlobal nodes, tets; /* of the mesh as given */
+    OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
+    double bytes_mesh, bytes_matrix, bytes_solver, bytes_output; /* over all ranks, foreseen */
+} OstPlan;
+
+/* Local. The plan for a case on `ranks` ranks; nodes and tets as known so far (from the shape, or the mesh once read).
+ * `materials` are those that came with the mesh file, or NULL. */
+void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
+                   OstPlan *plan);
+
+#endif

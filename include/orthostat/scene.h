@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_SCENE_H
+#define ORTHOSTAT_SCENE_H
+
+#include "orthostat/case.h"
+#include "orthostat/plan.h"
+#include "orthostat/result.h"
+
+/* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
+typedef struct OstScene {
+    OstContext *ctx;
+    const OstCase *c;
+    OstPlan plan;
+    OstMesh *mesh;
+    OstMaterialField *field;
+} OstScene;
+
+/* Collective. Reads or makes the mesh, distributes it, and sets up materials and axes. The case outlives the scene. */
+OstStatus ost_scene_create(const OstCase *c, OstScene **scene);
+void ost_scene_destroy(OstScene **scene);
+
+/* Collective. Supports, loads, stiffness, solve, checks, and the fields the case's output asks for. Raises
+ * OST_NOT_CONVERGED or OST_CHECK_FAILED with the numbers; the result is filled then too, but is not an answer. The
+ * scene outlives the result. */
+OstStatus ost_scene_solve(OstScene *scene, OstResult **result);
+void ost_result_destroy(OstResult **result);
+
+/* Collective. Writes the VTKHDF file of a result: the fields asked for by the case. */
+OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path);
+
+#endif

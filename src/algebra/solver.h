@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_SOLVER_H
+#define ORTHOSTAT_ALGEBRA_SOLVER_H
+
+#include "algebra/block_matrix.h"
+#include "orthostat/solver.h"
+
+/* What multigrid knows of the unknowns beyond the matrix; arrays belong to the caller and outlive the solver. */
+typedef struct OstSolverGeometry {
+    const double *coordinates; /* rows × 3 */
+    const double *metric; /* rows × 6 (11 22 33 12 23 31): mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R, or
+                             NULL for the Euclidean metric */
+    const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
+                             on what the supports leave free) */
+} OstSolverGeometry;
+
+typedef struct OstSolver OstSolver;
+
+/* Local. Rigid body modes of nodes about their centre `about`: 6 columns of 3 × count, three translations and three
+ * rotations. */
+void ost_rigid_body_modes(OstLocal count, const double *coordinates, const double about[3], double *modes);
+
+/* Collective. Builds the preconditioner of the recipe in `options`. The matrix stays the caller's, unchanged. */
+OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+                            const OstSolverOptions *options, OstSolver **solver);
+void ost_solver_destroy(OstSolver **solver);
+
+/* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm,
+ * recomputed from A, u, f at the end (and iterated on if the recursive residual had drifted). f and u have 3 × rows
+ * numbers. Returns OST_NOT_CONVERGED with the residual reached, or with the sign that betrayed an indefinite matrix or
+ * preconditioner; the report is filled either way. */
+OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
+#endif

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ASSEMBLY_SYSTEM_H
+#define ORTHOSTAT_ASSEMBLY_SYSTEM_H
+
+#include "algebra/block_matrix.h"
+#include "assembly/supports.h"
+#include "orthostat/field.h"
+#include "orthostat/mesh.h"
+
+/* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), by 3×3 blocks. Fully held
+ * nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+typedef struct OstSystem {
+    OstContext *ctx;
+    const OstMesh *mesh;
+    const OstSupports *supports;
+    OstBlockMatrix *matrix;
+    OstLocal *row_of_node;  /* node_count: local row or ghost column, -1 if fully held */
+    OstLocal *node_of_row;  /* matrix->columns */
+    OstLocal *block_of_tet; /* tet_count × n × n: where each block of a tet goes in matrix->value, -1: nowhere. May be
+                               NULL once filled (ost_system_release_scatter) */
+} OstSystem;
+
+/* Collective. Numbers the rows and makes the pattern (account OST_LEDGER_PATTERN). Raises OST_LIMIT_EXCEEDED with the
+ * limit that a library below would break (Epetra, ML: 2^31 unknowns in all ranks, nonzeros of a rank), before anything
+ * large is made. */
+OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, OstSystem **system);
+void ost_system_destroy(OstSystem **system);
+
+/* Local. Fills K (OST_LEDGER_STIFFNESS), then applies what partly held nodes may do (OST_LEDGER_SUPPORTS /
+ * OST_EFFECT_SLIDING). */
+OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
+
+/* Local. Drops block_of_tet, once no further fill is wanted. */
+void ost_system_release_scatter(OstSystem *system);
+
+/* Local. Right-hand side of the rows, P (force - K g): `force` are the loads on local nodes (3 × node_count, complete
+ * on owned). The term K g is evaluated on the tets that touch a node with g != 0 alone. `rhs` has 3 × matrix->rows
+ * numbers. */
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
+                                     double *rhs);
+
+/* Collective. Displacement of every local node, u = P v + g, ghosts included; v has 3 × matrix->rows numbers. */
+OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u);
+
+/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes. */
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force);
+
+/* Local. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
+ * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes projected on P
+ * (column-major). `metric` may be NULL. */
+OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
+                              double *metric, double *modes);
+
+#endif

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CLI_COMMAND_H
+#define ORTHOSTAT_CLI_COMMAND_H
+
+#include "orthostat/context.h"
+
+/* A command of the program. `run` parses its own arguments (argp; argv[0] is "orthostat NAME"), does the work on all
+ * ranks, and returns the program's exit code. */
+typedef struct OstCommand {
+    const char *name;
+    const char *summary;
+    int (*run)(OstContext *ctx, int argc, char **argv);
+} OstCommand;
+
+int ost_cli_solve(OstContext *ctx, int argc, char **argv);
+int ost_cli_check(OstContext *ctx, int argc, char **argv);
+int ost_cli_explain(OstContext *ctx, int argc, char **argv);
+int ost_cli_material(OstContext *ctx, int argc, char **argv);
+
+/* Prints "orthostat: error: text" once (rank 0, standard error) and returns the status's exit code; 0 for OST_SUCCESS.
+ */
+int ost_cli_finish(OstContext *ctx, OstStatus status);
+
+/* argp_parse on every rank, errors and help printed by rank 0 alone; *exit_code is what the program should end with
+ * when this returns 0 (after --help, --usage, or a mistake: 2), else go on. */
+struct argp;
+int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input, int *exit_code);
+
+#endif

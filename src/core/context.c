@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/context.h"
+
+#include "core/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx)
+{
+    OstContext *made = calloc(1, sizeof *made);
+    *ctx = NULL;
+    if (!made)
+        return OST_OUT_OF_MEMORY;
+    if (MPI_Comm_dup(comm, &made->comm) != MPI_SUCCESS ||
+        MPI_Comm_set_errhandler(made->comm, MPI_ERRORS_RETURN) != MPI_SUCCESS ||
+        MPI_Comm_rank(made->comm, &made->rank) != MPI_SUCCESS ||
+        MPI_Comm_size(made->comm, &made->size) != MPI_SUCCESS) {
+        free(made);
+        return OST_LIBRARY_FAILED;
+    }
+    made->level = OST_LOG_NORMAL;
+    made->stack[0] = OST_LEDGER_OTHER;
+    made->ledger[OST_LEDGER_OTHER].entries = 1;
+    made->clock = ost_seconds();
+    *ctx = made;
+    return OST_SUCCESS;
+}
+
+void ost_context_destroy(OstContext **ctx)
+{
+    if (!*ctx)
+        return;
+    ost_progress(*ctx, "", -1.0);
+    MPI_Comm_free(&(*ctx)->comm);
+    free(*ctx);
+    *ctx = NULL;
+}
+
+MPI_Comm ost_comm(const OstContext *ctx)
+{
+    return ctx->comm;
+}
+
+int ost_rank(const OstContext *ctx)
+{
+    return ctx->rank;
+}
+
+int ost_size(const OstContext *ctx)
+{
+    return ctx->size;
+}

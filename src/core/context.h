@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CORE_CONTEXT_H
+#define ORTHOSTAT_CORE_CONTEXT_H
+
+#include "orthostat/context.h"
+
+enum { OST_ERROR_TEXT_SIZE = 4096, OST_ERROR_ORIGIN_SIZE = 256, OST_LEDGER_DEPTH = 32 };
+
+/* The inside of a context, for core/ alone. */
+struct OstContext {
+    MPI_Comm comm;
+    int rank;
+    int size;
+    OstLogLevel level;
+    int progress_shown;
+    double progress_time;
+    char error_text[OST_ERROR_TEXT_SIZE];
+    char error_origin[OST_ERROR_ORIGIN_SIZE];
+
+    OstLedgerEntry ledger[OST_LEDGER_COUNT];
+    OstAccount stack[OST_LEDGER_DEPTH];
+    int depth;
+    double clock; /* when the innermost account's clock was last brought up to date */
+    size_t bytes;
+    size_t peak_bytes;
+};
+
+/* Books `bytes` more (or, with `freed`, fewer) to an account. */
+void ost_ledger_book(OstContext *ctx, OstAccount account, size_t bytes, int freed);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CORE_ERROR_H
+#define ORTHOSTAT_CORE_ERROR_H
+
+#include "orthostat/context.h"
+
+/* Local. Records the failure's text and origin in the context and returns `status`. */
+OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int line, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+/* Raises a failure: return OST_RAISE(ctx, OST_INVALID_INPUT, "...", ...); */
+#define OST_RAISE(ctx, status, ...) ost_error_set((ctx), (status), __FILE__, __LINE__, __VA_ARGS__)
+
+/* Passes a failure up at once. For functions that hold nothing to free. */
+#define OST_TRY(call)                             \
+    do {                                          \
+        const OstStatus ost_try_status_ = (call); \
+        if (ost_try_status_ != OST_SUCCESS)       \
+            return ost_try_status_;               \
+    } while (0)
+
+/* Passes a failure to the clean-up label `done`, leaving it in the local variable `status`. */
+#define OST_TRY_DONE(call)         \
+    do {                           \
+        status = (call);           \
+        if (status != OST_SUCCESS) \
+            goto done;             \
+    } while (0)
+
+/* Turns MPI's return value into a status. */
+OstStatus ost_mpi_check(OstContext *ctx, int mpi_result, const char *call, const char *file, int line);
+#define OST_MPI(ctx, call) ost_mpi_check((ctx), (call), #call, __FILE__, __LINE__)
+
+#endif

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/halo.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <limits.h>
+#include <string.h>
+
+enum { HALO_TAG = 7171 };
+
+void ost_halo_destroy(OstHalo **halo)
+{
+    if (!*halo)
+        return;
+    OST_FREE((*halo)->neighbour);
+    OST_FREE((*halo)->send_start);
+    OST_FREE((*halo)->send_index);
+    OST_FREE((*halo)->receive_start);
+    OST_FREE((*halo)->buffer);
+    OST_FREE((*halo)->request);
+    OST_FREE(*halo);
+}
+
+/* Which rank owns a number, given the first number of each rank (size + 1 entries). */
+static int owner_of(const OstGlobal *first, int size, OstGlobal number)
+{
+    int low = 0;
+    int high = size;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (first[middle] <= number)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static OstStatus check_ghosts(OstContext *ctx, const OstGlobal *first, OstLocal ghosts, const OstGlobal *ghost_number,
+                              int *receive_count)
+{
+    int last_owner = -1;
+    for (OstLocal g = 0; g < ghosts; g++) {
+        const OstGlobal number = ghost_number[g];
+        if (number < 0 || number >= first[ost_size(ctx)])
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: no rank owns entry %lld", (long long)number);
+        const int owner = owner_of(first, ost_size(ctx), number);
+        if (owner == ost_rank(ctx) || owner < last_owner)
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: copy %d (entry %lld) is not grouped by owner", g,
+                             (long long)number);
+        last_owner = owner;
+        receive_count[owner]++;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus make_lists(OstHalo *halo, const int *send_count, const int *receive_count)
+{
+    OstContext *ctx = halo->ctx;
+    const int size = ost_size(ctx);
+    int n = 0;
+    for (int r = 0; r < size; r++)
+        n += send_count[r] > 0 || receive_count[r] > 0;
+    halo->neighbour_count = n;
+    OST_TRY(OST_NEW(ctx, &halo->neighbour, n));
+    OST_TRY(OST_NEW(ctx, &halo->send_start, n + 1));
+    OST_TRY(OST_NEW(ctx, &halo->receive_start, n + 1));
+    OST_TRY(OST_NEW(ctx, &halo->request, 2 * n));
+    for (int r = 0, k = 0; r < size; r++) {
+        if (send_count[r] == 0 && receive_count[r] == 0)
+            continue;
+        halo->neighbour[k] = r;
+        halo->send_start[k + 1] = halo->send_start[k] + send_count[r];
+        halo->receive_start[k + 1] = halo->receive_start[k] + receive_count[r];
+        k++;
+    }
+    return OST_NEW(ctx, &halo->send_index, halo->send_start[n]);
+}
+
+/* Tells each owner which of its entries this rank copies. */
+static OstStatus exchange_requests(OstHalo *halo, OstGlobal first_number, const OstGlobal *ghost_number)
+{
+    OstContext *ctx = halo->ctx;
+    OstGlobal *asked = NULL;
+    const OstLocal sends = halo->send_start[halo->neighbour_count];
+    OST_TRY(OST_NEW(ctx, &asked, sends));
+    OstStatus status = OST_SUCCESS;
+    int requests = 0;
+    for (int k = 0; k < halo->neighbour_count; k++) {
+        const OstLocal s = halo->send_start[k];
+        const OstLocal r = halo->receive_start[k];
+        OST_TRY_DONE(OST_MPI(ctx, MPI_Irecv(asked + s, halo->send_start[k + 1] - s, MPI_INT64_T, halo->neighbour[k],
+                                            HALO_TAG, ost_comm(ctx), &halo->request[requests++])));
+        OST_TRY_DONE(OST_MPI(ctx, MPI_Isend(ghost_number + r, halo->receive_start[k + 1] - r, MPI_INT64_T,
+                                            halo->neighbour[k], HALO_TAG, ost_comm(ctx), &halo->request[requests++])));
+    }
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
+    for (OstLocal i = 0; i < sends; i++)
+        halo->send_index[i] = (OstLocal)(asked[i] - first_number);
+done:
+    OST_FREE(asked);
+    return status;
+}
+
+OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_number, OstLocal ghosts,
+                          const OstGlobal *ghost_number, OstHalo **halo)
+{
+    const int size = ost_size(ctx);
+    OstGlobal *first = NULL;
+    int *send_count = NULL;
+    int *receive_count = NULL;
+    OstHalo *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    *halo = NULL;
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &first, size + 1);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &send_count, size);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &receive_count, size);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    made->ctx = ctx;
+    made->owned = owned;
+    made->ghosts = ghosts;
+    const OstGlobal end = first_number + owned;
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&first_number, 1, MPI_INT64_T, first, 1, MPI_INT64_T, ost_comm(ctx))));
+    first[size] = end;
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&first[size], 1, MPI_INT64_T, size - 1, ost_comm(ctx))));
+    OST_TRY_DONE(ost_agree(ctx, check_ghosts(ctx, first, ghosts, ghost_number, receive_count)));
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Alltoall(receive_count, 1, MPI_INT, send_count, 1, MPI_INT, ost_comm(ctx))));
+    OST_TRY_DONE(ost_agree(ctx, make_lists(made, send_count, receive_count)));
+    OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
+done:
+    OST_FREE(first);
+    OST_FREE(send_count);
+    OST_FREE(receive_count);
+    if (status != OST_SUCCESS)
+        ost_halo_destroy(&made);
+    *halo = made;
+    return status;
+}
+
+static void keep_entries(const OstHalo *halo, const OstLocal *renumber, OstHalo *subset)
+{
+    for (int k = 0; k < halo->neighbour_count; k++) {
+        OstLocal sends = subset->send_start[k];
+        OstLocal receives = subset->receive_start[k];
+        for (OstLocal i = halo->send_start[k]; i < halo->send_start[k + 1]; i++)
+            if (renumber[halo->send_index[i]] >= 0)
+                subset->send_index[sends++] = renumber[halo->send_index[i]];
+        for (OstLocal i = halo->receive_start[k]; i < halo->receive_start[k + 1]; i++)
+            receives += renumber[halo->owned + i] >= 0;
+        subset->neighbour[k] = halo->neighbour[k];
+        subset->send_start[k + 1] = sends;
+        subset->receive_start[k + 1] = receives;
+    }
+}
+
+OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo **subset)
+{
+    OstContext *ctx = halo->ctx;
+    const int n = halo->neighbour_count;
+    OstHalo *made = NULL;
+    *subset = NULL;
+    OST_TRY(OST_NEW(ctx, &made, 1));
+    OstStatus status = OST_SUCCESS;
+    made->ctx = ctx;
+    made->neighbour_count = n;
+    OST_TRY_DONE(OST_NEW(ctx, &made->neighbour, n));
+    OST_TRY_DONE(OST_NEW(ctx, &made->send_start, n + 1));
+    OST_TRY_DONE(OST_NEW(ctx, &made->receive_start, n + 1));
+    OST_TRY_DONE(OST_NEW(ctx, &made->request, 2 * n));
+    OST_TRY_DONE(OST_NEW(ctx, &made->send_index, halo->send_start[n]));
+    keep_entries(halo, renumber, made);
+    for (OstLocal i = 0; i < halo->owned; i++)
+        made->owned += renumber[i] >= 0;
+    made->ghosts = made->receive_start[n];
+done:
+    if (status != OST_SUCCESS)
+        ost_halo_destroy(&made);
+    *subset = made;
+    return status;
+}
+
+static OstStatus reserve_buffer(OstHalo *halo, size_t bytes)
+{
+    if (halo->buffer_bytes >= bytes)
+        return OST_SUCCESS;
+    OST_FREE(halo->buffer);
+    halo->buffer_bytes = 0;
+    OST_TRY(ost_allocate(halo->ctx, bytes, 1, &halo->buffer));
+    halo->buffer_bytes = bytes;
+    return OST_SUCCESS;
+}
+
+static OstStatus message_length(const OstHalo *halo, size_t entries, size_t size, int *length)
+{
+    if (entries * size > INT_MAX)
+        return OST_RAISE(halo->ctx, OST_LIMIT_EXCEEDED,
+                         "a halo message of %zu bytes exceeds MPI's 2^31 - 1; use more ranks", entries * size);
+    *length = (int)(entries * size);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
+{
+    const int n = halo->neighbour_count;
+    if (n == 0)
+        return OST_SUCCESS;
+    OST_TRY(reserve_buffer(halo, (size_t)halo->send_start[n] * size));
+    char *bytes = values;
+    char *outgoing = halo->buffer;
+    char *ghosts = bytes + (size_t)halo->owned * size;
+    MPI_Comm comm = ost_comm(halo->ctx);
+    int requests = 0;
+    int length = 0;
+    for (int k = 0; k < n; k++) {
+        const OstLocal first = halo->receive_start[k];
+        OST_TRY(message_length(halo, (size_t)(halo->receive_start[k + 1] - first), size, &length));
+        if (length > 0)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(ghosts + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
+                                                 HALO_TAG, comm, &halo->request[requests++])));
+    }
+    for (OstLocal i = 0; i < halo->send_start[n]; i++)
+        memcpy(outgoing + (size_t)i * size, bytes + (size_t)halo->send_index[i] * size, size);
+    for (int k = 0; k < n; k++) {
+        const OstLocal first = halo->send_start[k];
+        OST_TRY(message_length(halo, (size_t)(halo->send_start[k + 1] - first), size, &length));
+        if (length > 0)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(outgoing + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
+                                                 HALO_TAG, comm, &halo->request[requests++])));
+    }
+    return OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
+}
+
+OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
+{
+    const int n = halo->neighbour_count;
+    if (n == 0)
+        return OST_SUCCESS;
+    const size_t size = (size_t)width * sizeof(double);
+    OST_TRY(reserve_buffer(halo, (size_t)halo->send_start[n] * size));
+    double *incoming = halo->buffer;
+    double *ghosts = values + (size_t)halo->owned * (size_t)width;
+    MPI_Comm comm = ost_comm(halo->ctx);
+    int requests = 0;
+    int length = 0;
+    for (int k = 0; k < n; k++) {
+        const OstLocal first = halo->send_start[k];
+        OST_TRY(message_length(halo, (size_t)(halo->send_start[k + 1] - first), size, &length));
+        if (length > 0)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(incoming + (size_t)first * (size_t)width, length, MPI_BYTE,
+                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
+    }
+    for (int k = 0; k < n; k++) {
+        const OstLocal first = halo->receive_start[k];
+        OST_TRY(message_length(halo, (size_t)(halo->receive_start[k + 1] - first), size, &length));
+        if (length > 0)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(ghosts + (size_t)first * (size_t)width, length, MPI_BYTE,
+                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
+    }
+    OST_TRY(OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
+    for (OstLocal i = 0; i < halo->send_start[n]; i++)
+        for (int c = 0; c < width; c++)
+            values[(size_t)halo->send_index[i] * (size_t)width + (size_t)c] +=
+                incoming[(size_t)i * (size_t)width + (size_t)c];
+    return OST_SUCCESS;
+}

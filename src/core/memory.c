@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/memory.h"
+
+#include "core/context.h"
+#include "core/error.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In front of every block, so that freeing it needs nothing but the pointer. 32 bytes keep the alignment of malloc. */
+typedef struct Header {
+    OstContext *ctx;
+    size_t bytes;
+    OstAccount account;
+    int unused;
+    size_t padding;
+} Header;
+
+_Static_assert(sizeof(Header) % 16 == 0, "the header must keep malloc's alignment");
+
+static OstStatus raise_out_of_memory(OstContext *ctx, size_t count, size_t size)
+{
+    return OST_RAISE(
+        ctx, OST_OUT_OF_MEMORY,
+        "out of memory: %zu items of %zu bytes (%.1f MiB) could not be had for '%s' on top of %.1f MiB; use "
+        "more machines or a smaller mesh",
+        count, size, (double)count * (double)size / 1048576.0, ost_account_label(ctx->stack[ctx->depth]),
+        (double)ctx->bytes / 1048576.0);
+}
+
+static int overflows(size_t count, size_t size)
+{
+    return size != 0 && count > (SIZE_MAX / 2 - sizeof(Header)) / size;
+}
+
+OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory)
+{
+    *memory = NULL;
+    if (overflows(count, size))
+        return raise_out_of_memory(ctx, count, size);
+    Header *header = calloc(1, sizeof *header + count * size);
+    if (!header)
+        return raise_out_of_memory(ctx, count, size);
+    header->ctx = ctx;
+    header->bytes = count * size;
+    header->account = ctx->stack[ctx->depth];
+    ost_ledger_book(ctx, header->account, header->bytes, 0);
+    *memory = header + 1;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory)
+{
+    if (!*memory)
+        return ost_allocate(ctx, count, size, memory);
+    if (overflows(count, size))
+        return raise_out_of_memory(ctx, count, size);
+    Header *header = (Header *)*memory - 1;
+    const size_t old_bytes = header->bytes;
+    const size_t bytes = count * size;
+    header = realloc(header, sizeof *header + bytes);
+    if (!header)
+        return raise_out_of_memory(ctx, count, size);
+    if (bytes > old_bytes)
+        memset((char *)(header + 1) + old_bytes, 0, bytes - old_bytes);
+    header->bytes = bytes;
+    ost_ledger_book(ctx, header->account, old_bytes, 1);
+    ost_ledger_book(ctx, header->account, bytes, 0);
+    *memory = header + 1;
+    return OST_SUCCESS;
+}
+
+void ost_free_memory(void *memory)
+{
+    if (!memory)
+        return;
+    Header *header = (Header *)memory - 1;
+    ost_ledger_book(header->ctx, header->account, header->bytes, 1);
+    free(header);
+}
+
+OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy)
+{
+    OST_TRY(OST_NEW(ctx, copy, strlen(text) + 1));
+    strcpy(*copy, text);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "support.h"
+
+static void memory_is_booked_and_released(void **state)
+{
+    (void)state;
+    double *values = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    assert_success(OST_NEW(ctx, &values, 1000));
+    ost_ledger_leave(ctx);
+    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_MESH).bytes, 8000);
+    assert_success(OST_RESIZE(ctx, &values, 2000));
+    assert_true(values[1999] == 0.0);
+    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_MESH).bytes, 16000);
+    OST_FREE(values);
+    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_MESH).bytes, 0);
+    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_MESH).peak_bytes, 16000);
+}
+
+static void impossible_sizes_are_refused(void **state)
+{
+    (void)state;
+    double *values = NULL;
+    assert_failure(OST_NEW(ctx, &values, SIZE_MAX / 4), OST_OUT_OF_MEMORY, "out of memory");
+    assert_null(values);
+}
+
+static void accounts_nest_and_add_up(void **state)
+{
+    (void)state;
+    const double start = ost_seconds();
+    const double before =
+        ost_ledger_entry(ctx, OST_LEDGER_SOLVE).seconds + ost_ledger_entry(ctx, OST_LEDGER_OUTPUT).seconds;
+    ost_ledger_enter(ctx, OST_LEDGER_SOLVE);
+    while (ost_seconds() - start < 0.01) {
+    }
+    ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
+    while (ost_seconds() - start < 0.02) {
+    }
+    ost_ledger_leave(ctx);
+    ost_ledger_leave(ctx);
+    const double after =
+        ost_ledger_entry(ctx, OST_LEDGER_SOLVE).seconds + ost_ledger_entry(ctx, OST_LEDGER_OUTPUT).seconds;
+    assert_true(after - before >= 0.019 && after - before <= ost_seconds() - start + 1e-3);
+    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_BODY_FORCE).entries, 0);
+}
+
+static void eigenvalues_of_a_known_matrix(void **state)
+{
+    (void)state;
+    const double a[9] = {2, -1, 0, -1, 2, -1, 0, -1, 2}; /* eigenvalues 2 - 2 cos(k π / 4), k = 1..3 */
+    double values[3], vectors[9];
+    assert_success(ost_symmetric_eigen(ctx, 3, a, values, vectors));
+    for (int k = 0; k < 3; k++) {
+        assert_close(values[k], 2.0 - 2.0 * cos((k + 1) * M_PI / 4.0), 1e-14);
+        double av[3];
+        ost_apply3(a, vectors + 3 * k, av);
+        for (int i = 0; i < 3; i++)
+            assert_close(av[i], values[k] * vectors[3 * k + i], 1e-14);
+    }
+}
+
+static void cholesky_finds_the_bad_pivot(void **state)
+{
+    (void)state;
+    double good[9] = {4, 2, 0, 2, 5, 3, 0, 3, 10};
+    double bad[9] = {4, 2, 0, 2, 1, 3, 0, 3, 10};
+    assert_int_equal(ost_cholesky(3, good), 0);
+    const double expected[9] = {2, 0, 0, 1, 2, 0, 0, 1.5, sqrt(7.75)};
+    for (int i = 0; i < 9; i++)
+        assert_close(good[i], expected[i], 1e-15);
+    assert_int_equal(ost_cholesky(3, bad), 2);
+}
+
+static void inverse_times_matrix_is_identity(void **state)
+{
+    (void)state;
+    const double a[9] = {3, 1, 2, 0, 4, -1, 2, 2, 5};
+    double b[9], c[9];
+    assert_close(ost_invert3(a, b), ost_determinant3(a), 0.0);
+    ost_multiply3(a, b, c);
+    for (int i = 0; i < 9; i++)
+        assert_close(c[i], i % 4 == 0 ? 1.0 : 0.0, 1e-15);
+}
+
+static void every_status_has_its_exit_code(void **state)
+{
+    (void)state;
+    assert_int_equal(ost_status_exit_code(OST_SUCCESS), 0);
+    assert_int_equal(ost_status_exit_code(OST_INVALID_INPUT), 2);
+    assert_int_equal(ost_status_exit_code(OST_NOT_CONVERGED), 1);
+    assert_string_equal(ost_status_name(OST_FILE_FAILED), "OST_FILE_FAILED");
+    assert_string_equal(ost_status_name(99), "unknown status");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(memory_is_booked_and_released),  cmocka_unit_test(impossible_sizes_are_refused),
+    cmocka_unit_test(accounts_nest_and_add_up),       cmocka_unit_test(eigenvalues_of_a_known_matrix),
+    cmocka_unit_test(cholesky_finds_the_bad_pivot),   cmocka_unit_test(inverse_times_matrix_is_identity),
+    cmocka_unit_test(every_status_has_its_exit_code),
+};
+
+OST_TEST_MAIN(tests)
