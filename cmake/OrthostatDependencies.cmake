@@ -39,6 +39,7 @@ set_target_properties(Orthostat::LAPACK PROPERTIES INTERFACE_LINK_LIBRARIES LAPA
 orthostat_find(Trilinos "Trilinos (Epetra, AztecOO, ML, Amesos)"
                "libtrilinos-epetra-dev libtrilinos-aztecoo-dev libtrilinos-ml-dev libtrilinos-amesos-dev" ml_include.h
                "trilinos_ml;trilinos_amesos;trilinos_aztecoo;trilinos_epetra")
+orthostat_find(MUMPS "MUMPS" libmumps-dev dmumps_c.h "dmumps")
 orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
 orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
 

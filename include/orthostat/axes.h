@@ -20,16 +20,24 @@ typedef enum {
 /* Which direction of the frame each material axis takes. */
 typedef enum { OST_AXIAL, OST_RADIAL, OST_TANGENTIAL } OstCylindricalDirection;
 
+/* The frame of CYLINDRICAL: axial along `axis`, radial away from it, tangential = axial × radial. The frame of CURVE,
+ * at the nearest point of the polyline: axial its tangent, radial its normal, tangential the binormal. The tangent
+ * turns evenly between the vertices' (each the mean of its two segments), so axes vary continuously along the curve.
+ * The normal is what of `up` is orthogonal to the tangent; where up is zero it starts as the world axis nearest to
+ * orthogonal at the first point, and is carried along with the least turning (defined everywhere).
+ * Any order makes right-handed axes: where e1, e2, e3 take an odd permutation of the frame, e3 points the other way
+ * (which no orthotropic material can tell). */
+
 /* How the axes of a region are given; plain data, arrays owned by whoever made it. */
 typedef struct OstAxesSpec {
     OstAxesKind kind;
     double fixed[9];                  /* FIXED; EULER and QUATERNION are turned into this too */
     double origin[3];                 /* CYLINDRICAL */
     double axis[3];                   /* CYLINDRICAL */
-    OstCylindricalDirection order[3]; /* CYLINDRICAL: e1, e2, e3 take these; CURVE: axial is the tangent */
+    OstCylindricalDirection order[3]; /* CYLINDRICAL, CURVE: e1, e2, e3 take these, see below */
     int point_count;                  /* CURVE */
-    double *points;                   /* CURVE: point_count × 3 */
-    double up[3];          /* CURVE: e2 lies in the plane of tangent and up; zero: shortest way from the curve */
+    double *points;                   /* CURVE: point_count × 3; closed if the last point is the first */
+    double up[3];                     /* CURVE: the normal lies in the plane of tangent and up; zero: least turning */
     char *cells_file;      /* CELLS: text file, nine numbers a line in the mesh file's order; NULL: the mesh's field */
     char *from[2], *to[2]; /* GRADIENT: boundary names at potential 0 and 1, of e1 and of e2 */
 } OstAxesSpec;

@@ -7,7 +7,9 @@
 #include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
-/* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case. */
+/* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case.
+ * Files that a case reads (mesh, axes, .bou lists) are named relative to the case file's folder; the file it writes,
+ * relative to the directory the program is called in. */
 
 typedef enum {
     OST_SELECT_ALL,
@@ -29,9 +31,9 @@ typedef struct OstSelection {
     double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
     double
         tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
-    OstGlobal vertex_count; /* VERTICES */
+    OstGlobal vertex_count; /* VERTICES: labels, ascending, each once; read from vertices_file where that is named */
     OstGlobal *vertices;
-    char *vertices_file;
+    char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
 
 typedef enum { OST_CONSTRAIN_DISPLACEMENT, OST_CONSTRAIN_SLIDE } OstConstraintKind;
@@ -63,8 +65,8 @@ typedef struct OstLoad {
     char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
     double vector[3];
     double pressure;
-    OstShare
-        share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any */
+    OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
+                       (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
 
 typedef struct OstCaseMaterial {
@@ -79,7 +81,7 @@ typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_FILE } OstMeshKind;
 
 typedef struct OstCase {
     OstContext *ctx;
-    char *path; /* of the case file; files it names are relative to its folder */
+    char *path; /* of the case file, as given */
     char *title;
     OstMeshKind mesh_kind;
     OstTubeShape tube;
@@ -93,7 +95,7 @@ typedef struct OstCase {
     int load_count;
     OstLoad *loads;
     OstSolverOptions solver; /* accuracy and solver sections over the defaults */
-    char *output_file;       /* resolved path, or NULL */
+    char *output_file;       /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;  /* bits of OstOutputField */
 } OstCase;
 

@@ -41,6 +41,13 @@ OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double 
 /* Local. The shear moduli of eq. 22 for a rule. */
 void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRule rule, double shear_modulus[3]);
 
+/* Local. The nine constants by name: `nu` holds nu12 nu21 nu23 nu32 nu31 nu13, NaN where not given, and one of each
+ * pair is enough (nu_ij / E_i = nu_ji / E_j). `shear` is G12 G23 G31. Raises OST_INVALID_INPUT with `what` if a pair is
+ * missing, if both of a pair are given and disagree by more than 1e-6 of the larger, or if a modulus is not positive.
+ */
+OstStatus ost_orthotropic_named(OstContext *ctx, const char *what, const double youngs[3], const double nu[6],
+                                const double shear[3], OstOrthotropic *constants);
+
 /* Local. Checks the constants and fills `material`. Definiteness is decided by the eigenvalues of the normalised normal
  * block (D^1/2 S_n D^1/2 with D = diag E: ones on the diagonal, -sqrt(nu_ij nu_ji) off it, signs kept). Raises
  * OST_INVALID_INPUT naming `name`, the violated inequality with its numbers, the largest stable value, and the stable
@@ -48,7 +55,30 @@ void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRu
 OstStatus ost_material_create(OstContext *ctx, const char *name, const OstOrthotropic *constants, double density,
                               OstMaterial *material);
 
-/* Local. C in world axes, eq. 9: axes are rows e1, e2, e3 (so Q of the paper is their transpose). */
+/* Local. C in world axes, eq. 9: axes are rows e1, e2, e3 (so Q of the paper is their transpose). C may be any
+ * symmetric 6×6 stiffness. */
 void ost_material_rotate_stiffness(const double stiffness[36], const double axes[9], double rotated[36]);
+
+/* Local. S in world axes, so that it stays the inverse of the rotated C. */
+void ost_material_rotate_compliance(const double compliance[36], const double axes[9], double rotated[36]);
+
+/* How near constants are to losing definiteness. Of any constants with positive Young's moduli; Local. */
+
+/* Eigenvalues, ascending, of the normalised normal block. */
+OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *constants, double eigenvalues[3]);
+
+/* The common factor up to which all Poisson's ratios may grow (below 1: they are too large already), from the
+ * eigenvalues; INFINITY if all are 0. */
+double ost_orthotropic_stable_scale(const double eigenvalues[3]);
+
+/* The open range of each of nu12, nu23, nu31 that keeps the material definite with the other two as they are; NAN, NAN
+ * where there is none. */
+void ost_orthotropic_stable_range(const OstOrthotropic *constants, double low[3], double high[3]);
+
+/* The paper's Fig. 1. For the naive choice nu12 = nu23 = nu31 = nu: points (E1/E2, E3/E2) on the boundary of the
+ * stability region, `count` of them along equally spaced directions from the isotropic point (1, 1) in the plane of the
+ * logarithms, by bisection on the smallest eigenvalue; `ratios` has count × 2. Raises OST_INVALID_INPUT unless -1 < nu
+ * < 0.5 and nu is not 0 (where every ratio is stable). */
+OstStatus ost_orthotropic_naive_boundary(OstContext *ctx, double nu, int count, double *ratios);
 
 #endif

@@ -99,10 +99,12 @@ void ost_chunk_destroy(OstMeshChunk **chunk);
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh);
 void ost_mesh_destroy(OstMesh **mesh);
 
-/* Local. Number of a region or boundary by name, or -1; and the names in one line, for messages. */
+/* Local. Number of a region or boundary by name, or -1; and the names in one line, for messages (cut
+ * with dots where they do not fit). */
 int ost_mesh_find_region(const OstMesh *mesh, const char *name);
 int ost_mesh_find_boundary(const OstMesh *mesh, const char *name);
 void ost_names_list(const OstNames *names, char *text, size_t size);
+void ost_mesh_list_boundaries(const OstMesh *mesh, char *text, size_t size);
 
 /* Local. Does this rank own the item with these local nodes? (The owner of its lowest global number does.) */
 int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes);
@@ -121,5 +123,11 @@ void ost_surface_destroy(OstSurface **surface);
 /* Local. Signed volume of a tet's four vertices; edge-based shape measure 6√2·V / (mean edge)³, 1 for a regular tet. */
 double ost_tet_volume(const double *coordinates, const OstLocal *nodes);
 double ost_tet_quality(const double *coordinates, const OstLocal *nodes);
+
+/* Local. Mean of the four vertices of every tet held here (owned or not): tet_count × 3 numbers of the caller. */
+OstStatus ost_mesh_tet_centroids(const OstMesh *mesh, double *centroids);
+
+/* Collective. The smallest box around all nodes of the body. */
+OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3]);
 
 #endif

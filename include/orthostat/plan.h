@@ -34,12 +34,17 @@ typedef struct OstPlan {
     char recipe_reason[160];
     OstGlobal nodes, tets; /* of the mesh as given */
     OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
-    double bytes_mesh, bytes_matrix, bytes_solver, bytes_output; /* over all ranks, foreseen */
+    /* Over all ranks, foreseen (the formulas are in src/case/plan_memory.c): pieces of the mesh with their halos; K by
+     * blocks, its pattern and where each tet's blocks go; the recipe's copies and vectors; the output file. */
+    double bytes_mesh, bytes_matrix, bytes_solver, bytes_output;
 } OstPlan;
 
 /* Local. The plan for a case on `ranks` ranks; nodes and tets as known so far (from the shape, or the mesh once read).
  * `materials` are those that came with the mesh file, or NULL. */
 void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
                    OstPlan *plan);
+
+/* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. */
+void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 
 #endif

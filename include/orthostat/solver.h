@@ -6,7 +6,7 @@
 
 /* How the linear system is solved. */
 typedef enum {
-    OST_RECIPE_AUTO,   /* the plan picks */
+    OST_RECIPE_AUTO,   /* METRIC, or DIRECT below 3000 unknowns */
     OST_RECIPE_PLAIN,  /* AztecOO's CG, ML's smoothed aggregation with its own aggregates */
     OST_RECIPE_METRIC, /* flexible CG, ML's hierarchy on aggregates round in the material's metric, block smoother,
                           K-cycle */
@@ -35,10 +35,11 @@ typedef struct OstSolveReport {
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity; /* nonzeros of all levels over those of the finest */
-    double condition_estimate;  /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known */
+    double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
 } OstSolveReport;
 
-/* Local. The defaults: AUTO, 1e-8, recipe R's 40 / 8 / 7 nodes, degree 3, ratio 20, coarsest 1000. */
+/* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, recipe R's 40 / 8 / 7 nodes, degree 3, ratio 20, coarsest
+ * 1000. */
 OstSolverOptions ost_solver_default_options(void);
 const char *ost_recipe_name(OstRecipe recipe);
 

@@ -11,7 +11,8 @@ typedef struct OstSolverGeometry {
     const double *metric; /* rows × 6 (11 22 33 12 23 31): mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R, or
                              NULL for the Euclidean metric */
     const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
-                             on what the supports leave free) */
+                             on what the supports leave free). The plain recipe takes NULL for three translations, the
+                             direct one looks at nothing of this */
 } OstSolverGeometry;
 
 typedef struct OstSolver OstSolver;
@@ -20,15 +21,19 @@ typedef struct OstSolver OstSolver;
  * rotations. */
 void ost_rigid_body_modes(OstLocal count, const double *coordinates, const double about[3], double *modes);
 
-/* Collective. Builds the preconditioner of the recipe in `options`. The matrix stays the caller's, unchanged. */
+/* Collective. Builds the preconditioner of the recipe in `options` (account OST_LEDGER_HIERARCHY); AUTO is DIRECT below
+ * 3000 unknowns and METRIC above. The matrix stays the caller's, unchanged, and is used until the solver is destroyed.
+ * Raises OST_INVALID_INPUT naming an option out of range or a row whose diagonal block is not positive definite,
+ * OST_NOT_CONVERGED if a factorisation finds the matrix singular or indefinite, OST_LIMIT_EXCEEDED if it is more than
+ * the libraries below can number. */
 OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstSolver **solver);
 void ost_solver_destroy(OstSolver **solver);
 
 /* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm,
  * recomputed from A, u, f at the end (and iterated on if the recursive residual had drifted). f and u have 3 × rows
- * numbers. Returns OST_NOT_CONVERGED with the residual reached, or with the sign that betrayed an indefinite matrix or
- * preconditioner; the report is filled either way. */
+ * numbers (account OST_LEDGER_SOLVE). Returns OST_NOT_CONVERGED with the residual reached, or with the sign that
+ * betrayed an indefinite matrix or preconditioner; the report is filled either way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
 
 #endif

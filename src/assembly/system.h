@@ -16,8 +16,9 @@ typedef struct OstSystem {
     OstBlockMatrix *matrix;
     OstLocal *row_of_node;  /* node_count: local row or ghost column, -1 if fully held */
     OstLocal *node_of_row;  /* matrix->columns */
-    OstLocal *block_of_tet; /* tet_count × n × n: where each block of a tet goes in matrix->value, -1: nowhere. May be
-                               NULL once filled (ost_system_release_scatter) */
+    OstLocal *block_of_tet; /* tet_count × n(n+1)/2: which block of matrix->value each pair of a tet's nodes adds to,
+                               -1: none. Only the upper triangle is summed; the lower is its mirror image. May be NULL
+                               once filled (ost_system_release_scatter) */
 } OstSystem;
 
 /* Collective. Numbers the rows and makes the pattern (account OST_LEDGER_PATTERN). Raises OST_LIMIT_EXCEEDED with the
@@ -45,9 +46,9 @@ OstStatus ost_system_displacement(const OstSystem *system, const double *v, doub
 /* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force);
 
-/* Local. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
- * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes projected on P
- * (column-major). `metric` may be NULL. */
+/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
+ * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes about the
+ * middle of all rows, projected on P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
 

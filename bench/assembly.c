@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "orthostat/orthostat.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Times of the pattern and of the stiffness of the paper's tube (Li and Barbič 2014, Fig. 6), isotropic and stiff
+ * along, across and around; least of several. Arguments: repetitions (15), refinement (1: 129,600 tets). */
+
+typedef struct Bench {
+    OstContext *ctx;
+    OstMesh *mesh;
+    OstSupports *supports;
+    int repetitions;
+} Bench;
+
+static OstStatus make_tube(Bench *bench, OstLocal refinement)
+{
+    const OstTubeShape shape = {.axis = 1,
+                                .length = 10.0,
+                                .radii = {0.9, 1.5},
+                                .around = 60 * refinement,
+                                .radial = 6 * refinement,
+                                .axial = 60 * refinement};
+    OstMeshChunk *chunk = NULL;
+    OST_TRY(ost_chunk_create_tube(bench->ctx, &shape, &chunk));
+    return ost_mesh_distribute(bench->ctx, &chunk, &bench->mesh);
+}
+
+static OstStatus hold_ends(Bench *bench)
+{
+    static const double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    OST_TRY(ost_supports_create(bench->mesh, &bench->supports));
+    for (OstLocal node = 0; node < bench->mesh->owned_nodes; node++) {
+        const double y = bench->mesh->coordinates[3 * (size_t)node + 1];
+        for (int i = 0; i < 3 && (y == 0.0 || y == 10.0); i++)
+            OST_TRY(ost_supports_hold(bench->supports, node, unit[i], 0.0));
+    }
+    return ost_supports_complete(bench->supports);
+}
+
+static OstStatus make_field(const Bench *bench, const double youngs_modulus[3], OstMaterialField **field)
+{
+    const OstMesh *mesh = bench->mesh;
+    const OstAxesSpec axes = {
+        .kind = OST_AXES_CYLINDRICAL, .axis = {0.0, 1.0, 0.0}, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
+    const OstOrthotropic constants = ost_orthotropic_family(youngs_modulus, 0.3, OST_SHEAR_GEOMETRIC);
+    OstMaterial material;
+    double *centroids = NULL;
+    OST_TRY(ost_material_create(bench->ctx, "tube", &constants, 0.0, &material));
+    OST_TRY(OST_NEW(bench->ctx, &centroids, 3 * (size_t)mesh->tet_count));
+    for (size_t i = 0; i < 12 * (size_t)mesh->tet_count; i++) {
+        const size_t tet = i / 12;
+        const OstLocal node = mesh->tet_nodes[4 * tet + i / 3 % 4];
+        centroids[3 * tet + i % 3] += 0.25 * mesh->coordinates[3 * (size_t)node + i % 3];
+    }
+    const OstStatus status = ost_field_create(bench->ctx, 1, &material, &axes, mesh->tet_count, mesh->tet_region,
+                                              mesh->tet_label, centroids, NULL, field);
+    OST_FREE(centroids);
+    return status;
+}
+
+static OstStatus time_pattern(const Bench *bench)
+{
+    double least = HUGE_VAL;
+    for (int r = 0; r < bench->repetitions; r++) {
+        OstSystem *system = NULL;
+        const double start = ost_seconds();
+        OST_TRY(ost_system_create(bench->mesh, bench->supports, &system));
+        least = fmin(least, ost_seconds() - start);
+        if (r == 0)
+            printf("tets %d, vertices %d, free %d, blocks %d\n", (int)bench->mesh->tet_count,
+                   (int)bench->mesh->owned_nodes, (int)system->matrix->rows,
+                   (int)system->matrix->row_start[system->matrix->rows]);
+        ost_system_destroy(&system);
+    }
+    printf("%-24s %8.2f ms\n", "pattern", 1e3 * least);
+    return OST_SUCCESS;
+}
+
+enum { MATERIALS = 4 };
+
+/* The materials take turns, so that a busy moment of the machine is nobody's alone. */
+static OstStatus time_fill(const Bench *bench, OstSystem *system, OstMaterialField *const field[MATERIALS])
+{
+    static const char *const name[MATERIALS] = {"isotropic", "stiff along", "stiff radially", "stiff around"};
+    double least[MATERIALS] = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    for (int r = 0; r < bench->repetitions; r++)
+        for (int m = 0; m < MATERIALS; m++) {
+            const double start = ost_seconds();
+            OST_TRY(ost_system_fill(system, field[m]));
+            least[m] = fmin(least[m], ost_seconds() - start);
+        }
+    for (int m = 0; m < MATERIALS; m++)
+        printf("fill, %-18s %8.2f ms   %.3f of isotropic\n", name[m], 1e3 * least[m], least[m] / least[0]);
+    return OST_SUCCESS;
+}
+
+static OstStatus run(Bench *bench, OstLocal refinement)
+{
+    static const double modulus[MATERIALS][3] = {{1e6, 1e6, 1e6}, {1e9, 1e6, 1e6}, {1e6, 1e9, 1e6}, {1e6, 1e6, 1e9}};
+    OstMaterialField *field[MATERIALS] = {NULL};
+    OstSystem *system = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(make_tube(bench, refinement));
+    OST_TRY_DONE(hold_ends(bench));
+    for (int m = 0; m < MATERIALS; m++)
+        OST_TRY_DONE(make_field(bench, modulus[m], &field[m]));
+    OST_TRY_DONE(time_pattern(bench));
+    OST_TRY_DONE(ost_system_create(bench->mesh, bench->supports, &system));
+    OST_TRY_DONE(time_fill(bench, system, field));
+done:
+    ost_system_destroy(&system);
+    for (int m = 0; m < MATERIALS; m++)
+        ost_field_destroy(&field[m]);
+    ost_supports_destroy(&bench->supports);
+    ost_mesh_destroy(&bench->mesh);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    Bench bench = {.repetitions = argc > 1 ? atoi(argv[1]) : 15};
+    MPI_Init(&argc, &argv);
+    if (ost_context_create(MPI_COMM_WORLD, &bench.ctx) != OST_SUCCESS)
+        return 1;
+    const OstStatus status = run(&bench, argc > 2 ? atoi(argv[2]) : 1);
+    if (status != OST_SUCCESS)
+        fprintf(stderr, "%s\n", ost_error_text(bench.ctx));
+    ost_context_destroy(&bench.ctx);
+    MPI_Finalize();
+    return ost_status_exit_code(status);
+}

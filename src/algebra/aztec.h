@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_AZTEC_H
+#define ORTHOSTAT_ALGEBRA_AZTEC_H
+
+#include "algebra/cg.h"
+
+/* Collective. As ost_cg_solve on the unscaled matrix, by AztecOO's conjugate gradients, which need a preconditioner
+ * that is not flexible. The report's condition estimate is 0, as AztecOO keeps its coefficients to itself. */
+OstStatus ost_aztec_solve(const OstBlockMatrix *matrix, const OstPreconditioner *preconditioner, const double *f,
+                          double *u, const OstSolverOptions *options, OstSolveReport *report);
+
+#endif

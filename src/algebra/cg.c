@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/cg.h"
+
+#include "algebra/lanczos.h"
+#include "algebra/refine.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct Cg {
+    OstContext *ctx;
+    const OstCgSystem *system;
+    const OstPreconditioner *preconditioner;
+    const OstBlockMatrix *matrix; /* the one of the iteration, scaled or not */
+    size_t n;                     /* unknowns this rank owns */
+    double *direction;            /* p, with room for ghosts */
+    double *product;              /* A' p */
+    double *residual;             /* r' */
+    double *corrected;            /* z */
+    double energy;                /* p·A'p of the last direction */
+    double weight;                /* r·z of the last direction */
+    int runs;
+    OstLanczos lanczos; /* of the first run */
+} Cg;
+
+static OstStatus sum(const Cg *cg, int count, double *values)
+{
+    return OST_MPI(cg->ctx, MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, ost_comm(cg->ctx)));
+}
+
+static double dot(size_t n, const double *restrict a, const double *restrict b)
+{
+    double total = 0.0;
+#pragma omp simd reduction(+ : total)
+    for (size_t i = 0; i < n; i++)
+        total += a[i] * b[i];
+    return total;
+}
+
+/* Norm of the unscaled residual that the recursion holds. */
+static OstStatus recursive_norm(const Cg *cg, double *norm)
+{
+    double square = cg->system->scaling ? ost_scaling_residual_square(cg->system->scaling, cg->residual)
+                                        : dot(cg->n, cg->residual, cg->residual);
+    OST_TRY(sum(cg, 1, &square));
+    *norm = sqrt(square);
+    return OST_SUCCESS;
+}
+
+/* z = M^-1 r, and the next direction p = z + beta p. */
+static OstStatus next_direction(Cg *cg, const OstGoal *goal, int first, double *beta)
+{
+    const int flexible = cg->preconditioner->flexible && !first;
+    OST_TRY(cg->preconditioner->apply(cg->preconditioner->data, cg->residual, cg->corrected));
+    double sums[2] = {dot(cg->n, cg->residual, cg->corrected), flexible ? dot(cg->n, cg->corrected, cg->product) : 0.0};
+    OST_TRY(sum(cg, 2, sums));
+    OST_TRY(ost_goal_require_positive(goal, sums[0], "r·z", "the preconditioner"));
+    *beta = first ? 0.0 : flexible ? -sums[1] / cg->energy : sums[0] / cg->weight;
+    cg->weight = sums[0];
+    for (size_t i = 0; i < cg->n; i++)
+        cg->direction[i] = cg->corrected[i] + (first ? 0.0 : *beta * cg->direction[i]);
+    return OST_SUCCESS;
+}
+
+/* The step along p that leaves the least energy. */
+static OstStatus step(Cg *cg, const OstGoal *goal, double *u, double *alpha)
+{
+    OST_TRY(ost_block_matrix_apply(cg->matrix, cg->direction, cg->product));
+    double sums[2] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual)};
+    OST_TRY(sum(cg, 2, sums));
+    OST_TRY(ost_goal_require_positive(goal, sums[0], "p·Ap", "the stiffness"));
+    cg->energy = sums[0];
+    *alpha = sums[1] / sums[0];
+    for (size_t i = 0; i < cg->n; i++) {
+        u[i] += *alpha * cg->direction[i];
+        cg->residual[i] -= *alpha * cg->product[i];
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus iterate(Cg *cg, double *u, OstGoal *goal)
+{
+    double norm;
+    OST_TRY(recursive_norm(cg, &norm));
+    for (int first = 1; norm > goal->target && goal->iterations < goal->most_iterations; first = 0) {
+        double alpha;
+        double beta;
+        OST_TRY(next_direction(cg, goal, first, &beta));
+        OST_TRY(step(cg, goal, u, &alpha));
+        if (cg->runs == 0)
+            ost_lanczos_add(&cg->lanczos, alpha, beta);
+        goal->iterations++;
+        OST_TRY(recursive_norm(cg, &norm));
+        ost_goal_progress(goal, norm);
+    }
+    return OST_SUCCESS;
+}
+
+/* OstInnerSolve: A u = r by way of A' u' = S r, u = S^T u'. */
+static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *goal)
+{
+    Cg *cg = data;
+    const OstScaling *scaling = cg->system->scaling;
+    if (scaling)
+        ost_scaling_to_scaled(scaling, r, cg->residual);
+    else
+        memcpy(cg->residual, r, cg->n * sizeof *r);
+    const OstStatus status = iterate(cg, u, goal);
+    if (scaling)
+        ost_scaling_from_scaled(scaling, u, u);
+    cg->runs++;
+    return status;
+}
+
+static OstStatus cg_allocate(Cg *cg, const OstSolverOptions *options)
+{
+    OST_TRY(OST_NEW(cg->ctx, &cg->direction, 3 * (size_t)cg->matrix->columns));
+    OST_TRY(OST_NEW(cg->ctx, &cg->product, cg->n));
+    OST_TRY(OST_NEW(cg->ctx, &cg->residual, cg->n));
+    OST_TRY(OST_NEW(cg->ctx, &cg->corrected, cg->n));
+    return ost_lanczos_create(cg->ctx, options->max_iterations, &cg->lanczos);
+}
+
+OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
+                       const OstSolverOptions *options, OstSolveReport *report)
+{
+    OstContext *ctx = system->matrix->ctx;
+    Cg cg = {.ctx = ctx,
+             .system = system,
+             .preconditioner = preconditioner,
+             .matrix = system->scaled_matrix ? system->scaled_matrix : system->matrix,
+             .n = 3 * (size_t)system->matrix->rows};
+    report->iterations = 0;
+    report->relative_residual = 0.0;
+    OstStatus status = ost_agree(ctx, cg_allocate(&cg, options));
+    if (status == OST_SUCCESS)
+        status = ost_refine(system->matrix, solve_scaled, &cg, f, u, options, report);
+    report->condition_estimate = ost_lanczos_condition(&cg.lanczos);
+    OST_FREE(cg.direction);
+    OST_FREE(cg.product);
+    OST_FREE(cg.residual);
+    OST_FREE(cg.corrected);
+    ost_lanczos_destroy(&cg.lanczos);
+    return status;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/direct.h"
+
+#include "algebra/cg.h"
+#include "algebra/mumps.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+struct OstDirect {
+    OstCgSystem system;
+    OstScaling *scaling;
+    OstBlockMatrix *scaled;
+    OstMumps *factors;
+};
+
+void ost_direct_destroy(OstDirect **direct)
+{
+    if (!*direct)
+        return;
+    ost_mumps_destroy(&(*direct)->factors);
+    ost_block_matrix_destroy(&(*direct)->scaled);
+    ost_scaling_destroy(&(*direct)->scaling);
+    OST_FREE(*direct);
+}
+
+OstStatus ost_direct_create(const OstBlockMatrix *matrix, OstDirect **direct)
+{
+    OstDirect *made = NULL;
+    *direct = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
+    OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
+    OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
+    OST_TRY_DONE(ost_mumps_create(made->scaled, &made->factors));
+    made->system = (OstCgSystem){.matrix = matrix, .scaled_matrix = made->scaled, .scaling = made->scaling};
+done:
+    if (status != OST_SUCCESS)
+        ost_direct_destroy(&made);
+    *direct = made;
+    return status;
+}
+
+static OstStatus apply_factors(void *data, const double *r, double *z)
+{
+    return ost_mumps_solve(data, r, z);
+}
+
+OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, const OstSolverOptions *options,
+                           OstSolveReport *report)
+{
+    const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .flexible = 0};
+    report->levels = 1;
+    report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
+    report->operator_complexity = 1.0;
+    return ost_cg_solve(&direct->system, &factors, f, u, options, report);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_METRIC_BLOCKS_H
+#define ORTHOSTAT_ALGEBRA_METRIC_BLOCKS_H
+
+#include "algebra/metric_graph.h"
+#include "algebra/metric_operator.h"
+
+/* Block Jacobi: the inverses of a matrix' diagonal blocks over groups of nodes that do not overlap. */
+typedef struct OstMetricBlocks {
+    OstContext *ctx;
+    int size; /* numbers per node */
+    OstLocal count;
+    OstLocal *node_start; /* count + 1 */
+    OstLocal *node;       /* nodes, block by block */
+    size_t *value_start;  /* count + 1 */
+    float *value;         /* dense symmetric inverses */
+} OstMetricBlocks;
+
+/* Local. Blocks of about `target` nodes, round in the graph's metric. A block that is not positive definite falls back
+ * to its nodes alone, and these to their diagonal. */
+OstStatus ost_metric_blocks_create(const OstMetricOperator *matrix, const OstMetricGraph *graph, double target,
+                                   OstMetricBlocks **blocks);
+void ost_metric_blocks_destroy(OstMetricBlocks **blocks);
+
+/* Local. z = B^-1 r; z may not be r. */
+void ost_metric_blocks_apply(const OstMetricBlocks *blocks, const double *r, double *z);
+
+#endif

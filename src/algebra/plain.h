@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_PLAIN_H
+#define ORTHOSTAT_ALGEBRA_PLAIN_H
+
+#include "algebra/solver.h"
+
+/* The plain recipe: AztecOO's conjugate gradients, preconditioned by a V-cycle of ML's smoothed aggregation as it
+ * comes: aggregates of ML's own within each rank, Chebyshev smoothing, a direct solve on the coarsest level. */
+typedef struct OstPlain OstPlain;
+
+/* Collective. Builds the hierarchy; the matrix stays the caller's and is used until ost_plain_destroy. */
+OstStatus ost_plain_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+                           const OstSolverOptions *options, OstPlain **plain);
+void ost_plain_destroy(OstPlain **plain);
+
+/* Collective. As ost_solver_solve; fills all of the report but recipe and seconds. */
+OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, const OstSolverOptions *options,
+                          OstSolveReport *report);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_SCALING_H
+#define ORTHOSTAT_ALGEBRA_SCALING_H
+
+#include "algebra/block_matrix.h"
+
+/* Scaling by the Cholesky factor L of each row's diagonal block: with S = L^-1, A' = S A S^T has identities on its
+ * diagonal, whatever the units and however stiff the node. A u = f becomes A' u' = f' with
+ *     f' = S f,   u = S^T u',   r = S^-1 r',   modes' = S^-T modes. */
+typedef struct OstScaling {
+    OstContext *ctx;
+    OstLocal rows;
+    double *factor;  /* S, columns × 9 row-major (ghosts' too), lower triangular */
+    double *inverse; /* S^-1 = L, rows × 9 */
+} OstScaling;
+
+/* Collective. Raises OST_INVALID_INPUT with the global row whose diagonal block is not finite or not positive
+ * definite. */
+OstStatus ost_scaling_create(const OstBlockMatrix *matrix, OstScaling **scaling);
+void ost_scaling_destroy(OstScaling **scaling);
+
+/* Collective. S A S^T as a matrix of its own (pattern and halo are copied; the caller's to destroy). */
+OstStatus ost_scaling_apply_matrix(const OstScaling *scaling, const OstBlockMatrix *matrix, OstBlockMatrix **scaled);
+
+/* Local; 3 × rows numbers each, and the two arrays may be the same. */
+void ost_scaling_to_scaled(const OstScaling *scaling, const double *f, double *scaled_f);            /* S f */
+void ost_scaling_from_scaled(const OstScaling *scaling, const double *scaled_u, double *u);          /* S^T u' */
+void ost_scaling_unscale_residual(const OstScaling *scaling, const double *scaled_r, double *r);     /* S^-1 r' */
+void ost_scaling_to_scaled_mode(const OstScaling *scaling, const double *mode, double *scaled_mode); /* S^-T m */
+
+/* Local. This rank's part of ||S^-1 r'||². */
+double ost_scaling_residual_square(const OstScaling *scaling, const double *scaled_r);
+
+#endif

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/batch.h"
+#include "assembly/held.h"
+#include "assembly/system.h"
+#include "assembly/triangle.h"
+#include "core/error.h"
+#include "element/element.h"
+
+#include <string.h>
+
+/* Of one tet's blocks, rounded up to whole lanes. */
+enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_LANES };
+
+static inline void add_block(double *sum, const double *block)
+{
+    for (int i = 0; i < 8; i += OST_LANES) {
+        OstLanes a;
+        OstLanes b;
+        memcpy(&a, sum + i, sizeof a);
+        memcpy(&b, block + i, sizeof b);
+        a += b;
+        memcpy(sum + i, &a, sizeof a);
+    }
+    sum[8] += block[8];
+}
+
+static inline void add_transposed(double *restrict sum, const double *restrict block)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            sum[3 * i + j] += block[3 * j + i];
+}
+
+/* Sorts the numbers by tets: `width` numbers of each, rounded up to OST_LANES. */
+static int blocks_by_tet(const OstLanes *blocks, int count, double *numbers)
+{
+    const int width = (count + OST_LANES - 1) / OST_LANES * OST_LANES;
+    for (int i = 0; i < width; i += OST_LANES) {
+        OstLanes turned[OST_LANES];
+        ost_lanes_transpose(blocks + i, turned);
+        for (int lane = 0; lane < OST_LANES; lane++)
+            memcpy(numbers + lane * width + i, &turned[lane], sizeof(OstLanes));
+    }
+    return width;
+}
+
+static void scatter(const OstBatch *batch, int nodes, const OstLocal *block_of_tet, const double *numbers, int width,
+                    double *value)
+{
+    const int pairs = ost_pair_count(nodes);
+    for (int lane = 0; lane < batch->count; lane++) {
+        const OstLocal *target = block_of_tet + (size_t)pairs * (size_t)batch->tet[lane];
+        const OstLocal *node = batch->node[lane];
+        const double *block = numbers + lane * width;
+        for (int a = 0; a < nodes; a++)
+            for (int b = a; b < nodes; b++, target++, block += 9) {
+                if (*target < 0)
+                    continue;
+                if (node[a] <= node[b])
+                    add_block(value + 9 * (size_t)*target, block);
+                else
+                    add_transposed(value + 9 * (size_t)*target, block);
+            }
+    }
+}
+
+static inline OstLocal least(OstLocal a, OstLocal b)
+{
+    return a < b ? a : b;
+}
+
+/* Asks the memory for the blocks that the next tets will add to, while the processor works on these. */
+static inline void fetch_ahead(const OstLocal *block_of_tet, size_t first, size_t end, const double *value)
+{
+    for (size_t i = first; i < end; i++)
+        if (block_of_tet[i] >= 0) {
+            __builtin_prefetch(value + 9 * (size_t)block_of_tet[i], 1);
+            __builtin_prefetch(value + 9 * (size_t)block_of_tet[i] + 8, 1);
+        }
+}
+
+static void sum_tets(OstSystem *system, const OstMaterialField *field)
+{
+    const OstMesh *mesh = system->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    const size_t pairs = (size_t)ost_pair_count(element->nodes);
+    const int count = 9 * (int)pairs;
+    OstBatch batch;
+    OstLanes blocks[BLOCK_NUMBERS];
+    double numbers[BLOCK_NUMBERS * OST_LANES];
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
+        const OstLocal left = mesh->tet_count - first;
+        OstLocal tets[OST_LANES];
+        for (int lane = 0; lane < OST_LANES; lane++)
+            tets[lane] = first + lane;
+        fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_LANES, mesh->tet_count),
+                    pairs * (size_t)least(first + 2 * OST_LANES, mesh->tet_count), system->matrix->value);
+        ost_batch_gather(&batch, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
+        element->stiffness(batch.x, batch.elasticity.c, blocks);
+        const int width = blocks_by_tet(blocks, count, numbers);
+        scatter(&batch, element->nodes, system->block_of_tet, numbers, width, system->matrix->value);
+    }
+}
+
+OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field)
+{
+    OstContext *ctx = system->ctx;
+    if (!system->block_of_tet)
+        return OST_RAISE(ctx, OST_INVALID_USAGE,
+                         "the stiffness cannot be filled again once its scatter map is dropped");
+    ost_ledger_enter(ctx, OST_LEDGER_STIFFNESS);
+    ost_triangle_clear(system->matrix);
+    sum_tets(system, field);
+    const OstStatus status = ost_triangle_mirror(system->matrix);
+    ost_ledger_leave(ctx);
+    if (status == OST_SUCCESS)
+        ost_system_apply_supports(system);
+    return status;
+}

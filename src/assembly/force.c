@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/force.h"
+
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <string.h>
+
+void ost_batch_add_force(const OstBatch *batch, const OstElement *element, const double *u, double scale,
+                         OstLocal owned, double *force)
+{
+    OstLanes displacement[3 * OST_MAX_TET_NODES];
+    OstLanes of_tets[3 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(batch, element->nodes, u, displacement);
+    element->force(batch->x, batch->elasticity.c, displacement, of_tets);
+    for (int lane = 0; lane < batch->count; lane++)
+        for (int a = 0; a < element->nodes; a++) {
+            const OstLocal node = batch->node[lane][a];
+            if (node >= owned)
+                continue;
+            for (int i = 0; i < 3; i++)
+                force[3 * (size_t)node + (size_t)i] += scale * of_tets[3 * a + i][lane];
+        }
+}
+
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force)
+{
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    if (!element)
+        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "quadratic tets are not available in this version");
+    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
+        const OstLocal left = mesh->tet_count - first;
+        OstLocal tets[OST_LANES];
+        for (int lane = 0; lane < OST_LANES; lane++)
+            tets[lane] = first + lane;
+        ost_batch_gather(&batch, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
+        ost_batch_add_force(&batch, element, u, 1.0, mesh->owned_nodes, force);
+    }
+    return OST_SUCCESS;
+}
+
+static int is_moved(const OstSupport *support)
+{
+    return (support->held > 0 && support->given[0] != 0.0) || (support->held > 1 && support->given[1] != 0.0) ||
+           (support->held > 2 && support->given[2] != 0.0);
+}
+
+static int any_moved(const OstSupports *supports)
+{
+    for (OstLocal s = 0; s < supports->count; s++)
+        if (is_moved(&supports->support[s]))
+            return 1;
+    return 0;
+}
+
+static int touches_moved(const OstMesh *mesh, const OstSupports *supports, OstLocal tet)
+{
+    const OstLocal *nodes = mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet;
+    for (int a = 0; a < mesh->nodes_per_tet; a++) {
+        const OstLocal index = supports->index[nodes[a]];
+        if (index >= 0 && is_moved(&supports->support[index]))
+            return 1;
+    }
+    return 0;
+}
+
+/* force -= K g, from the tets that touch a node with g != 0. `g` is 3 × node_count, `force` 3 × owned_nodes. */
+static void subtract_moved(const OstSystem *system, const OstMaterialField *field, const double *g, double *force)
+{
+    const OstMesh *mesh = system->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstLocal tets[OST_LANES];
+    OstBatch batch;
+    int count = 0;
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        if (touches_moved(mesh, system->supports, tet))
+            tets[count++] = tet;
+        if (count == OST_LANES || (count > 0 && tet == mesh->tet_count - 1)) {
+            ost_batch_gather(&batch, mesh, field, count, tets);
+            ost_batch_add_force(&batch, element, g, -1.0, mesh->owned_nodes, force);
+            count = 0;
+        }
+    }
+}
+
+/* Fills `force` (3 × owned_nodes, zero) with -K g. */
+static OstStatus force_of_given(const OstSystem *system, const OstMaterialField *field, double *force)
+{
+    const OstMesh *mesh = system->mesh;
+    double *g = NULL;
+    OST_TRY(OST_NEW(system->ctx, &g, 3 * (size_t)mesh->node_count));
+    for (OstLocal node = 0; node < mesh->node_count; node++) {
+        double projector[9];
+        if (system->supports->index[node] >= 0)
+            ost_supports_get(system->supports, node, projector, g + 3 * (size_t)node);
+    }
+    subtract_moved(system, field, g, force);
+    OST_FREE(g);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
+                                     double *rhs)
+{
+    OstContext *ctx = system->ctx;
+    double *moved = NULL;
+    OstStatus status = OST_SUCCESS;
+    if (any_moved(system->supports)) {
+        ost_ledger_enter(ctx, OST_EFFECT_GIVEN_DISPLACEMENT);
+        status = OST_NEW(ctx, &moved, 3 * (size_t)system->mesh->owned_nodes);
+        if (status == OST_SUCCESS)
+            status = force_of_given(system, field, moved);
+        ost_ledger_leave(ctx);
+    }
+    for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
+        const size_t node = (size_t)system->node_of_row[row];
+        double total[3];
+        double projector[9];
+        double given[3];
+        for (size_t i = 0; i < 3; i++)
+            total[i] = force[3 * node + i] + (moved ? moved[3 * node + i] : 0.0);
+        ost_supports_get(system->supports, (OstLocal)node, projector, given);
+        ost_apply3(projector, total, rhs + 3 * (size_t)row);
+    }
+    OST_FREE(moved);
+    return status;
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver.h"
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <string.h>
+
+/* R' diag(sqrt(E_min / E_k)) R of a tet, added to a node's six numbers. */
+static void tet_metric(const OstMaterialField *field, OstLocal tet, double metric[6])
+{
+    const double *modulus = field->material[field->tet_region[tet]].constants.youngs_modulus;
+    const double least = fmin(modulus[0], fmin(modulus[1], modulus[2]));
+    double axes[9];
+    ost_field_axes(field, tet, axes);
+    memset(metric, 0, 6 * sizeof *metric);
+    for (int k = 0; k < 3; k++) {
+        const double *e = axes + 3 * k;
+        const double weight = sqrt(least / modulus[k]);
+        for (int i = 0; i < 3; i++) {
+            metric[i] += weight * e[i] * e[i];
+            metric[3 + i] += weight * e[i] * e[(i + 1) % 3];
+        }
+    }
+}
+
+/* Mean over each row's tets; every tet of an owned node is here. */
+static OstStatus mean_metric(const OstSystem *system, const OstMaterialField *field, double *metric)
+{
+    const OstMesh *mesh = system->mesh;
+    const OstLocal rows = system->matrix->rows;
+    OstLocal *tets = NULL;
+    OST_TRY(OST_NEW(system->ctx, &tets, rows));
+    memset(metric, 0, 6 * (size_t)rows * sizeof *metric);
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        double of_tet[6];
+        tet_metric(field, tet, of_tet);
+        for (int a = 0; a < mesh->nodes_per_tet; a++) {
+            const OstLocal node = mesh->tet_nodes[(size_t)mesh->nodes_per_tet * (size_t)tet + (size_t)a];
+            const OstLocal row = system->row_of_node[node];
+            if (row < 0 || row >= rows)
+                continue;
+            tets[row]++;
+            for (size_t i = 0; i < 6; i++)
+                metric[6 * (size_t)row + i] += of_tet[i];
+        }
+    }
+    for (OstLocal row = 0; row < rows; row++)
+        for (size_t i = 0; i < 6; i++)
+            metric[6 * (size_t)row + i] /= tets[row];
+    OST_FREE(tets);
+    return OST_SUCCESS;
+}
+
+/* Without orthotropy the metric is Euclid's. */
+static void euclidean_metric(OstLocal rows, double *metric)
+{
+    for (OstLocal row = 0; row < rows; row++)
+        for (size_t i = 0; i < 6; i++)
+            metric[6 * (size_t)row + i] = i < 3 ? 1.0 : 0.0;
+}
+
+/* Collective. Middle of all ranks' rows: rotations about one and the same point, close by for rounding's sake. */
+static OstStatus find_middle(const OstSystem *system, const double *coordinates, double middle[3])
+{
+    middle[0] = middle[1] = middle[2] = 0.0;
+    for (OstLocal row = 0; row < system->matrix->rows; row++)
+        for (size_t i = 0; i < 3; i++)
+            middle[i] += coordinates[3 * (size_t)row + i] / (double)system->matrix->global_rows;
+    return OST_MPI(system->ctx, MPI_Allreduce(MPI_IN_PLACE, middle, 3, MPI_DOUBLE, MPI_SUM, ost_comm(system->ctx)));
+}
+
+static void project_modes(const OstSystem *system, double *modes)
+{
+    const size_t length = 3 * (size_t)system->matrix->rows;
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        double projector[9];
+        double given[3];
+        if (ost_supports_get(system->supports, system->node_of_row[row], projector, given) == 0)
+            continue;
+        for (size_t m = 0; m < 6; m++) {
+            double *mode = modes + m * length + 3 * (size_t)row;
+            const double whole[3] = {mode[0], mode[1], mode[2]};
+            ost_apply3(projector, whole, mode);
+        }
+    }
+}
+
+OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
+                              double *metric, double *modes)
+{
+    const OstLocal rows = system->matrix->rows;
+    double middle[3];
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal row = 0; row < rows; row++)
+        memcpy(coordinates + 3 * (size_t)row, system->mesh->coordinates + 3 * (size_t)system->node_of_row[row],
+               3 * sizeof(double));
+    if (metric && !field->region_axes)
+        euclidean_metric(rows, metric);
+    else if (metric)
+        status = mean_metric(system, field, metric);
+    OST_TRY(ost_agree(system->ctx, status));
+    OST_TRY(find_middle(system, coordinates, middle));
+    ost_rigid_body_modes(rows, coordinates, middle, modes);
+    project_modes(system, modes);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/held.h"
+
+#include "core/small.h"
+
+#include <string.h>
+
+static int is_coordinate(const double direction[3])
+{
+    return (direction[0] != 0.0) + (direction[1] != 0.0) + (direction[2] != 0.0) == 1;
+}
+
+static int is_partly_held(const OstSupport *support)
+{
+    return support->held > 0 && support->held < 3;
+}
+
+/* The account that partly held nodes are booked to, or OST_LEDGER_COUNT if there are none. */
+static OstAccount account_of(const OstSupports *supports)
+{
+    OstAccount account = OST_LEDGER_COUNT;
+    for (OstLocal s = 0; s < supports->count; s++) {
+        const OstSupport *support = &supports->support[s];
+        if (!is_partly_held(support))
+            continue;
+        if (account == OST_LEDGER_COUNT)
+            account = OST_LEDGER_SUPPORTS;
+        for (int k = 0; k < support->held; k++)
+            if (!is_coordinate(support->direction + 3 * k))
+                account = OST_EFFECT_SLIDING;
+    }
+    return account;
+}
+
+/* block = P_row block P_column */
+static void project_block(const OstSystem *system, OstLocal row, OstLocal column, double *block)
+{
+    double left[9];
+    double right[9];
+    double product[9];
+    double given[3];
+    ost_supports_get(system->supports, system->node_of_row[row], left, given);
+    ost_supports_get(system->supports, system->node_of_row[column], right, given);
+    ost_multiply3(left, block, product);
+    ost_multiply3(product, right, block);
+}
+
+/* Adds s(I - P) to a projected diagonal block. */
+static void stiffen_held_directions(const OstSystem *system, OstLocal row, double *block)
+{
+    double projector[9];
+    double given[3];
+    const int held = ost_supports_get(system->supports, system->node_of_row[row], projector, given);
+    const double scale = (block[0] + block[4] + block[8]) / (3 - held);
+    for (int i = 0; i < 9; i++)
+        block[i] += scale * ((i % 4 == 0 ? 1.0 : 0.0) - projector[i]);
+}
+
+/* Rows have no fully held nodes, so a support makes a row or column a partly held one. */
+static int is_supported(const OstSystem *system, OstLocal row)
+{
+    const OstLocal index = system->supports->index[system->node_of_row[row]];
+    return index >= 0 && is_partly_held(&system->supports->support[index]);
+}
+
+void ost_system_apply_supports(OstSystem *system)
+{
+    const OstBlockMatrix *matrix = system->matrix;
+    const OstAccount account = account_of(system->supports);
+    if (account == OST_LEDGER_COUNT)
+        return;
+    ost_ledger_enter(system->ctx, account);
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        const int row_is_supported = is_supported(system, row);
+        for (OstLocal block = matrix->row_start[row]; block < matrix->row_start[row + 1]; block++)
+            if (row_is_supported || is_supported(system, matrix->column[block]))
+                project_block(system, row, matrix->column[block], matrix->value + 9 * (size_t)block);
+        if (row_is_supported)
+            stiffen_held_directions(system, row, matrix->value + 9 * (size_t)matrix->diagonal[row]);
+    }
+    ost_ledger_leave(system->ctx);
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ASSEMBLY_LIMITS_H
+#define ORTHOSTAT_ASSEMBLY_LIMITS_H
+
+#include "orthostat/context.h"
+
+/* Local. What the libraries below can number, checked from counts before anything of that size is made. Each raises
+ * OST_LIMIT_EXCEEDED with the count, the limit and whose it is. */
+OstStatus ost_limit_unknowns(OstContext *ctx, OstGlobal global_rows); /* Epetra, ML: scalar unknowns of all ranks */
+OstStatus ost_limit_nonzeros(OstContext *ctx, OstGlobal blocks);      /* ML: scalar nonzeros of a rank */
+OstStatus ost_limit_incidences(OstContext *ctx, OstGlobal tets, int nodes_per_tet); /* OstLocal: nodes of all tets */
+
+#endif

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/pattern.h"
+
+#include "assembly/batch.h"
+#include "assembly/limits.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+/* Which tets meet at a row, and which rows meet at a tet. */
+typedef struct Incidence {
+    int nodes;           /* per tet */
+    OstLocal *row;       /* tet_count × nodes: row or column of each node in ost_order_nodes' order, -1: none */
+    OstLocal *tet_start; /* rows + 1 */
+    OstLocal *tet;       /* tet_start[rows] */
+} Incidence;
+
+static void incidence_free(Incidence *incidence)
+{
+    OST_FREE(incidence->row);
+    OST_FREE(incidence->tet_start);
+    OST_FREE(incidence->tet);
+}
+
+static void find_rows_of_tets(const OstSystem *system, Incidence *incidence)
+{
+    const OstMesh *mesh = system->mesh;
+    const size_t n = (size_t)incidence->nodes;
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        OstLocal ordered[OST_MAX_TET_NODES];
+        ost_order_nodes(incidence->nodes, mesh->tet_nodes + n * (size_t)t, ordered);
+        for (size_t a = 0; a < n; a++)
+            incidence->row[n * (size_t)t + a] = system->row_of_node[ordered[a]];
+    }
+}
+
+/* Counting sort of the tets by the rows that they touch. */
+static OstStatus find_tets_of_rows(const OstSystem *system, Incidence *incidence)
+{
+    const OstLocal rows = system->matrix->rows;
+    const OstLocal n = incidence->nodes;
+    const OstLocal total = system->mesh->tet_count * n;
+    OstLocal *start = incidence->tet_start;
+    for (OstLocal i = 0; i < total; i++)
+        if (incidence->row[i] >= 0 && incidence->row[i] < rows)
+            start[incidence->row[i]]++;
+    for (OstLocal r = 0; r < rows; r++)
+        start[r + 1] += start[r];
+    OST_TRY(OST_NEW(system->ctx, &incidence->tet, start[rows]));
+    /* filled from the back, so that start[r] ends where row r begins */
+    for (OstLocal t = system->mesh->tet_count - 1; t >= 0; t--)
+        for (OstLocal a = 0; a < n; a++) {
+            const OstLocal row = incidence->row[n * t + a];
+            if (row >= 0 && row < rows)
+                incidence->tet[--start[row]] = t;
+        }
+    return OST_SUCCESS;
+}
+
+static OstStatus incidence_create(const OstSystem *system, Incidence *incidence)
+{
+    incidence->nodes = system->mesh->nodes_per_tet;
+    OST_TRY(OST_NEW(system->ctx, &incidence->row, system->mesh->tet_count * incidence->nodes));
+    OST_TRY(OST_NEW(system->ctx, &incidence->tet_start, system->matrix->rows + 1));
+    find_rows_of_tets(system, incidence);
+    return find_tets_of_rows(system, incidence);
+}
+
+/* Columns of a row, each once, in the order found. `seen` holds for each column the last row that had it. */
+static OstLocal collect_columns(const Incidence *incidence, OstLocal row, OstLocal *seen, OstLocal *columns)
+{
+    OstLocal count = 0;
+    for (OstLocal i = incidence->tet_start[row]; i < incidence->tet_start[row + 1]; i++) {
+        const OstLocal *of_tet = incidence->row + (size_t)incidence->nodes * (size_t)incidence->tet[i];
+        for (int a = 0; a < incidence->nodes; a++) {
+            const OstLocal column = of_tet[a];
+            if (column < 0 || seen[column] == row)
+                continue;
+            seen[column] = row;
+            if (columns)
+                columns[count] = column;
+            count++;
+        }
+    }
+    return count;
+}
+
+static OstStatus count_blocks(const OstSystem *system, const Incidence *incidence, OstLocal *seen)
+{
+    OstBlockMatrix *matrix = system->matrix;
+    OstGlobal blocks = 0;
+    for (OstLocal column = 0; column < matrix->columns; column++)
+        seen[column] = -1;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        blocks += collect_columns(incidence, row, seen, NULL);
+        OST_TRY(ost_limit_nonzeros(system->ctx, blocks));
+        matrix->row_start[row + 1] = (OstLocal)blocks;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus allocate_blocks(OstSystem *system)
+{
+    OstBlockMatrix *matrix = system->matrix;
+    const size_t blocks = (size_t)matrix->row_start[matrix->rows];
+    const OstMesh *mesh = system->mesh;
+    const size_t pairs = (size_t)ost_pair_count(mesh->nodes_per_tet) * (size_t)mesh->tet_count;
+    OST_TRY(OST_NEW(system->ctx, &matrix->column, blocks));
+    OST_TRY(OST_NEW(system->ctx, &matrix->diagonal, matrix->rows));
+    OST_TRY(OST_NEW(system->ctx, &matrix->value, 9 * blocks));
+    OST_TRY(OST_NEW(system->ctx, &system->block_of_tet, pairs));
+    for (size_t i = 0; i < pairs; i++)
+        system->block_of_tet[i] = -1;
+    return OST_SUCCESS;
+}
+
+/* A row has some fifteen columns: insertion is quickest. */
+static void sort_ascending(OstLocal *columns, OstLocal count)
+{
+    for (OstLocal i = 1; i < count; i++) {
+        const OstLocal column = columns[i];
+        OstLocal j = i;
+        for (; j > 0 && columns[j - 1] > column; j--)
+            columns[j] = columns[j - 1];
+        columns[j] = column;
+    }
+}
+
+/* Notes where the blocks of a row go: those right of the diagonal, for every tet that touches the row. */
+static void map_row(OstSystem *system, const Incidence *incidence, OstLocal row, const OstLocal *block_of_column)
+{
+    const int n = incidence->nodes;
+    const size_t pairs = (size_t)ost_pair_count(n);
+    for (OstLocal i = incidence->tet_start[row]; i < incidence->tet_start[row + 1]; i++) {
+        const size_t tet = (size_t)incidence->tet[i];
+        const OstLocal *of_tet = incidence->row + (size_t)n * tet;
+        OstLocal *block = system->block_of_tet + pairs * tet;
+        int a = 0;
+        while (of_tet[a] != row)
+            a++;
+        for (int b = 0; b < n; b++)
+            if (of_tet[b] >= row)
+                block[a <= b ? ost_pair_index(n, a, b) : ost_pair_index(n, b, a)] = block_of_column[of_tet[b]];
+    }
+}
+
+static void fill_rows(OstSystem *system, const Incidence *incidence, OstLocal *seen, OstLocal *block_of_column)
+{
+    OstBlockMatrix *matrix = system->matrix;
+    for (OstLocal column = 0; column < matrix->columns; column++)
+        seen[column] = -1;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        const OstLocal first = matrix->row_start[row];
+        const OstLocal count = collect_columns(incidence, row, seen, matrix->column + first);
+        sort_ascending(matrix->column + first, count);
+        for (OstLocal block = first; block < first + count; block++)
+            block_of_column[matrix->column[block]] = block;
+        matrix->diagonal[row] = block_of_column[row];
+        map_row(system, incidence, row, block_of_column);
+    }
+}
+
+OstStatus ost_pattern_create(OstSystem *system)
+{
+    OstContext *ctx = system->ctx;
+    OstBlockMatrix *matrix = system->matrix;
+    Incidence incidence = {0};
+    OstLocal *seen = NULL;
+    OstLocal *block_of_column = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_limit_incidences(ctx, system->mesh->tet_count, system->mesh->nodes_per_tet));
+    OST_TRY_DONE(incidence_create(system, &incidence));
+    OST_TRY_DONE(OST_NEW(ctx, &matrix->row_start, matrix->rows + 1));
+    OST_TRY_DONE(OST_NEW(ctx, &seen, matrix->columns));
+    OST_TRY_DONE(OST_NEW(ctx, &block_of_column, matrix->columns));
+    OST_TRY_DONE(count_blocks(system, &incidence, seen));
+    OST_TRY_DONE(allocate_blocks(system));
+    fill_rows(system, &incidence, seen, block_of_column);
+done:
+    incidence_free(&incidence);
+    OST_FREE(seen);
+    OST_FREE(block_of_column);
+    return status;
+}

@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/supports.h"
+
+#include "core/error.h"
+#include "core/halo.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <string.h>
+
+/* Directions closer than this to what is already held, and displacements that differ by no more of their size, count as
+ * the same. */
+static const double same = 1e-10;
+
+OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports)
+{
+    OstContext *ctx = mesh->ctx;
+    OstSupports *made = NULL;
+    *supports = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_SUPPORTS);
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS) {
+        made->ctx = ctx;
+        made->mesh = mesh;
+        status = OST_NEW(ctx, &made->index, mesh->node_count);
+    }
+    ost_ledger_leave(ctx);
+    if (status != OST_SUCCESS) {
+        ost_supports_destroy(&made);
+        return status;
+    }
+    for (OstLocal node = 0; node < mesh->node_count; node++)
+        made->index[node] = -1;
+    *supports = made;
+    return OST_SUCCESS;
+}
+
+void ost_supports_destroy(OstSupports **supports)
+{
+    if (!*supports)
+        return;
+    OST_FREE((*supports)->index);
+    OST_FREE((*supports)->support);
+    OST_FREE(*supports);
+}
+
+/* The support of a node, made if it has none. */
+static OstStatus support_of(OstSupports *supports, OstLocal node, OstSupport **support)
+{
+    OstLocal *index = &supports->index[node];
+    if (*index < 0) {
+        if (supports->count == supports->capacity) {
+            const OstLocal capacity = supports->capacity / 2 * 3 + 64;
+            OST_TRY(OST_RESIZE(supports->ctx, &supports->support, capacity));
+            supports->capacity = capacity;
+        }
+        *index = supports->count++;
+        supports->support[*index] = (OstSupport){0};
+    }
+    *support = &supports->support[*index];
+    return OST_SUCCESS;
+}
+
+static OstStatus raise_contradiction(const OstSupports *supports, OstLocal node, const double direction[3], double held,
+                                     double given)
+{
+    return OST_RAISE(
+        supports->ctx, OST_INVALID_INPUT,
+        "vertex %lld is held to %g along (%g, %g, %g) and to %g by another constraint; make them agree, or "
+        "leave one out",
+        (long long)supports->mesh->node_label[node], held, direction[0], direction[1], direction[2], given);
+}
+
+/* Takes from `rest` its part along the directions held (twice, for rounding's sake), and returns the displacement that
+ * they give along that part. */
+static double take_held_part(const OstSupport *support, double rest[3])
+{
+    double held = 0.0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < support->held; k++) {
+            const double *along = support->direction + 3 * k;
+            const double part = ost_dot3(rest, along);
+            held += part * support->given[k];
+            for (int i = 0; i < 3; i++)
+                rest[i] -= part * along[i];
+        }
+    return held;
+}
+
+/* The largest displacement in play, against which agreement is measured. */
+static double size_of_given(const OstSupport *support, double given)
+{
+    double size = fabs(given);
+    for (int k = 0; k < support->held; k++)
+        size = fmax(size, fabs(support->given[k]));
+    return size;
+}
+
+OstStatus ost_supports_hold(OstSupports *supports, OstLocal node, const double direction[3], double given)
+{
+    const double length = ost_norm3(direction);
+    if (!(length > 0.0) || !isfinite(length) || !isfinite(given))
+        return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
+                         "vertex %lld is to be held to %g along (%g, %g, %g); expected finite numbers and a direction "
+                         "that is not zero",
+                         (long long)supports->mesh->node_label[node], given, direction[0], direction[1], direction[2]);
+    OstSupport *support;
+    OST_TRY(support_of(supports, node, &support));
+    const double unit[3] = {direction[0] / length, direction[1] / length, direction[2] / length};
+    double rest[3] = {unit[0], unit[1], unit[2]};
+    const double held = take_held_part(support, rest);
+    const double rest_length = ost_norm3(rest);
+    if (rest_length <= same || support->held == 3) {
+        if (fabs(given - held) > same * size_of_given(support, given))
+            return raise_contradiction(supports, node, unit, held, given);
+        return OST_SUCCESS;
+    }
+    for (int i = 0; i < 3; i++)
+        support->direction[3 * support->held + i] = rest[i] / rest_length;
+    support->given[support->held++] = (given - held) / rest_length;
+    return OST_SUCCESS;
+}
+
+/* Puts the supports in the order of their nodes and makes room for `count` of them, the ghosts' behind. */
+static OstStatus order_by_node(OstSupports *supports, const OstLocal *order, OstLocal count)
+{
+    OstSupport *ordered = NULL;
+    OST_TRY(OST_NEW(supports->ctx, &ordered, count));
+    for (OstLocal node = 0; node < supports->mesh->owned_nodes; node++)
+        if (order[node] >= 0)
+            ordered[order[node]] = supports->support[supports->index[node]];
+    OST_FREE(supports->support);
+    supports->support = ordered;
+    supports->count = count;
+    supports->capacity = count;
+    return OST_SUCCESS;
+}
+
+/* Gives the nodes with a support, ghosts included, new numbers in the order of nodes: what a halo of them asks for. */
+static OstStatus number_supported(const OstSupports *supports, OstLocal *order, OstLocal *count)
+{
+    const OstMesh *mesh = supports->mesh;
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        order[node] = supports->index[node];
+    OST_TRY(ost_halo_import(mesh->halo, sizeof *order, order));
+    *count = 0;
+    for (OstLocal node = 0; node < mesh->node_count; node++)
+        order[node] = order[node] < 0 ? -1 : (*count)++;
+    return OST_SUCCESS;
+}
+
+static OstStatus share_with_ghosts(OstSupports *supports)
+{
+    OstContext *ctx = supports->ctx;
+    OstLocal *order = NULL;
+    OstHalo *halo = NULL;
+    OstLocal count = 0;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &order, supports->mesh->node_count));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_agree(ctx, number_supported(supports, order, &count)));
+    OST_TRY_DONE(ost_agree(ctx, order_by_node(supports, order, count)));
+    OST_TRY_DONE(ost_agree(ctx, ost_halo_subset(supports->mesh->halo, order, &halo)));
+    OST_TRY_DONE(ost_agree(ctx, ost_halo_import(halo, sizeof(OstSupport), supports->support)));
+    memcpy(supports->index, order, (size_t)supports->mesh->node_count * sizeof *order);
+done:
+    ost_halo_destroy(&halo);
+    OST_FREE(order);
+    return status;
+}
+
+static OstStatus check_anything_held(const OstSupports *supports)
+{
+    OstGlobal held = supports->count;
+    OST_TRY(
+        OST_MPI(supports->ctx, MPI_Allreduce(MPI_IN_PLACE, &held, 1, MPI_INT64_T, MPI_SUM, ost_comm(supports->ctx))));
+    if (held == 0)
+        return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
+                         "nothing is held: no vertex has a given displacement or slides on a plane, so the body can "
+                         "move away as a whole; add constraints");
+    return OST_SUCCESS;
+}
+
+OstStatus ost_supports_complete(OstSupports *supports)
+{
+    ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
+    OstStatus status = ost_agree(supports->ctx, check_anything_held(supports));
+    if (status == OST_SUCCESS)
+        status = share_with_ghosts(supports);
+    ost_ledger_leave(supports->ctx);
+    return status;
+}
+
+int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double given[3])
+{
+    const OstLocal index = supports->index[node];
+    const OstSupport *support = index < 0 ? NULL : &supports->support[index];
+    const int held = support ? support->held : 0;
+    for (int i = 0; i < 9; i++)
+        projector[i] = i % 4 == 0 && held < 3 ? 1.0 : 0.0;
+    given[0] = given[1] = given[2] = 0.0;
+    for (int k = 0; k < held; k++)
+        for (int i = 0; i < 3; i++) {
+            const double *along = support->direction + 3 * k;
+            given[i] += support->given[k] * along[i];
+            for (int j = 0; j < 3 && held < 3; j++)
+                projector[3 * i + j] -= along[i] * along[j];
+        }
+    return held;
+}

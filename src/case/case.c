@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/case.h"
+
+#include "case/file_bytes.h"
+#include "case/sections.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "orthostat/mesh_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int ost_has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path);
+    const size_t tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text)
+{
+    const char *found;
+    OST_TRY(ost_yaml_text(yaml, node, &found));
+    return ost_copy_string(yaml->ctx, found, text);
+}
+
+OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **path)
+{
+    const char *found;
+    OST_TRY(ost_yaml_text(yaml, node, &found));
+    const char *slash = strrchr(yaml->path, '/');
+    if (found[0] == '/' || !slash)
+        return ost_copy_string(yaml->ctx, found, path);
+    const size_t folder = (size_t)(slash - yaml->path) + 1;
+    OST_TRY(OST_NEW(yaml->ctx, path, folder + strlen(found) + 1));
+    memcpy(*path, yaml->path, folder);
+    strcpy(*path + folder, found);
+    return OST_SUCCESS;
+}
+
+/* Only a .veg file brings materials. */
+static OstStatus check_materials(const OstYaml *yaml, const OstCase *c)
+{
+    if (c->material_count > 0 || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
+        return OST_SUCCESS;
+    return ost_yaml_raise(yaml, yaml->node,
+                          "the case has no materials, and its mesh brings none; add materials (region, "
+                          "youngs_modulus, poissons_ratio)");
+}
+
+static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
+{
+    int massive = c->material_count == 0;
+    for (int i = 0; i < c->material_count; i++)
+        massive |= c->materials[i].density > 0.0;
+    if (massive || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
+        return OST_SUCCESS;
+    for (int i = 0; i < c->load_count; i++)
+        if (c->loads[i].kind == OST_LOAD_GRAVITY)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: gravity pulls on mass, but no material has a density; add one, or state the force "
+                             "per volume as body_force",
+                             yaml->path, c->loads[i].line);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
+{
+    enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, EFFECTS, ACCURACY, SOLVER, OUTPUT, SECTIONS };
+    OstYamlKey keys[SECTIONS] = {
+        [TITLE] = {"title", OST_OPTIONAL, NULL},
+        [MESH] = {"mesh", OST_NEEDED, NULL},
+        [ELEMENT] = {"element", OST_OPTIONAL, NULL},
+        [MATERIALS] = {"materials", OST_OPTIONAL, NULL},
+        [CONSTRAINTS] = {"constraints", OST_OPTIONAL, NULL},
+        [LOADS] = {"loads", OST_OPTIONAL, NULL},
+        [EFFECTS] = {"effects", OST_OPTIONAL, NULL},
+        [ACCURACY] = {"accuracy", OST_OPTIONAL, NULL},
+        [SOLVER] = {"solver", OST_OPTIONAL, NULL},
+        [OUTPUT] = {"output", OST_OPTIONAL, NULL},
+    };
+    OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
+        [MESH] = ost_read_mesh,         [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
+        [LOADS] = ost_read_loads,       [CONSTRAINTS] = ost_read_constraints, [EFFECTS] = ost_read_effects,
+        [ACCURACY] = ost_read_accuracy, [SOLVER] = ost_read_solver,           [OUTPUT] = ost_read_output,
+    };
+    OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
+    if (keys[TITLE].value)
+        OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
+    else
+        OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
+    for (int s = MESH; s < SECTIONS; s++)
+        if (keys[s].value)
+            OST_TRY(read[s](yaml, keys[s].value, c));
+    OST_TRY(check_materials(yaml, c));
+    return check_gravity(yaml, c);
+}
+
+static OstStatus read_bytes(OstCase *c, const char *bytes, size_t size)
+{
+    OstYaml *yaml = NULL;
+    OST_TRY(ost_yaml_parse(c->ctx, c->path, bytes, size, &yaml));
+    const OstStatus status = read_sections(yaml, c);
+    ost_yaml_destroy(&yaml);
+    return status;
+}
+
+/* Ranges of a file may overlap. */
+static void keep_distinct(OstSelection *selection)
+{
+    OstGlobal kept = 0;
+    ost_sort_labels(selection->vertex_count, selection->vertices);
+    for (OstGlobal i = 0; i < selection->vertex_count; i++)
+        if (i == 0 || selection->vertices[i] != selection->vertices[kept - 1])
+            selection->vertices[kept++] = selection->vertices[i];
+    selection->vertex_count = kept;
+}
+
+static OstStatus read_vertex_file(OstCase *c, OstSelection *selection)
+{
+    if (!selection->vertices_file)
+        return OST_SUCCESS;
+    const OstStatus status =
+        ost_vertex_list_read(c->ctx, selection->vertices_file, &selection->vertex_count, &selection->vertices);
+    if (status == OST_SUCCESS) {
+        keep_distinct(selection);
+        return OST_SUCCESS;
+    }
+    char *text = NULL;
+    OST_TRY(ost_copy_string(c->ctx, ost_error_text(c->ctx), &text));
+    OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, selection->line, text);
+    OST_FREE(text);
+    return status;
+}
+
+static OstStatus read_vertex_files(OstCase *c)
+{
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(read_vertex_file(c, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(read_vertex_file(c, &c->loads[i].on));
+    return OST_SUCCESS;
+}
+
+static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
+{
+    OST_TRY(OST_NEW(ctx, c, 1));
+    (*c)->ctx = ctx;
+    (*c)->order = 1;
+    (*c)->solver = ost_solver_default_options();
+    (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
+    return ost_copy_string(ctx, path, &(*c)->path);
+}
+
+OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out)
+{
+    OstCase *made = NULL;
+    char *bytes = NULL;
+    size_t size = 0;
+    *out = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_CASE);
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, create_empty(ctx, path, &made)));
+    OST_TRY_DONE(ost_read_file_bytes(ctx, path, OST_YAML_MAX_BYTES, &bytes, &size));
+    OST_TRY_DONE(ost_agree(ctx, read_bytes(made, bytes, size)));
+    OST_FREE(bytes);
+    OST_TRY_DONE(read_vertex_files(made));
+done:
+    OST_FREE(bytes);
+    if (status != OST_SUCCESS)
+        ost_case_destroy(&made);
+    *out = made;
+    ost_ledger_leave(ctx);
+    return status;
+}
+
+void ost_case_destroy(OstCase **c)
+{
+    if (!*c)
+        return;
+    for (int i = 0; i < (*c)->material_count; i++) {
+        OST_FREE((*c)->materials[i].region);
+        ost_axes_spec_release(&(*c)->materials[i].axes);
+    }
+    for (int i = 0; i < (*c)->constraint_count; i++)
+        ost_selection_release(&(*c)->constraints[i].on);
+    for (int i = 0; i < (*c)->load_count; i++) {
+        ost_selection_release(&(*c)->loads[i].on);
+        OST_FREE((*c)->loads[i].region);
+    }
+    OST_FREE((*c)->materials);
+    OST_FREE((*c)->constraints);
+    OST_FREE((*c)->loads);
+    OST_FREE((*c)->path);
+    OST_FREE((*c)->title);
+    OST_FREE((*c)->mesh_file);
+    OST_FREE((*c)->output_file);
+    OST_FREE(*c);
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/plan_parts.h"
+
+#include <math.h>
+
+/* What each part holds, in bytes; the fields are those of mesh.h, block_matrix.h, system.h and result.h. */
+static const double mesh_node_bytes = 24.0 + 8.0 + 8.0;      /* coordinates, number, label */
+static const double mesh_tet_bytes = 16.0 + 8.0 + 8.0 + 4.0; /* nodes, label, index, region */
+static const double tet_axes_bytes = 72.0;                   /* where axes vary */
+static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
+static const double row_bytes = 4.0 + 4.0 + 4.0 + 4.0;       /* start, diagonal, and both maps of nodes and rows */
+static const double scatter_bytes = 16.0 * 4.0;              /* where the 16 blocks of a tet go */
+static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
+
+/* Times the matrix: level 0 in float blocks, the smoother's factors, and a hierarchy of half the matrix' size. */
+static const double metric_copies = 5.0;
+static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
+
+/* MUMPS on tubes: 505 MB at 74,340 unknowns, 6.8 GB at 556,920; in between a power law. */
+static const double direct_bytes = 505e6, direct_unknowns = 74340.0, direct_power = 1.29;
+
+/* Nodes and tets that ranks hold beside their own: a layer of nodes around each part. A part of n nodes has about
+ * 6 n^(2/3) of them on its faces; half of the faces, in the middle of cuts, meet another part. */
+static double halo_factor(double nodes, int ranks)
+{
+    if (ranks <= 1 || nodes <= 0.0)
+        return 1.0;
+    return 1.0 + fmin(3.0 * cbrt((double)ranks / nodes), (double)ranks - 1.0);
+}
+
+/* Blocks of K: the diagonal and two for each edge. By Euler's formula a mesh of V vertices, T tets and B faces on its
+ * surface has V + T + B/2 edges (less a number that is small); B is about 12 V^(2/3) for a compact body. */
+static double matrix_blocks(double nodes, double tets)
+{
+    return 3.0 * nodes + 2.0 * tets + 12.0 * pow(nodes, 2.0 / 3.0);
+}
+
+static double solver_bytes(const OstPlan *plan, double matrix_bytes)
+{
+    const double vector_bytes = vectors * 24.0 * (double)plan->nodes;
+    switch (plan->recipe) {
+    case OST_RECIPE_DIRECT:
+        return vector_bytes + direct_bytes * pow((double)plan->unknowns / direct_unknowns, direct_power);
+    case OST_RECIPE_PLAIN:
+        return vector_bytes + plain_copies * matrix_bytes;
+    default:
+        return vector_bytes + metric_copies * matrix_bytes;
+    }
+}
+
+static int has_field(const OstCase *c, OstOutputFieldBit field)
+{
+    return (c->output_fields >> field & 1U) != 0;
+}
+
+/* Points, cells and fields as the file holds them. */
+static double output_bytes(const OstCase *c, const OstPlan *plan)
+{
+    const double node = 24.0 + 24.0 * has_field(c, OST_FIELD_DISPLACEMENT) + 24.0 * has_field(c, OST_FIELD_REACTION);
+    const double tet = 32.0 + 8.0 + 1.0 + 48.0 * has_field(c, OST_FIELD_STRESS) +
+                       48.0 * has_field(c, OST_FIELD_STRAIN) + 8.0 * has_field(c, OST_FIELD_ENERGY) +
+                       72.0 * has_field(c, OST_FIELD_AXES) + 4.0 * has_field(c, OST_FIELD_REGION) +
+                       4.0 * has_field(c, OST_FIELD_RANK);
+    return node * (double)plan->nodes + tet * (double)plan->tets;
+}
+
+void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
+{
+    const double nodes = (double)plan->nodes;
+    const double tets = (double)plan->tets;
+    const double halo = halo_factor(nodes, ranks);
+    const double axes = plan->effect[OST_PLAN_VARYING_AXES].on ? tet_axes_bytes : 0.0;
+    const double value_bytes = matrix_blocks(nodes, tets) * block_bytes;
+    plan->bytes_mesh = halo * (nodes * mesh_node_bytes + tets * (mesh_tet_bytes + axes));
+    plan->bytes_matrix = value_bytes + nodes * row_bytes + halo * tets * scatter_bytes;
+    plan->bytes_solver = solver_bytes(plan, value_bytes);
+    plan->bytes_output = output_bytes(c, plan);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/sections.h"
+#include "case/yaml_message.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+/* Three components, each a number or the word free. */
+static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+{
+    static const char expected[] = "a list of three, each a number or the word free";
+    int count;
+    OST_TRY(ost_yaml_list(yaml, node, expected, &count));
+    if (count != 3)
+        return ost_yaml_raise_type(yaml, node, expected, "");
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item)) {
+        const char *text = "";
+        if (ost_yaml_is(yaml, item, OST_YAML_SCALAR))
+            OST_TRY(ost_yaml_text(yaml, item, &text));
+        constraint->held[i] = strcmp(text, "free") != 0;
+        if (constraint->held[i])
+            OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
+    }
+    if (!constraint->held[0] && !constraint->held[1] && !constraint->held[2])
+        return ost_yaml_raise(yaml, node, "every component is free, so this constraint holds nothing; leave it out");
+    return OST_SUCCESS;
+}
+
+static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+{
+    enum { KINDS = 2, ON = KINDS };
+    OstYamlKey keys[] = {
+        [OST_CONSTRAIN_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
+        [OST_CONSTRAIN_SLIDE] = {"slide", OST_OPTIONAL, NULL},
+        [ON] = {"on", OST_NEEDED, NULL},
+    };
+    int kind;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, KINDS, &kind));
+    constraint->kind = (OstConstraintKind)kind;
+    constraint->line = ost_yaml_line(node);
+    OST_TRY(ost_read_selection(yaml, keys[ON].value, &constraint->on));
+    return constraint->kind == OST_CONSTRAIN_SLIDE ? ost_yaml_direction(yaml, keys[kind].value, constraint->normal)
+                                                   : read_displacement(yaml, keys[kind].value, constraint);
+}
+
+OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    int count;
+    OST_TRY(ost_yaml_short_list(yaml, node, "a list of constraints (- {on: ..., displacement: ...})", &count));
+    OST_TRY(OST_NEW(yaml->ctx, &c->constraints, count));
+    c->constraint_count = count;
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(read_constraint(yaml, item, &c->constraints[i]));
+    return OST_SUCCESS;
+}
+
+enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, LOAD_KEYS };
+
+static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+{
+    static const char *const words[] = {"faces", "vertices"};
+    int word;
+    OST_TRY(ost_yaml_word(yaml, node, "share", words, 2, &word));
+    load->share = word == 0 ? OST_SHARE_FACES : OST_SHARE_VERTICES;
+    return OST_SUCCESS;
+}
+
+/* What the kind of load does not know of. */
+static OstStatus refuse_strangers(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
+{
+    const int on_volume = kind == OST_LOAD_GRAVITY || kind == OST_LOAD_BODY_FORCE;
+    if (on_volume && keys[ON].value)
+        return ost_yaml_raise(yaml, keys[ON].value,
+                              "'%s' acts in the volume and has no 'on'; 'region: NAME' restricts it", keys[kind].name);
+    if (!on_volume && !keys[ON].value)
+        return ost_yaml_raise(yaml, node, "'%s' needs 'on': where it acts", keys[kind].name);
+    if (!on_volume && keys[REGION].value)
+        return ost_yaml_raise(yaml, keys[REGION].value,
+                              "'region' belongs to gravity and body_force; '%s' acts where 'on' "
+                              "says",
+                              keys[kind].name);
+    if (kind != OST_LOAD_TOTAL_FORCE && keys[SHARE].value)
+        return ost_yaml_raise(yaml, keys[SHARE].value, "'share' belongs to total_force, not to '%s'", keys[kind].name);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+{
+    OstYamlKey keys[LOAD_KEYS] = {
+        [OST_LOAD_TOTAL_FORCE] = {"total_force", OST_OPTIONAL, NULL},
+        [OST_LOAD_POINT_FORCE] = {"point_force", OST_OPTIONAL, NULL},
+        [OST_LOAD_TRACTION] = {"traction", OST_OPTIONAL, NULL},
+        [OST_LOAD_PRESSURE] = {"pressure", OST_OPTIONAL, NULL},
+        [OST_LOAD_GRAVITY] = {"gravity", OST_OPTIONAL, NULL},
+        [OST_LOAD_BODY_FORCE] = {"body_force", OST_OPTIONAL, NULL},
+        [ON] = {"on", OST_OPTIONAL, NULL},
+        [SHARE] = {"share", OST_OPTIONAL, NULL},
+        [REGION] = {"region", OST_OPTIONAL, NULL},
+    };
+    int kind;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, LOAD_KEYS));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, LOAD_KINDS, &kind));
+    OST_TRY(refuse_strangers(yaml, node, keys, kind));
+    load->kind = (OstLoadKind)kind;
+    load->line = ost_yaml_line(node);
+    if (keys[ON].value)
+        OST_TRY(ost_read_selection(yaml, keys[ON].value, &load->on));
+    if (keys[ON].value && (load->on.kind == OST_SELECT_VERTICES || load->on.kind == OST_SELECT_NEAREST))
+        load->share = OST_SHARE_VERTICES;
+    if (keys[SHARE].value)
+        OST_TRY(read_share(yaml, keys[SHARE].value, load));
+    if (keys[REGION].value)
+        OST_TRY(ost_read_string(yaml, keys[REGION].value, &load->region));
+    if (load->region && strcmp(load->region, "all") == 0)
+        OST_FREE(load->region);
+    if (load->kind == OST_LOAD_PRESSURE)
+        return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
+    return ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
+}
+
+OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    int count;
+    OST_TRY(ost_yaml_short_list(yaml, node, "a list of loads (- {on: ..., total_force: ...})", &count));
+    OST_TRY(OST_NEW(yaml->ctx, &c->loads, count));
+    c->load_count = count;
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(read_load(yaml, item, &c->loads[i]));
+    return OST_SUCCESS;
+}

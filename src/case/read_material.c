@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/sections.h"
+#include "case/yaml_message.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef enum { YOUNGS_NUMBER, YOUNGS_THREE, YOUNGS_PLANE } YoungsForm;
+typedef enum { POISSONS_NUMBER, POISSONS_NAMED, POISSONS_PLANE } PoissonsForm;
+typedef enum { SHEAR_RULE, SHEAR_NAMED, SHEAR_AXIS } ShearForm;
+
+/* The constants as the file states them, before they are nine. */
+typedef struct Stated {
+    YoungsForm youngs_form;
+    PoissonsForm poissons_form;
+    ShearForm shear_form;
+    double youngs[3];
+    double nu;       /* NUMBER; PLANE: in the plane */
+    double nu_axis;  /* PLANE: from the plane to the axis, or NAN */
+    double named[6]; /* NAMED: 12 21 23 32 31 13, or NAN */
+    OstShearRule rule;
+    int rule_given;
+    double shear[3]; /* NAMED: 12 23 31, or NAN */
+    double g_axis;   /* AXIS */
+} Stated;
+
+static OstStatus read_youngs(const OstYaml *yaml, const OstYamlNode *node, Stated *stated)
+{
+    if (ost_yaml_is(yaml, node, OST_YAML_SEQUENCE)) {
+        stated->youngs_form = YOUNGS_THREE;
+        return ost_yaml_positives(yaml, node, 3, stated->youngs);
+    }
+    if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
+        OstYamlKey keys[] = {{"plane", OST_NEEDED, NULL}, {"axis", OST_NEEDED, NULL}};
+        stated->youngs_form = YOUNGS_PLANE;
+        OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+        OST_TRY(ost_yaml_positive(yaml, keys[0].value, &stated->youngs[0]));
+        stated->youngs[1] = stated->youngs[0];
+        return ost_yaml_positive(yaml, keys[1].value, &stated->youngs[2]);
+    }
+    stated->youngs_form = YOUNGS_NUMBER;
+    OST_TRY(ost_yaml_positive(yaml, node, &stated->youngs[0]));
+    stated->youngs[1] = stated->youngs[2] = stated->youngs[0];
+    return OST_SUCCESS;
+}
+
+static OstStatus read_poissons(const OstYaml *yaml, const OstYamlNode *node, Stated *stated)
+{
+    enum { NAMED = 6, PLANE = 6, PLANE_AXIS = 7 };
+    OstYamlKey keys[] = {
+        {"nu12", OST_OPTIONAL, NULL},
+        {"nu21", OST_OPTIONAL, NULL},
+        {"nu23", OST_OPTIONAL, NULL},
+        {"nu32", OST_OPTIONAL, NULL},
+        {"nu31", OST_OPTIONAL, NULL},
+        {"nu13", OST_OPTIONAL, NULL},
+        [PLANE] = {"plane", OST_OPTIONAL, NULL},
+        [PLANE_AXIS] = {"plane_axis", OST_OPTIONAL, NULL},
+    };
+    stated->poissons_form = POISSONS_NUMBER;
+    if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
+        return ost_yaml_number(yaml, node, &stated->nu);
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    int named = 0;
+    for (int k = 0; k < NAMED; k++) {
+        stated->named[k] = NAN;
+        named += keys[k].value != NULL;
+        if (keys[k].value)
+            OST_TRY(ost_yaml_number(yaml, keys[k].value, &stated->named[k]));
+    }
+    stated->poissons_form = named > 0 ? POISSONS_NAMED : POISSONS_PLANE;
+    if (named > 0 && !keys[PLANE].value && !keys[PLANE_AXIS].value)
+        return OST_SUCCESS;
+    if (named > 0 || !keys[PLANE].value)
+        return ost_yaml_raise(yaml, node,
+                              "expected either one each of nu12|nu21, nu23|nu32 and nu31|nu13, or plane and "
+                              "perhaps plane_axis");
+    if (keys[PLANE_AXIS].value)
+        OST_TRY(ost_yaml_number(yaml, keys[PLANE_AXIS].value, &stated->nu_axis));
+    return ost_yaml_number(yaml, keys[PLANE].value, &stated->nu);
+}
+
+static OstStatus read_shear(const OstYaml *yaml, const OstYamlNode *node, Stated *stated)
+{
+    static const char *const rules[] = {
+        [OST_SHEAR_GEOMETRIC] = "geometric",
+        [OST_SHEAR_ARITHMETIC] = "arithmetic",
+        [OST_SHEAR_MIN] = "min",
+        [OST_SHEAR_MAX] = "max",
+    };
+    enum { NAMED = 6, AXIS = 6 };
+    OstYamlKey keys[] = {
+        {"G12", OST_OPTIONAL, NULL},           {"G21", OST_OPTIONAL, NULL}, {"G23", OST_OPTIONAL, NULL},
+        {"G32", OST_OPTIONAL, NULL},           {"G31", OST_OPTIONAL, NULL}, {"G13", OST_OPTIONAL, NULL},
+        [AXIS] = {"axis", OST_OPTIONAL, NULL},
+    };
+    if (ost_yaml_is(yaml, node, OST_YAML_SCALAR)) {
+        int rule;
+        OST_TRY(ost_yaml_word(yaml, node, "shear rule", rules, OST_COUNT_OF(rules), &rule));
+        stated->rule = (OstShearRule)rule;
+        stated->rule_given = 1;
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    int named = 0;
+    for (int k = 0; k < NAMED; k++) {
+        named += keys[k].value != NULL;
+        if (keys[k].value && keys[k ^ 1].value)
+            return ost_yaml_raise(yaml, keys[k ^ 1].value, "'%s' and '%s' are the same modulus; give one of them",
+                                  keys[k].name, keys[k ^ 1].name);
+        if (keys[k].value)
+            OST_TRY(ost_yaml_positive(yaml, keys[k].value, &stated->shear[k / 2]));
+    }
+    stated->shear_form = keys[AXIS].value ? SHEAR_AXIS : SHEAR_NAMED;
+    if (keys[AXIS].value ? named == 0 : named == 3)
+        return keys[AXIS].value ? ost_yaml_positive(yaml, keys[AXIS].value, &stated->g_axis) : OST_SUCCESS;
+    return ost_yaml_raise(yaml, node, "expected either G12, G23 and G31 (or G13), or axis alone");
+}
+
+/* Young's moduli of plane and axis; nu one number, or of plane and axis; shear by a rule, or of the axis. */
+static OstStatus resolve_transverse(const OstYaml *yaml, const OstYamlNode *node, const Stated *stated,
+                                    OstOrthotropic *constants)
+{
+    double g_axis = stated->shear_form == SHEAR_AXIS ? stated->g_axis : NAN;
+    if (stated->poissons_form == POISSONS_NAMED)
+        return ost_yaml_raise(yaml, node,
+                              "with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, "
+                              "plane_axis}; for nu12, nu23, nu31 give youngs_modulus as [E1, E2, E3]");
+    if (stated->shear_form == SHEAR_NAMED)
+        return ost_yaml_raise(yaml, node,
+                              "with youngs_modulus {plane, axis}, shear_modulus is a rule or {axis: G}; the "
+                              "plane's follows from its modulus and ratio");
+    if (stated->rule_given) {
+        double shear[3];
+        ost_orthotropic_shear(stated->youngs, stated->nu, stated->rule, shear);
+        g_axis = shear[1];
+    }
+    *constants = ost_orthotropic_transverse(stated->youngs[0], stated->youngs[2], stated->nu, stated->nu_axis, g_axis);
+    return OST_SUCCESS;
+}
+
+static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node, const char *what, const Stated *stated,
+                                   OstOrthotropic *constants)
+{
+    if (stated->youngs_form == YOUNGS_PLANE)
+        return resolve_transverse(yaml, node, stated, constants);
+    if (stated->poissons_form == POISSONS_PLANE)
+        return ost_yaml_raise(yaml, node, "poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
+    if (stated->shear_form == SHEAR_AXIS)
+        return ost_yaml_raise(yaml, node, "shear_modulus {axis} wants youngs_modulus {plane, axis}");
+    if (stated->poissons_form == POISSONS_NAMED && stated->shear_form != SHEAR_NAMED)
+        return ost_yaml_raise(yaml, node,
+                              "nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; the shear rules belong "
+                              "to the stable family, which is stated by one number as poissons_ratio");
+    if (stated->poissons_form == POISSONS_NAMED)
+        return ost_yaml_located(
+            yaml, node,
+            ost_orthotropic_named(yaml->ctx, what, stated->youngs, stated->named, stated->shear, constants));
+    *constants = ost_orthotropic_family(stated->youngs, stated->nu, stated->rule);
+    if (stated->youngs_form == YOUNGS_NUMBER && stated->shear_form != SHEAR_NAMED)
+        *constants = ost_orthotropic_isotropic(stated->youngs[0], stated->nu);
+    if (stated->shear_form == SHEAR_NAMED)
+        memcpy(constants->shear_modulus, stated->shear, sizeof stated->shear);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_density(const OstYaml *yaml, const OstYamlNode *node, double *density)
+{
+    OST_TRY(ost_yaml_number(yaml, node, density));
+    return *density >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a density, 0 or above", "");
+}
+
+static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+{
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES };
+    OstYamlKey keys[] = {
+        [REGION] = {"region", OST_NEEDED, NULL},           [YOUNGS] = {"youngs_modulus", OST_NEEDED, NULL},
+        [POISSONS] = {"poissons_ratio", OST_NEEDED, NULL}, [SHEAR] = {"shear_modulus", OST_OPTIONAL, NULL},
+        [DENSITY] = {"density", OST_OPTIONAL, NULL},       [AXES] = {"axes", OST_OPTIONAL, NULL},
+    };
+    Stated stated = {.nu_axis = NAN};
+    OstMaterial checked;
+    char what[128];
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_read_string(yaml, keys[REGION].value, &material->region));
+    material->line = ost_yaml_line(node);
+    snprintf(what, sizeof what, "region '%.80s'", material->region);
+    OST_TRY(read_youngs(yaml, keys[YOUNGS].value, &stated));
+    OST_TRY(read_poissons(yaml, keys[POISSONS].value, &stated));
+    if (keys[SHEAR].value)
+        OST_TRY(read_shear(yaml, keys[SHEAR].value, &stated));
+    if (keys[DENSITY].value)
+        OST_TRY(read_density(yaml, keys[DENSITY].value, &material->density));
+    OST_TRY(resolve_constants(yaml, keys[POISSONS].value, what, &stated, &material->constants));
+    OST_TRY(ost_yaml_located(
+        yaml, keys[POISSONS].value,
+        ost_material_create(yaml->ctx, material->region, &material->constants, material->density, &checked)));
+    return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
+}
+
+OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    int count;
+    OST_TRY(ost_yaml_short_list(yaml, node, "a list of materials (- region: all ...)", &count));
+    OST_TRY(OST_NEW(yaml->ctx, &c->materials, count));
+    c->material_count = count;
+    for (int i = 0; i < count; i++)
+        c->materials[i].axes = (OstAxesSpec){
+            .fixed = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .axis = {0, 0, 1}, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(read_material(yaml, item, &c->materials[i]));
+    return OST_SUCCESS;
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/sections.h"
+#include "case/yaml_message.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static OstStatus read_all(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    const char *text;
+    (void)selection;
+    OST_TRY(ost_yaml_text(yaml, node, &text));
+    return strcmp(text, "true") == 0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "true", "");
+}
+
+static OstStatus read_boundary(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    OstNames *names = &selection->boundaries;
+    int count = 1;
+    const int one = ost_yaml_is(yaml, node, OST_YAML_SCALAR);
+    if (!one)
+        OST_TRY(ost_yaml_short_list(yaml, node, "a boundary's name or a list of names", &count));
+    if (count == 0)
+        return ost_yaml_raise(yaml, node, "found an empty list, expected the names of boundaries");
+    OST_TRY(OST_NEW(yaml->ctx, &names->name, count));
+    names->count = count;
+    const OstYamlNode *item = one ? node : ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(ost_read_string(yaml, item, &names->name[i]));
+    return OST_SUCCESS;
+}
+
+static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlKey *key, OstSelection *selection)
+{
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, key->value, &selection->tolerance));
+    return selection->tolerance >= 0.0 ? OST_SUCCESS
+                                       : ost_yaml_raise_type(yaml, key->value, "a distance, 0 or above", "");
+}
+
+static OstStatus read_plane(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    enum { POINT, NORMAL, TOLERANCE };
+    OstYamlKey keys[] = {
+        [POINT] = {"point", OST_NEEDED, NULL},
+        [NORMAL] = {"normal", OST_NEEDED, NULL},
+        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_numbers(yaml, keys[POINT].value, 3, selection->point));
+    OST_TRY(ost_yaml_direction(yaml, keys[NORMAL].value, selection->direction));
+    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+}
+
+static OstStatus read_box(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    enum { MIN, MAX, TOLERANCE };
+    OstYamlKey keys[] = {
+        [MIN] = {"min", OST_NEEDED, NULL},
+        [MAX] = {"max", OST_NEEDED, NULL},
+        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_numbers(yaml, keys[MIN].value, 3, selection->point));
+    OST_TRY(ost_yaml_numbers(yaml, keys[MAX].value, 3, selection->direction));
+    for (int i = 0; i < 3; i++)
+        if (selection->point[i] > selection->direction[i])
+            return ost_yaml_raise(yaml, keys[MIN].value, "min is above max along %c (%g > %g); exchange them", "xyz"[i],
+                                  selection -> point[i], selection -> direction[i]);
+    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+}
+
+static OstStatus read_sphere(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    enum { CENTER, RADIUS, TOLERANCE };
+    OstYamlKey keys[] = {
+        [CENTER] = {"center", OST_NEEDED, NULL},
+        [RADIUS] = {"radius", OST_NEEDED, NULL},
+        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_numbers(yaml, keys[CENTER].value, 3, selection->point));
+    OST_TRY(ost_yaml_positive(yaml, keys[RADIUS].value, &selection->radii[1]));
+    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+}
+
+static OstStatus read_cylinder(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    enum { RADIUS, RADII, ORIGIN, AXIS, TOLERANCE };
+    OstYamlKey keys[] = {
+        [RADIUS] = {"radius", OST_OPTIONAL, NULL},       [RADII] = {"radii", OST_OPTIONAL, NULL},
+        [ORIGIN] = {"origin", OST_NEEDED, NULL},         [AXIS] = {"axis", OST_NEEDED, NULL},
+        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+    };
+    int which;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, 2, &which));
+    OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, selection->point));
+    OST_TRY(ost_yaml_direction(yaml, keys[AXIS].value, selection->direction));
+    OST_TRY(read_tolerance(yaml, &keys[TOLERANCE], selection));
+    if (which == RADIUS)
+        return ost_yaml_positive(yaml, keys[RADIUS].value, &selection->radii[1]);
+    OST_TRY(ost_yaml_numbers(yaml, keys[RADII].value, 2, selection->radii));
+    if (!(selection->radii[0] >= 0.0 && selection->radii[0] <= selection->radii[1]))
+        return ost_yaml_raise(yaml, keys[RADII].value,
+                              "found radii %g and %g, expected the inner one first and smaller", selection->radii[0],
+                              selection->radii[1]);
+    return OST_SUCCESS;
+}
+
+static int compare_labels(const void *a, const void *b)
+{
+    const OstGlobal x = *(const OstGlobal *)a;
+    const OstGlobal y = *(const OstGlobal *)b;
+    return (x > y) - (x < y);
+}
+
+void ost_sort_labels(OstGlobal count, OstGlobal *labels)
+{
+    qsort(labels, (size_t)count, sizeof *labels, compare_labels);
+}
+
+static OstStatus read_vertices(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    int count;
+    if (ost_yaml_is(yaml, node, OST_YAML_SCALAR)) {
+        OST_TRY(ost_read_path(yaml, node, &selection->vertices_file));
+        return ost_has_ending(selection->vertices_file, ".bou")
+                   ? OST_SUCCESS
+                   : ost_yaml_raise_type(yaml, node, "a list of vertex labels, or the name of a .bou file", "");
+    }
+    OST_TRY(ost_yaml_list(yaml, node, "a list of vertex labels, or the name of a .bou file", &count));
+    if (count == 0)
+        return ost_yaml_raise(yaml, node, "found an empty list, expected vertex labels");
+    OST_TRY(OST_NEW(yaml->ctx, &selection->vertices, count));
+    selection->vertex_count = count;
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(ost_yaml_integer(yaml, item, 0, INT64_C(999999999999999999), &selection->vertices[i]));
+    ost_sort_labels(count, selection->vertices);
+    for (int i = 1; i < count; i++)
+        if (selection->vertices[i] == selection->vertices[i - 1])
+            return ost_yaml_raise(yaml, node, "vertex %lld stands twice in the list",
+                                  (long long)selection->vertices[i]);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_nearest(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    return ost_yaml_numbers(yaml, node, 3, selection->point);
+}
+
+OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
+{
+    static const struct {
+        OstSelectionKind kind;
+        const char *word;
+        OstStatus (*read)(const OstYaml *, const OstYamlNode *, OstSelection *);
+    } forms[] = {
+        {OST_SELECT_BOUNDARY, "boundary", read_boundary},
+        {OST_SELECT_PLANE, "plane", read_plane},
+        {OST_SELECT_BOX, "box", read_box},
+        {OST_SELECT_SPHERE, "sphere", read_sphere},
+        {OST_SELECT_CYLINDER, "cylinder", read_cylinder},
+        {OST_SELECT_VERTICES, "vertices", read_vertices},
+        {OST_SELECT_NEAREST, "nearest", read_nearest},
+        {OST_SELECT_ALL, "all", read_all},
+    };
+    enum { FORMS = sizeof forms / sizeof *forms };
+    OstYamlKey keys[FORMS] = {{NULL, OST_OPTIONAL, NULL}};
+    int form;
+    for (int f = 0; f < FORMS; f++)
+        keys[f].name = forms[f].word;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, FORMS));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
+    selection->kind = forms[form].kind;
+    selection->line = ost_yaml_line(node);
+    selection->tolerance = -1.0;
+    return forms[form].read(yaml, keys[form].value, selection);
+}
+
+void ost_selection_release(OstSelection *selection)
+{
+    for (int i = 0; selection->boundaries.name && i < selection->boundaries.count; i++)
+        OST_FREE(selection->boundaries.name[i]);
+    OST_FREE(selection->boundaries.name);
+    OST_FREE(selection->vertices);
+    OST_FREE(selection->vertices_file);
+}

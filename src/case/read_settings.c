@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/sections.h"
+#include "case/yaml_message.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    OstYamlKey keys[] = {{"order", OST_OPTIONAL, NULL}};
+    int64_t order = 1;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
+    if (keys[0].value)
+        OST_TRY(ost_yaml_integer(yaml, keys[0].value, 1, 2, &order));
+    if (order == 2)
+        return ost_yaml_raise(yaml, keys[0].value, "order 2 is not available in this version; 1 is");
+    c->order = (int)order;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {"auto", "off", "on"};
+    OstYamlKey keys[] = {{"large_rotation", OST_OPTIONAL, NULL}};
+    int word = 0;
+    (void)c;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
+    if (keys[0].value)
+        OST_TRY(ost_yaml_word(yaml, keys[0].value, "setting", words, 3, &word));
+    if (word == 2)
+        return ost_yaml_raise(yaml, keys[0].value,
+                              "large_rotation: on is not part of this version; auto and off take rotations as small");
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    OstYamlKey keys[] = {{"relative_residual", OST_OPTIONAL, NULL}};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
+    if (!keys[0].value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, keys[0].value, &c->solver.relative_residual));
+    if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual < 1.0))
+        return ost_yaml_raise_type(yaml, keys[0].value, "a number from 1e-15 to below 1", "");
+    return OST_SUCCESS;
+}
+
+/* A number of nodes, 1 or more. */
+static OstStatus read_nodes(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
+{
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, key->value, nodes));
+    return *nodes >= 1.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number of nodes, 1 or above", "");
+}
+
+static OstStatus read_count(const OstYaml *yaml, const OstYamlKey *key, int64_t high, int *count)
+{
+    int64_t number;
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_integer(yaml, key->value, 1, high, &number));
+    *count = (int)number;
+    return OST_SUCCESS;
+}
+
+static OstStatus read_recipe(const OstYaml *yaml, const OstYamlKey *key, OstRecipe *recipe)
+{
+    static const char *const words[] = {
+        [OST_RECIPE_AUTO] = "auto",
+        [OST_RECIPE_PLAIN] = "plain",
+        [OST_RECIPE_METRIC] = "metric",
+        [OST_RECIPE_DIRECT] = "direct",
+    };
+    int which;
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_word(yaml, key->value, "recipe", words, OST_COUNT_OF(words), &which));
+    *recipe = (OstRecipe)which;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    enum { RECIPE, ITERATIONS, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST };
+    OstYamlKey keys[] = {
+        [RECIPE] = {"recipe", OST_OPTIONAL, NULL},
+        [ITERATIONS] = {"max_iterations", OST_OPTIONAL, NULL},
+        [AGGREGATE] = {"aggregate_nodes", OST_OPTIONAL, NULL},
+        [COARSE] = {"coarse_aggregate_nodes", OST_OPTIONAL, NULL},
+        [BLOCK] = {"smoother_block_nodes", OST_OPTIONAL, NULL},
+        [DEGREE] = {"smoother_degree", OST_OPTIONAL, NULL},
+        [RATIO] = {"smoother_ratio", OST_OPTIONAL, NULL},
+        [COARSEST] = {"coarsest_unknowns", OST_OPTIONAL, NULL},
+    };
+    OstSolverOptions *solver = &c->solver;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(read_recipe(yaml, &keys[RECIPE], &solver->recipe));
+    OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
+    OST_TRY(read_nodes(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));
+    OST_TRY(read_nodes(yaml, &keys[COARSE], &solver->coarse_aggregate_nodes));
+    OST_TRY(read_nodes(yaml, &keys[BLOCK], &solver->smoother_block_nodes));
+    OST_TRY(read_count(yaml, &keys[DEGREE], 20, &solver->smoother_degree));
+    OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));
+    if (!keys[RATIO].value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, keys[RATIO].value, &solver->smoother_ratio));
+    return solver->smoother_ratio > 1.0 ? OST_SUCCESS
+                                        : ost_yaml_raise_type(yaml, keys[RATIO].value, "a number above 1", "");
+}
+
+static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsigned *fields)
+{
+#define FIELD_WORD(name, word) [name] = word,
+    static const char *const words[OST_FIELD_COUNT] = {OST_OUTPUT_FIELD_TABLE(FIELD_WORD)};
+#undef FIELD_WORD
+    int count;
+    OST_TRY(ost_yaml_short_list(yaml, node, "a list of fields", &count));
+    *fields = 0;
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item)) {
+        int field;
+        OST_TRY(ost_yaml_word(yaml, item, "field", words, OST_FIELD_COUNT, &field));
+        *fields |= 1U << field;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    enum { FILE_NAME, FIELDS };
+    OstYamlKey keys[] = {
+        [FILE_NAME] = {"file", OST_OPTIONAL, NULL},
+        [FIELDS] = {"fields", OST_OPTIONAL, NULL},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[FIELDS].value)
+        OST_TRY(read_fields(yaml, keys[FIELDS].value, &c->output_fields));
+    if (!keys[FILE_NAME].value)
+        return OST_SUCCESS;
+    OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));
+    return ost_has_ending(c->output_file, ".vtkhdf")
+               ? OST_SUCCESS
+               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with .vtkhdf", "");
+}

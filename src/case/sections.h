@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_SECTIONS_H
+#define ORTHOSTAT_CASE_SECTIONS_H
+
+#include "case/yaml_read.h"
+#include "orthostat/case.h"
+
+/* The sections of a case file, each read from its node into the case. All are local; what they allocate belongs to the
+ * case at once, so a failure leaks nothing. */
+OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+
+/* Parts of sections. */
+OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
+OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
+
+/* A text of its own; a path, made relative to the case file's folder. */
+OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text);
+OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **path);
+
+/* Does a file's name end so, in any case of letters? */
+int ost_has_ending(const char *path, const char *ending);
+
+/* Ascending, as a selection keeps its labels. */
+void ost_sort_labels(OstGlobal count, OstGlobal *labels);
+
+void ost_axes_spec_release(OstAxesSpec *axes);
+void ost_selection_release(OstSelection *selection);
+
+#endif

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/select.h"
+
+#include "case/yaml_read.h"
+#include "core/error.h"
+#include "core/halo.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <float.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double relative_tolerance = 1e-6;
+
+OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
+{
+    char message[2048];
+    char line[32] = "";
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    if (selection->line > 0)
+        snprintf(line, sizeof line, ":%d", selection->line);
+    return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s%s: %s", c->path, line, message);
+}
+
+static OstStatus raise_unknown_boundary(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
+                                        const char *name)
+{
+    char list[1024];
+    if (mesh->boundary_count == 0)
+        return ost_select_raise(c, selection,
+                                "there is no boundary '%.80s': the mesh names none; select by plane, box, "
+                                "sphere, cylinder, vertices or nearest",
+                                name);
+    const char *nearest = NULL;
+    const char **names = NULL;
+    OST_TRY(OST_NEW(c->ctx, &names, mesh->boundary_count));
+    for (int b = 0; b < mesh->boundary_count; b++)
+        names[b] = mesh->boundaries[b].name;
+    nearest = ost_nearest_word(name, names, mesh->boundary_count);
+    OST_FREE(names);
+    ost_mesh_list_boundaries(mesh, list, sizeof list);
+    return ost_select_raise(c, selection, "there is no boundary '%.80s'%s%s%s The mesh has: %s", name,
+                            nearest ? "; did you mean '" : ".", nearest ? nearest : "", nearest ? "'?" : "", list);
+}
+
+OstStatus ost_select_check_names(const OstCase *c, const OstMesh *mesh, const OstSelection *selection)
+{
+    for (int n = 0; n < selection->boundaries.count; n++)
+        if (ost_mesh_find_boundary(mesh, selection->boundaries.name[n]) < 0)
+            return raise_unknown_boundary(c, mesh, selection, selection->boundaries.name[n]);
+    return OST_SUCCESS;
+}
+
+int ost_selection_names(const OstSelection *selection, const char *boundary)
+{
+    for (int n = 0; n < selection->boundaries.count; n++)
+        if (strcmp(selection->boundaries.name[n], boundary) == 0)
+            return 1;
+    return 0;
+}
+
+static OstStatus flag_boundaries(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
+                                 unsigned char *flags)
+{
+    OST_TRY(ost_select_check_names(c, mesh, selection));
+    for (int b = 0; b < mesh->boundary_count; b++) {
+        const OstBoundary *boundary = &mesh->boundaries[b];
+        if (!ost_selection_names(selection, boundary->name))
+            continue;
+        const size_t count = (size_t)boundary->count * (size_t)boundary->nodes_per_item;
+        for (size_t i = 0; i < count; i++)
+            flags[boundary->nodes[i]] = 1;
+    }
+    return OST_SUCCESS;
+}
+
+static int in_plane(const OstSelection *selection, const double d[3], double tolerance)
+{
+    return fabs(ost_dot3(d, selection->direction)) <= tolerance;
+}
+
+static int in_box(const OstSelection *selection, const double d[3], double tolerance)
+{
+    for (int i = 0; i < 3; i++)
+        if (d[i] < -tolerance || d[i] > selection->direction[i] - selection->point[i] + tolerance)
+            return 0;
+    return 1;
+}
+
+static int in_sphere(const OstSelection *selection, const double d[3], double tolerance)
+{
+    return ost_norm3(d) <= selection->radii[1] + tolerance;
+}
+
+static int in_cylinder(const OstSelection *selection, const double d[3], double tolerance)
+{
+    double across[3];
+    const double along = ost_dot3(d, selection->direction);
+    for (int i = 0; i < 3; i++)
+        across[i] = d[i] - along * selection->direction[i];
+    const double distance = ost_norm3(across);
+    return distance >= selection->radii[0] - tolerance && distance <= selection->radii[1] + tolerance;
+}
+
+static int everywhere(const OstSelection *selection, const double d[3], double tolerance)
+{
+    (void)selection;
+    (void)d;
+    (void)tolerance;
+    return 1;
+}
+
+/* Shapes in space: is the node at distance d from the shape's point in it? */
+static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
+{
+    int (*inside)(const OstSelection *, const double[3], double) = everywhere;
+    double tolerance = selection->tolerance;
+    if (tolerance < 0.0) {
+        double low[3], high[3];
+        OST_TRY(ost_mesh_bounds(mesh, low, high));
+        const double diagonal[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+        tolerance = relative_tolerance * ost_norm3(diagonal);
+    }
+    if (selection->kind == OST_SELECT_PLANE)
+        inside = in_plane;
+    else if (selection->kind == OST_SELECT_BOX)
+        inside = in_box;
+    else if (selection->kind == OST_SELECT_SPHERE)
+        inside = in_sphere;
+    else if (selection->kind == OST_SELECT_CYLINDER)
+        inside = in_cylinder;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        double d[3];
+        for (int i = 0; i < 3; i++)
+            d[i] = mesh->coordinates[3 * (size_t)n + (size_t)i] - selection->point[i];
+        flags[n] = (unsigned char)inside(selection, d, tolerance);
+    }
+    return OST_SUCCESS;
+}
+
+/* The nearest of all ranks' nodes; among equals, the one with the lowest label. */
+static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
+{
+    OstContext *ctx = mesh->ctx;
+    double mine = DBL_MAX;
+    double nearest = DBL_MAX;
+    OstLocal best = -1;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        const double *x = mesh->coordinates + 3 * (size_t)n;
+        const double d[3] = {x[0] - selection->point[0], x[1] - selection->point[1], x[2] - selection->point[2]};
+        const double distance = ost_norm3(d);
+        if (best < 0 || distance < mine || (distance == mine && mesh->node_label[n] < mesh->node_label[best])) {
+            mine = distance;
+            best = n;
+        }
+    }
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &nearest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
+    const int candidate = best >= 0 && mine == nearest;
+    const OstGlobal label = candidate ? mesh->node_label[best] : INT64_MAX;
+    OstGlobal lowest = 0;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&label, &lowest, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    if (candidate && label == lowest)
+        flags[best] = 1;
+    return OST_SUCCESS;
+}
+
+static int compare_labels(const void *a, const void *b)
+{
+    const OstGlobal x = *(const OstGlobal *)a;
+    const OstGlobal y = *(const OstGlobal *)b;
+    return (x > y) - (x < y);
+}
+
+static OstStatus check_all_found(const OstCase *c, const OstSelection *selection, const unsigned char *found)
+{
+    OstGlobal missing = 0;
+    OstGlobal first = -1;
+    for (OstGlobal i = 0; i < selection->vertex_count; i++) {
+        first = !found[i] && missing == 0 ? i : first;
+        missing += !found[i];
+    }
+    if (missing == 0)
+        return OST_SUCCESS;
+    return ost_select_raise(c, selection, "%lld of %lld listed vertices are not in the mesh, the first is %lld",
+                            (long long)missing, (long long)selection->vertex_count,
+                            (long long)selection->vertices[first]);
+}
+
+static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
+{
+    OstContext *ctx = mesh->ctx;
+    unsigned char *found = NULL;
+    const size_t count = (size_t)selection->vertex_count;
+    OstStatus status = OST_NEW(ctx, &found, count);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        const OstGlobal *at = bsearch(&mesh->node_label[n], selection->vertices, count, sizeof *at, compare_labels);
+        if (!at)
+            continue;
+        flags[n] = 1;
+        found[at - selection->vertices] = 1;
+    }
+    OST_TRY_DONE(
+        OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, found, (int)count, MPI_UNSIGNED_CHAR, MPI_MAX, ost_comm(ctx))));
+    status = check_all_found(c, selection, found);
+done:
+    OST_FREE(found);
+    return status;
+}
+
+OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags)
+{
+    OstContext *ctx = mesh->ctx;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, flags, mesh->node_count)));
+    switch (selection->kind) {
+    case OST_SELECT_BOUNDARY:
+        status = flag_boundaries(c, mesh, selection, *flags);
+        break;
+    case OST_SELECT_VERTICES:
+        status = flag_labels(c, mesh, selection, *flags);
+        break;
+    case OST_SELECT_NEAREST:
+        status = flag_nearest(mesh, selection, *flags);
+        break;
+    default:
+        status = flag_shape(mesh, selection, *flags);
+        break;
+    }
+    OST_TRY_DONE(ost_agree(ctx, status));
+    status = ost_agree(ctx, ost_halo_import(mesh->halo, sizeof **flags, *flags));
+done:
+    if (status != OST_SUCCESS)
+        OST_FREE(*flags);
+    return status;
+}
+
+static OstStatus raise_nothing(const OstCase *c, const OstMesh *mesh, const OstSelection *selection)
+{
+    double low[3], high[3];
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    return ost_select_raise(c, selection,
+                            "the selection holds no vertex; the body reaches from (%g, %g, %g) to (%g, %g, "
+                            "%g)",
+                            low[0], low[1], low[2], high[0], high[1], high[2]);
+}
+
+static OstStatus list_nodes(const OstMesh *mesh, const unsigned char *flags, OstLocal *count, OstLocal **nodes)
+{
+    *count = 0;
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        *count += flags[n];
+    OST_TRY(OST_NEW(mesh->ctx, nodes, *count));
+    for (OstLocal n = 0, k = 0; n < mesh->node_count; n++)
+        if (flags[n])
+            (*nodes)[k++] = n;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
+                           OstLocal **nodes)
+{
+    OstContext *ctx = mesh->ctx;
+    unsigned char *flags = NULL;
+    OstGlobal mine = 0;
+    OstGlobal selected = 0;
+    *count = 0;
+    *nodes = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_SELECTION);
+    OstStatus status = ost_select_flags(c, mesh, selection, &flags);
+    if (status != OST_SUCCESS)
+        goto done;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        mine += flags[n];
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&mine, &selected, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    if (selected == 0)
+        OST_TRY_DONE(raise_nothing(c, mesh, selection));
+    OST_TRY_DONE(ost_agree(ctx, list_nodes(mesh, flags, count, nodes)));
+done:
+    OST_FREE(flags);
+    if (status != OST_SUCCESS)
+        OST_FREE(*nodes);
+    ost_ledger_leave(ctx);
+    return status;
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/select.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+/* The body's surface and which of its faces are selected; found by its vertices in a table of open addresses. */
+typedef struct Faces {
+    const OstMesh *mesh;
+    OstSurface *surface;
+    unsigned char *selected; /* surface->count */
+    OstLocal *table;         /* size, a power of two; -1: free */
+    uint64_t size;
+} Faces;
+
+static void sorted_vertices(const OstLocal *nodes, OstLocal vertices[3])
+{
+    OstLocal a = nodes[0], b = nodes[1], c = nodes[2], t;
+    if (a > b)
+        t = a, a = b, b = t;
+    if (b > c)
+        t = b, b = c, c = t;
+    if (a > b)
+        t = a, a = b, b = t;
+    vertices[0] = a;
+    vertices[1] = b;
+    vertices[2] = c;
+}
+
+/* Where the table holds the face of these vertices, or the free place where it would. */
+static uint64_t place_of(const Faces *faces, const OstLocal *nodes)
+{
+    OstLocal wanted[3], there[3];
+    sorted_vertices(nodes, wanted);
+    uint64_t hash = UINT64_C(14695981039346656037);
+    for (int i = 0; i < 3; i++)
+        hash = (hash ^ (uint64_t)(uint32_t)wanted[i]) * UINT64_C(0x9E3779B97F4A7C15);
+    uint64_t place = (hash >> 20) & (faces->size - 1);
+    for (; faces->table[place] >= 0; place = (place + 1) & (faces->size - 1)) {
+        sorted_vertices(faces->surface->nodes + (size_t)faces->table[place] * (size_t)faces->surface->nodes_per_face,
+                        there);
+        if (memcmp(wanted, there, sizeof wanted) == 0)
+            break;
+    }
+    return place;
+}
+
+static OstStatus fill_table(Faces *faces)
+{
+    faces->size = 16;
+    while (faces->size < 2 * (uint64_t)faces->surface->count)
+        faces->size *= 2;
+    OST_TRY(OST_NEW(faces->mesh->ctx, &faces->table, faces->size));
+    for (uint64_t i = 0; i < faces->size; i++)
+        faces->table[i] = -1;
+    for (OstLocal f = 0; f < faces->surface->count; f++)
+        faces->table[place_of(faces, faces->surface->nodes + (size_t)f * (size_t)faces->surface->nodes_per_face)] = f;
+    return OST_SUCCESS;
+}
+
+static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, const OstBoundary *boundary,
+                               Faces *faces)
+{
+    for (OstLocal i = 0; i < boundary->count; i++) {
+        OstLocal nodes[3];
+        for (int k = 0; k < 3; k++)
+            nodes[k] = (OstLocal)boundary->nodes[(size_t)i * (size_t)boundary->nodes_per_item + (size_t)k];
+        const OstLocal face = faces->table[place_of(faces, nodes)];
+        const OstGlobal *label = faces->mesh->node_label;
+        if (face < 0)
+            return ost_select_raise(
+                c, selection,
+                "face (%lld, %lld, %lld) of boundary '%s' is not on the body's surface, so it has no "
+                "outside; loads by area act on the surface (total_force with share: vertices acts "
+                "anywhere)",
+                (long long)label[nodes[0]], (long long)label[nodes[1]], (long long)label[nodes[2]], boundary->name);
+        faces->selected[face] = 1;
+    }
+    return OST_SUCCESS;
+}
+
+/* Faces all of whose nodes are selected; for boundaries of points and curves too. */
+static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, Faces *faces)
+{
+    unsigned char *flags = NULL;
+    const int n = faces->surface->nodes_per_face;
+    OST_TRY(ost_select_flags(c, faces->mesh, selection, &flags));
+    for (OstLocal f = 0; f < faces->surface->count; f++) {
+        int all = 1;
+        for (int k = 0; k < n; k++)
+            all &= flags[faces->surface->nodes[(size_t)f * (size_t)n + (size_t)k]];
+        faces->selected[f] |= (unsigned char)all;
+    }
+    OST_FREE(flags);
+    return OST_SUCCESS;
+}
+
+/* Marks the surface's selected faces; the same decisions on every rank. */
+static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Faces *faces)
+{
+    const OstMesh *mesh = faces->mesh;
+    OstContext *ctx = mesh->ctx;
+    int of_faces = 0;
+    for (int b = 0; selection->kind == OST_SELECT_BOUNDARY && b < mesh->boundary_count; b++)
+        of_faces |= mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name);
+    if (!of_faces)
+        return flag_by_nodes(c, selection, faces);
+    OST_TRY(ost_agree(ctx, fill_table(faces)));
+    OstStatus status = ost_select_check_names(c, mesh, selection);
+    for (int b = 0; b < mesh->boundary_count && status == OST_SUCCESS; b++)
+        if (mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name))
+            status = flag_boundary(c, selection, &mesh->boundaries[b], faces);
+    return ost_agree(ctx, status);
+}
+
+static OstStatus list_faces(const Faces *faces, OstLocal *count, OstLocal **nodes)
+{
+    const size_t n = (size_t)faces->surface->nodes_per_face;
+    size_t next = 0;
+    *count = 0;
+    for (OstLocal f = 0; f < faces->surface->count; f++)
+        *count += faces->selected[f];
+    OST_TRY(OST_NEW(faces->mesh->ctx, nodes, (size_t)*count * n));
+    for (OstLocal f = 0; f < faces->surface->count; f++)
+        if (faces->selected[f])
+            memcpy(*nodes + n * next++, faces->surface->nodes + n * (size_t)f, n * sizeof **nodes);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
+                           int *nodes_per_face, OstLocal **faces)
+{
+    OstContext *ctx = mesh->ctx;
+    Faces found = {.mesh = mesh};
+    *count = 0;
+    *nodes_per_face = mesh->nodes_per_tet == 10 ? 6 : 3;
+    *faces = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_SELECTION);
+    OstStatus status = ost_surface_create(mesh, &found.surface);
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &found.selected, found.surface->count)));
+    OST_TRY_DONE(flag_faces(c, selection, &found));
+    OST_TRY_DONE(ost_agree(ctx, list_faces(&found, count, faces)));
+done:
+    if (status != OST_SUCCESS) {
+        OST_FREE(*faces);
+        *count = 0;
+    }
+    OST_FREE(found.table);
+    OST_FREE(found.selected);
+    ost_surface_destroy(&found.surface);
+    ost_ledger_leave(ctx);
+    return status;
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/command.h"
+#include "core/error.h"
+#include "orthostat/case.h"
+#include "orthostat/plan.h"
+#include "orthostat/solver.h"
+
+#include <argp.h>
+#include <jansson.h>
+#include <stdio.h>
+
+typedef struct Arguments {
+    const char *path;
+    int json;
+} Arguments;
+
+static const struct argp_option options[] = {
+    {"json", 'j', 0, 0, "Print the plan as JSON", 0},
+    {0},
+};
+
+static error_t parse_argument(int key, char *value, struct argp_state *state)
+{
+    Arguments *arguments = state->input;
+    switch (key) {
+    case 'j':
+        arguments->json = 1;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->path)
+            argp_error(state, "one case at a time; '%s' is a second one", value);
+        arguments->path = value;
+        return 0;
+    case ARGP_KEY_END:
+        if (!arguments->path)
+            argp_error(state, "which case? Name its file");
+        return arguments->path ? 0 : EINVAL;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp argp = {options,
+                                 parse_argument,
+                                 "CASE",
+                                 "Say which effects a case calls for and why, how it will be solved, and how large the "
+                                 "job is, before anything large "
+                                 "is made.",
+                                 NULL,
+                                 NULL,
+                                 NULL};
+
+/* Shapes are known by their divisions; a file is read for its counts and materials. */
+static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
+{
+    OstMeshChunk *chunk = NULL;
+    OstFileMaterials *materials = NULL;
+    OstGlobal nodes = 0;
+    OstGlobal tets = 0;
+    OstStatus status = OST_SUCCESS;
+    ost_plan_shape_size(c, &nodes, &tets);
+    if (c->mesh_kind == OST_MESH_FILE) {
+        OST_TRY_DONE(ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials));
+        nodes = chunk->global_nodes;
+        tets = chunk->global_tets;
+    }
+    ost_plan_make(c, nodes, tets, materials, ost_size(ctx), plan);
+done:
+    ost_chunk_destroy(&chunk);
+    ost_file_materials_destroy(&materials);
+    return status;
+}
+
+static double total_bytes(const OstPlan *plan)
+{
+    return plan->bytes_mesh + plan->bytes_matrix + plan->bytes_solver;
+}
+
+static void print_bytes(const char *label, double bytes)
+{
+    const double mebibytes = bytes / 1048576.0;
+    if (mebibytes < 1024.0)
+        printf("  %-20s %10.1f MiB\n", label, mebibytes);
+    else
+        printf("  %-20s %10.1f GiB\n", label, mebibytes / 1024.0);
+}
+
+static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
+{
+    printf("%s: %s\n\nEffects\n", c->path, c->title);
+    for (int e = 0; e < OST_PLAN_COUNT; e++)
+        printf("  %-20s %-4s %s\n", plan->effect[e].label, plan->effect[e].on ? "on" : "off", plan->effect[e].reason);
+    printf("\nSolver\n  %-20s %s: %s\n", "recipe", ost_recipe_name(plan->recipe), plan->recipe_reason);
+    printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
+    printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
+           (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
+    printf("\nMemory foreseen, over %d rank%s\n", ranks, ranks == 1 ? "" : "s");
+    print_bytes("mesh", plan->bytes_mesh);
+    print_bytes("stiffness", plan->bytes_matrix);
+    print_bytes("solver", plan->bytes_solver);
+    print_bytes("in all", total_bytes(plan));
+    print_bytes("output file", plan->bytes_output);
+}
+
+static json_t *effects_as_json(const OstPlan *plan)
+{
+    json_t *effects = json_array();
+    for (int e = 0; e < OST_PLAN_COUNT; e++)
+        json_array_append_new(effects, json_pack("{s:s, s:b, s:s}", "effect", plan->effect[e].label, "on",
+                                                 plan->effect[e].on, "reason", plan->effect[e].reason));
+    return effects;
+}
+
+static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
+{
+    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:s, s:f}, s:I, s:I, s:I, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
+                             "case", c->path, "title", c->title, "effects", effects_as_json(plan), "solver", "recipe",
+                             ost_recipe_name(plan->recipe), "reason", plan->recipe_reason, "relative_residual",
+                             c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets",
+                             (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks,
+                             "bytes", "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver",
+                             plan->bytes_solver, "in_all", total_bytes(plan), "output_file", plan->bytes_output);
+    const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
+    putchar('\n');
+    json_decref(root);
+    return failed;
+}
+
+int ost_cli_explain(OstContext *ctx, int argc, char **argv)
+{
+    Arguments arguments = {0};
+    OstCase *c = NULL;
+    OstPlan plan;
+    int exit_code;
+    if (!ost_cli_parse(ctx, &argp, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    OstStatus status = ost_case_read(ctx, arguments.path, &c);
+    if (status == OST_SUCCESS)
+        status = make_plan(ctx, c, &plan);
+    if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
+        if (!arguments.json)
+            print_plan(c, &plan, ost_size(ctx));
+        else if (print_json(c, &plan, ost_size(ctx)))
+            status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
+                               c->path);
+    }
+    status = ost_agree(ctx, status);
+    ost_case_destroy(&c);
+    return ost_cli_finish(ctx, status);
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/command.h"
+
+#include <mpi.h>
+#include <stdio.h>
+#include <string.h>
+
+static const OstCommand commands[] = {
+    {"solve", "find the pose of a case and write it for ParaView", ost_cli_solve},
+    {"check", "read a case and its mesh, and say what is wrong with them", ost_cli_check},
+    {"explain", "say which effects a case calls for, and what it will cost", ost_cli_explain},
+    {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static void print_help(FILE *stream)
+{
+    fputs("Usage: orthostat COMMAND [OPTION...] ...\n"
+          "Static poses of orthotropic solids on tetrahedral meshes.\n\n",
+          stream);
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].summary);
+    fputs("\nEvery command takes --help, -q (print nothing but errors) and -v (say more).\n"
+          "Exit status: 0 done, 1 not converged or a check failed, 2 wrong usage or input.\n",
+          stream);
+}
+
+static int is_one_of(const char *word, const char *a, const char *b)
+{
+    return strcmp(word, a) == 0 || strcmp(word, b) == 0;
+}
+
+static int run_command(OstContext *ctx, int argc, char **argv)
+{
+    const char *name = argv[1];
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(commands[i].name, name) != 0)
+            continue;
+        char title[64];
+        snprintf(title, sizeof title, "orthostat %s", name);
+        argv[1] = title;
+        return commands[i].run(ctx, argc - 1, argv + 1);
+    }
+    if (ost_rank(ctx) == 0) {
+        fprintf(stderr, "orthostat: error: there is no command '%s'\n\n", name);
+        print_help(stderr);
+    }
+    return ost_status_exit_code(OST_INVALID_USAGE);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && is_one_of(argv[1], "--version", "-V")) {
+        puts("orthostat " ORTHOSTAT_VERSION);
+        return 0;
+    }
+    if (argc == 2 && is_one_of(argv[1], "--help", "-h")) {
+        print_help(stdout);
+        return 0;
+    }
+    if (argc < 2) {
+        print_help(stderr);
+        return ost_status_exit_code(OST_INVALID_USAGE);
+    }
+    if (MPI_Init(&argc, &argv) != MPI_SUCCESS) {
+        fputs("orthostat: error: MPI could not be started\n", stderr);
+        return 1;
+    }
+    OstContext *ctx = NULL;
+    int exit_code = 1;
+    if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS)
+        exit_code = run_command(ctx, argc, argv);
+    else
+        fputs("orthostat: error: no memory for the first few bytes\n", stderr);
+    fflush(stdout);
+    ost_context_destroy(&ctx);
+    MPI_Finalize();
+    return exit_code;
+}

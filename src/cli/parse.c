@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/command.h"
+
+#include <argp.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct argp_option common_options[] = {
+    {"quiet", 'q', 0, 0, "Print nothing but errors", -1},
+    {"verbose", 'v', 0, 0, "Say more", -1},
+    {0},
+};
+
+typedef struct Common {
+    OstContext *ctx;
+    void *input; /* of the command's own parser */
+} Common;
+
+static error_t parse_common(int key, char *value, struct argp_state *state)
+{
+    const Common *common = state->input;
+    (void)value;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = common->input;
+        return 0;
+    case 'q':
+        ost_log_set_level(common->ctx, OST_LOG_QUIET);
+        return 0;
+    case 'v':
+        ost_log_set_level(common->ctx, OST_LOG_VERBOSE);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static int asks_for_help(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--") == 0)
+            return 0;
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-?") == 0 || strcmp(argv[i], "-h") == 0)
+            return 1;
+    }
+    return 0;
+}
+
+int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input, int *exit_code)
+{
+    const struct argp_child children[] = {{argp, 0, NULL, 0}, {0}};
+    const struct argp whole = {common_options, parse_common, argp->args_doc, argp->doc, children, NULL, NULL};
+    Common common = {ctx, input};
+    *exit_code = 0;
+    if (asks_for_help(argc, argv)) {
+        if (ost_rank(ctx) == 0)
+            argp_help(&whole, stdout, ARGP_HELP_USAGE | ARGP_HELP_LONG | ARGP_HELP_DOC, argv[0]);
+        return 0;
+    }
+    const unsigned flags = ARGP_NO_EXIT | ARGP_NO_HELP | (ost_rank(ctx) == 0 ? 0U : (unsigned)ARGP_NO_ERRS);
+    const error_t failure = argp_parse(&whole, argc, argv, flags, NULL, &common);
+    if (failure == 0)
+        return 1;
+    *exit_code = ost_status_exit_code(OST_INVALID_USAGE);
+    return 0;
+}
+
+int ost_cli_finish(OstContext *ctx, OstStatus status)
+{
+    ost_progress(ctx, "", -1.0);
+    if (status == OST_SUCCESS)
+        return 0;
+    if (ost_rank(ctx) == 0) {
+        fprintf(stderr, "orthostat: error: %s\n", ost_error_text(ctx));
+        if (ost_log_level(ctx) == OST_LOG_VERBOSE)
+            fprintf(stderr, "orthostat: %s, raised at %s\n", ost_status_name(status), ost_error_origin(ctx));
+    }
+    return ost_status_exit_code(status);
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/command.h"
+
+#include "orthostat/scene.h"
+#include "output/summary.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST_PATH = 4096 };
+
+typedef struct Arguments {
+    const char *case_path;
+    const char *output;
+    const char *json;
+} Arguments;
+
+static const struct argp_option options[] = {
+    {"output", 'o', "FILE", 0, "Write the fields here (default: the case's output file)", 0},
+    {"json", 'j', "FILE", 0, "Write the summary as JSON here; - for standard output", 0},
+    {0},
+};
+
+static error_t parse_option(int key, char *value, struct argp_state *state)
+{
+    Arguments *arguments = state->input;
+    switch (key) {
+    case 'o':
+        arguments->output = value;
+        return 0;
+    case 'j':
+        arguments->json = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->case_path) {
+            argp_error(state, "one case at a time: '%s' came after '%s'", value, arguments->case_path);
+            return EINVAL;
+        }
+        arguments->case_path = value;
+        return 0;
+    case ARGP_KEY_END:
+        if (!arguments->case_path) {
+            argp_error(state, "which case? Give the path of its YAML file");
+            return EINVAL;
+        }
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp solve_argp = {
+    options, parse_option, "CASE", "Finds the pose of a case at rest and writes its fields for ParaView.",
+    NULL,    NULL,         NULL};
+
+/* Where the fields go: --output, the case's output file, or the case's name with another ending, in the current folder.
+ */
+static void choose_output(const Arguments *arguments, const OstCase *c, char *path, size_t size)
+{
+    if (arguments->output || c->output_file) {
+        snprintf(path, size, "%s", arguments->output ? arguments->output : c->output_file);
+        return;
+    }
+    const char *slash = strrchr(c->path, '/');
+    const char *name = slash ? slash + 1 : c->path;
+    const char *dot = strrchr(name, '.');
+    const int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+    snprintf(path, size, "%.*s.vtkhdf", stem, name);
+}
+
+static OstStatus report(const OstScene *scene, const OstResult *result, const Arguments *arguments, const char *file)
+{
+    OstLedgerSummary ledger;
+    OstStatus status = ost_ledger_summarise(scene->ctx, &ledger);
+    if (status != OST_SUCCESS)
+        return status;
+    const int json_on_stdout = arguments->json && strcmp(arguments->json, "-") == 0;
+    if (ost_log_level(scene->ctx) != OST_LOG_QUIET && !json_on_stdout) {
+        ost_summary_print(scene, result, file);
+        ost_ledger_print(scene, &ledger);
+    }
+    if (arguments->json)
+        status = ost_agree(scene->ctx, ost_summary_write_json(scene, result, &ledger, file, arguments->json));
+    return status;
+}
+
+static OstStatus solve(OstContext *ctx, const Arguments *arguments)
+{
+    OstCase *c = NULL;
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    OstStatus status = ost_case_read(ctx, arguments->case_path, &c);
+    char file[LONGEST_PATH] = "";
+    if (status == OST_SUCCESS) {
+        choose_output(arguments, c, file, sizeof file);
+        status = ost_scene_create(c, &scene);
+    }
+    if (status == OST_SUCCESS)
+        status = ost_scene_solve(scene, &result);
+    if (status == OST_SUCCESS)
+        status = ost_result_write(result, c, file);
+    if (status == OST_SUCCESS)
+        status = report(scene, result, arguments, file);
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+    return status;
+}
+
+int ost_cli_solve(OstContext *ctx, int argc, char **argv)
+{
+    Arguments arguments = {NULL, NULL, NULL};
+    int exit_code = 0;
+    if (!ost_cli_parse(ctx, &solve_argp, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    return ost_cli_finish(ctx, solve(ctx, &arguments));
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ELEMENT_ELEMENT_H
+#define ORTHOSTAT_ELEMENT_ELEMENT_H
+
+#include "element/lanes.h"
+
+/* What one kind of tet can do. Kinds are told apart by their number of nodes (OstMesh.nodes_per_tet); one more kind is
+ * one more file and one more line in ost_element_of.
+ *
+ * Coordinates and displacements are 3 numbers a node, node by node, in the mesh's order of nodes. C in world axes comes
+ * as its upper triangle, 21 numbers row by row (11 12 .. 16 22 .. 66), order of strains 11 22 33 12 23 31 with
+ * engineering shear. Forces and stiffnesses do not depend on the tet's orientation. */
+enum { OST_MAX_TET_NODES = 10, OST_MAX_FACE_NODES = 6, OST_ELASTICITY_COUNT = 21 };
+
+typedef struct OstElement {
+    int nodes;
+    int nodes_per_face;
+
+    /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
+    void (*stiffness)(const OstLanes *x, const OstLanes *elasticity, OstLanes *blocks);
+
+    /* Internal forces K u, without K: 3 numbers a node. */
+    void (*force)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force);
+
+    /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j), and mean strain. */
+    double (*volume)(const double *x);
+    void (*gradient)(const double *x, const double *u, double gradient[9]);
+    void (*strain)(const double *x, const double *u, double strain[6]);
+
+    /* One tet: for each pair of nodes a <= b, the integral of grad N_a · grad N_b. */
+    void (*laplacian)(const double *x, double *pairs);
+
+    /* One tet / one face: integrals of each node's shape function over the volume / the area, and over the face's
+     * outward area vector (3 numbers a node). */
+    void (*node_volumes)(const double *x, double *volumes);
+    void (*node_areas)(const double *x, double *areas, double *area_vectors);
+} OstElement;
+
+/* Local. The kind of tet with this many nodes, or NULL if this version has none. */
+const OstElement *ost_element_of(int nodes_per_tet);
+
+/* Number of node pairs a <= b of an element. */
+static inline int ost_pair_count(int nodes)
+{
+    return nodes * (nodes + 1) / 2;
+}
+
+/* Which of them (a, b), a <= b, is. */
+static inline int ost_pair_index(int nodes, int a, int b)
+{
+    return a * nodes - a * (a - 1) / 2 + b - a;
+}
+
+#endif

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/mesh_file.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/chunk_share.h"
+#include "formats/serial.h"
+#include "formats/vtkhdf.h"
+
+#include <string.h>
+#include <strings.h>
+
+static OstStatus read_gmsh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    OST_TRY(OST_NEW(ctx, materials, 1));
+    return ost_gmsh_read(ctx, path, chunk);
+}
+
+static const struct {
+    const char *ending;
+    OstStatus (*read)(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
+} serial_format[] = {{".msh", read_gmsh}, {".veg", ost_veg_read}};
+
+enum { SERIAL_FORMATS = sizeof serial_format / sizeof *serial_format };
+
+/* Number of the serial format with this ending, or SERIAL_FORMATS. */
+static int find_format(const char *ending)
+{
+    int format = 0;
+    while (format < SERIAL_FORMATS && strcasecmp(ending, serial_format[format].ending) != 0)
+        format++;
+    return format;
+}
+
+static OstStatus read_serial(OstContext *ctx, int format, const char *path, OstMeshChunk **chunk,
+                             OstFileMaterials **materials)
+{
+    OstStatus status = OST_SUCCESS;
+    if (ost_rank(ctx) == 0)
+        status = serial_format[format].read(ctx, path, chunk, materials);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_chunk_share(ctx, chunk));
+    return ost_file_materials_share(ctx, materials);
+}
+
+static OstStatus read_parallel(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, materials, 1)));
+    return ost_vtkhdf_read(ctx, path, chunk);
+}
+
+OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    const char *name = strrchr(path, '/');
+    const char *ending = strrchr(name ? name : path, '.');
+    OstStatus status = OST_SUCCESS;
+    *chunk = NULL;
+    *materials = NULL;
+    ending = ending ? ending : "";
+    const int format = find_format(ending);
+    if (format < SERIAL_FORMATS)
+        status = read_serial(ctx, format, path, chunk, materials);
+    else if (strcasecmp(ending, ".vtkhdf") == 0)
+        status = read_parallel(ctx, path, chunk, materials);
+    else
+        status = OST_RAISE(ctx, OST_INVALID_INPUT,
+                           "%s: the ending '%s' is not that of a mesh file; known are .msh "
+                           "(Gmsh), .veg (Vega FEM) and .vtkhdf",
+                           path, ending);
+    if (status != OST_SUCCESS) {
+        ost_chunk_destroy(chunk);
+        ost_file_materials_destroy(materials);
+    }
+    return status;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_FORMATS_TET_LIST_H
+#define ORTHOSTAT_FORMATS_TET_LIST_H
+
+#include "orthostat/mesh.h"
+
+/* Local. Puts a whole mesh's tets in the order of their labels; raises OST_INVALID_INPUT if two share one. */
+OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path);
+
+/* Local. Raises OST_INVALID_INPUT if two tets of a whole mesh have the same four vertices. */
+OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path);
+
+#endif

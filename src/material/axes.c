@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/axes.h"
+
+#include "core/error.h"
+#include "core/small.h"
+
+#include <string.h>
+
+/* How far given axes may be from orthonormal. */
+static const double given_tolerance = 1e-6;
+
+static OstStatus check_rows(OstContext *ctx, const char *what, const double axes[9])
+{
+    for (int i = 0; i < 9; i++)
+        if (!isfinite(axes[i]))
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: component %d of e%d is %g; a finite number is expected", what,
+                             i % 3 + 1, i / 3 + 1, axes[i]);
+    for (int i = 0; i < 3; i++) {
+        const double length = ost_norm3(axes + 3 * i);
+        if (fabs(length - 1.0) > given_tolerance)
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: e%d has length %.9g; a unit vector is expected", what, i + 1,
+                             length);
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const double cosine = ost_dot3(axes + 3 * i, axes + 3 * j);
+        if (fabs(cosine) > given_tolerance)
+            return OST_RAISE(
+                ctx, OST_INVALID_INPUT,
+                "%s: e%d and e%d are not orthogonal (their product is %.6g); orthonormal axes are expected", what,
+                i + 1, j + 1, cosine);
+    }
+    if (ost_determinant3(axes) < 0.0)
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "%s: the axes are left-handed; e3 = e1 × e2 is expected, so turn one of them round", what);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_axes_check(OstContext *ctx, const char *what, double axes[9])
+{
+    OST_TRY(check_rows(ctx, what, axes));
+    /* Newton's steps A <- A (3 - AᵀA) / 2 to the nearest rotation: from 1e-6 to 1e-12 to rounding. */
+    for (int step = 0; step < 2; step++) {
+        double product[9], old[9];
+        memcpy(old, axes, sizeof old);
+        ost_multiply3_transposed_left(old, old, product);
+        for (int i = 0; i < 9; i++)
+            product[i] = 0.5 * ((i % 4 == 0 ? 3.0 : 0.0) - product[i]);
+        ost_multiply3(old, product, axes);
+    }
+    return OST_SUCCESS;
+}
+
+static int is_sequence(const char *sequence)
+{
+    if (strlen(sequence) != 3)
+        return 0;
+    if (strspn(sequence, "xyz") != 3 && strspn(sequence, "XYZ") != 3)
+        return 0;
+    return sequence[0] != sequence[1] && sequence[1] != sequence[2];
+}
+
+/* Turns the rows of `axes` by an angle about world axis `about`. */
+static void turn_rows(int about, double degrees, double axes[9])
+{
+    const double c = cos(degrees * M_PI / 180.0);
+    const double s = sin(degrees * M_PI / 180.0);
+    const int j = (about + 1) % 3;
+    const int k = (about + 2) % 3;
+    for (int row = 0; row < 3; row++) {
+        double *e = axes + 3 * row;
+        const double e_j = e[j];
+        e[j] = c * e_j - s * e[k];
+        e[k] = s * e_j + c * e[k];
+    }
+}
+
+OstStatus ost_axes_from_euler(OstContext *ctx, const char *sequence, const double degrees[3], double axes[9])
+{
+    if (!is_sequence(sequence))
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "Euler sequence '%s'; three letters of xyz (turned frame) or XYZ (fixed frame) are expected, "
+                         "no two neighbours alike, such as zxz",
+                         sequence);
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(degrees[i]))
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "Euler angle %d is %g; finite degrees are expected", i + 1,
+                             degrees[i]);
+    const int fixed_frame = sequence[0] < 'a';
+    memcpy(axes, (double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 9 * sizeof(double));
+    for (int step = 0; step < 3; step++) {
+        /* Turns about the turned frame's axes are those about the fixed frame's in the opposite order. */
+        const int i = fixed_frame ? step : 2 - step;
+        turn_rows(sequence[i] - (fixed_frame ? 'X' : 'x'), degrees[i], axes);
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_axes_from_quaternion(OstContext *ctx, const double quaternion[4], double axes[9])
+{
+    double largest = 0.0;
+    int finite = 1;
+    for (int i = 0; i < 4; i++) {
+        finite &= isfinite(quaternion[i]) != 0;
+        largest = fmax(largest, fabs(quaternion[i]));
+    }
+    if (!finite || largest == 0.0)
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "quaternion (%g, %g, %g, %g); finite numbers w x y z, not all zero, are expected",
+                         quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
+    double q[4], square = 0.0;
+    for (int i = 0; i < 4; i++) {
+        q[i] = quaternion[i] / largest;
+        square += q[i] * q[i];
+    }
+    const double length = sqrt(square);
+    const double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
+    const double rows[9] = {
+        1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z),       2.0 * (x * z - w * y),
+        2.0 * (x * y - w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x),
+        2.0 * (x * z + w * y),       2.0 * (y * z - w * x),       1.0 - 2.0 * (x * x + y * y),
+    };
+    memcpy(axes, rows, sizeof rows);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "material/definite.h"
+
+#include "core/error.h"
+#include "core/small.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+/* Below this the smallest eigenvalue is 0 to rounding. */
+static const double smallest_eigenvalue = 16.0 * DBL_EPSILON;
+
+/* Stable values are suggested this far inside the boundary, so that they stay stable when typed with the digits shown.
+ */
+static const double suggestion_margin = 1e-5;
+
+void ost_orthotropic_normalised_ratios(const OstOrthotropic *constants, double ratios[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        ratios[i] =
+            constants->poissons_ratio[i] * (sqrt(constants->youngs_modulus[j]) / sqrt(constants->youngs_modulus[i]));
+    }
+}
+
+void ost_normalised_block(const double ratios[3], double block[9])
+{
+    block[0] = block[4] = block[8] = 1.0;
+    block[1] = block[3] = -ratios[0];
+    block[5] = block[7] = -ratios[1];
+    block[2] = block[6] = -ratios[2];
+}
+
+OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *constants, double eigenvalues[3])
+{
+    double ratios[3], block[9];
+    ost_orthotropic_normalised_ratios(constants, ratios);
+    ost_normalised_block(ratios, block);
+    return ost_symmetric_eigen(ctx, 3, block, eigenvalues, NULL);
+}
+
+double ost_orthotropic_stable_scale(const double eigenvalues[3])
+{
+    /* The block is I - t M with M's trace 0, so its smallest eigenvalue is 1 - t max(M). */
+    const double largest = 1.0 - eigenvalues[0];
+    return largest > DBL_EPSILON ? 1.0 / largest : INFINITY;
+}
+
+void ost_orthotropic_stable_range(const OstOrthotropic *constants, double low[3], double high[3])
+{
+    double ratios[3];
+    ost_orthotropic_normalised_ratios(constants, ratios);
+    for (int i = 0; i < 3; i++) {
+        /* 1 - a² - b² - c² - 2abc > 0 as a quadratic in a; beyond |b|, |c| < 1 no a helps. */
+        const double b = ratios[(i + 1) % 3];
+        const double c = ratios[(i + 2) % 3];
+        const double half_width = fabs(b) < 1.0 && fabs(c) < 1.0 ? sqrt((1.0 - b * b) * (1.0 - c * c)) : NAN;
+        const double unit = sqrt(constants->youngs_modulus[i] / constants->youngs_modulus[(i + 1) % 3]);
+        low[i] = (-b * c - half_width) * unit;
+        high[i] = (-b * c + half_width) * unit;
+    }
+}
+
+static OstStatus check_positive(OstContext *ctx, const char *name, const char *symbol, double value)
+{
+    if (value > 0.0 && isfinite(value))
+        return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_INVALID_INPUT, "material '%s': %s = %g; a positive, finite number is expected", name,
+                     symbol, value);
+}
+
+static OstStatus check_numbers(OstContext *ctx, const char *name, const OstOrthotropic *constants)
+{
+    static const char *const youngs[3] = {"E1", "E2", "E3"};
+    static const char *const poissons[3] = {"nu12", "nu23", "nu31"};
+    for (int i = 0; i < 3; i++)
+        OST_TRY(check_positive(ctx, name, youngs[i], constants->youngs_modulus[i]));
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(constants->poissons_ratio[i]))
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "material '%s': %s = %g; a finite number is expected", name,
+                             poissons[i], constants->poissons_ratio[i]);
+    return OST_SUCCESS;
+}
+
+static OstStatus check_shear(OstContext *ctx, const char *name, const OstOrthotropic *constants)
+{
+    static const char *const shear[3] = {"G12", "G23", "G31"};
+    for (int i = 0; i < 3; i++)
+        OST_TRY(check_positive(ctx, name, shear[i], constants->shear_modulus[i]));
+    return OST_SUCCESS;
+}
+
+static int is_family(const double ratios[3])
+{
+    const double tolerance = 1e-9 * fabs(ratios[0]);
+    return fabs(ratios[1] - ratios[0]) <= tolerance && fabs(ratios[2] - ratios[0]) <= tolerance;
+}
+
+static OstStatus raise_outside_family(OstContext *ctx, const char *name, double nu)
+{
+    return OST_RAISE(
+        ctx, OST_INVALID_INPUT,
+        "material '%s': nu = %.9g is not stable; -1 < nu < 0.5 is expected, which is stable for all Young's "
+        "moduli (nearly incompressible: 0.49)",
+        name, nu);
+}
+
+/* The inequality (16)-(17) of the paper that fails, with its numbers. */
+static void describe_violation(const OstOrthotropic *constants, const double ratios[3], char *text, size_t size)
+{
+    for (int i = 0; i < 3; i++) {
+        const int a = i + 1;
+        const int b = (i + 1) % 3 + 1;
+        const double nu = constants->poissons_ratio[i];
+        if (fabs(ratios[i]) >= 1.0) {
+            snprintf(text, size, "nu%d%d² = %.6g must be below E%d/E%d = %.6g", a, b, nu * nu, a, b,
+                     constants->youngs_modulus[i] / constants->youngs_modulus[b - 1]);
+            return;
+        }
+    }
+    const double determinant = 1.0 - ratios[0] * ratios[0] - ratios[1] * ratios[1] - ratios[2] * ratios[2] -
+                               2.0 * ratios[0] * ratios[1] * ratios[2];
+    snprintf(text, size, "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu21 nu32 nu13 = %.6g must be positive%s",
+             determinant, determinant > 0.0 ? " by more than rounding" : "");
+}
+
+/* `scale` a little less, cut (not rounded) to four digits. */
+static double cut_to_four_digits(double scale)
+{
+    const double inside = scale * (1.0 - suggestion_margin);
+    const double unit = pow(10.0, floor(log10(inside)) - 3.0);
+    return floor(inside / unit) * unit;
+}
+
+/* The nu to propose for the family: the user's own if three equal ratios were given, else the middle of what the
+ * constants amount to; kept clear of the ends of the stable range. */
+static double family_nu(const OstOrthotropic *constants, const double ratios[3])
+{
+    const double *nu = constants->poissons_ratio;
+    const double wanted = is_family(nu) ? nu[0] : (ratios[0] + ratios[1] + ratios[2]) / 3.0;
+    return fmin(fmax(round(wanted * 1000.0) / 1000.0, -0.9), 0.49);
+}
+
+static OstStatus raise_indefinite(OstContext *ctx, const char *name, const OstOrthotropic *constants,
+                                  const double ratios[3], const double eigenvalues[3])
+{
+    char violation[160];
+    describe_violation(constants, ratios, violation, sizeof violation);
+    const double scale = cut_to_four_digits(ost_orthotropic_stable_scale(eigenvalues));
+    const double *nu = constants->poissons_ratio;
+    const double proposed = family_nu(constants, ratios);
+    const OstOrthotropic family = ost_orthotropic_family(constants->youngs_modulus, proposed, OST_SHEAR_GEOMETRIC);
+    return OST_RAISE(ctx, OST_INVALID_INPUT,
+                     "material '%s' is not stable (its stiffness is not positive definite, smallest normalised "
+                     "eigenvalue %.3g): %s. Stable up to %.4g of the given ratios: nu12 = %.7g, nu23 = %.7g, nu31 = "
+                     "%.7g. Or give one number, the stable family, any nu in -1 < nu < 0.5: nu = %.3g means nu12 = "
+                     "%.7g, nu23 = %.7g, nu31 = %.7g",
+                     name, eigenvalues[0], violation, scale, scale * nu[0], scale * nu[1], scale * nu[2], proposed,
+                     family.poissons_ratio[0], family.poissons_ratio[1], family.poissons_ratio[2]);
+}
+
+OstStatus ost_orthotropic_check(OstContext *ctx, const char *name, const OstOrthotropic *constants,
+                                double eigenvalues[3])
+{
+    double ratios[3];
+    OST_TRY(check_numbers(ctx, name, constants));
+    ost_orthotropic_normalised_ratios(constants, ratios);
+    OST_TRY(ost_orthotropic_eigenvalues(ctx, constants, eigenvalues));
+    const int definite = eigenvalues[0] > smallest_eigenvalue;
+    if (!definite && is_family(ratios))
+        return raise_outside_family(ctx, name, ratios[0]);
+    OST_TRY(check_shear(ctx, name, constants));
+    return definite ? OST_SUCCESS : raise_indefinite(ctx, name, constants, ratios, eigenvalues);
+}

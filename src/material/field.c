@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/field.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "material/curve.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double stiffness[36])
+{
+    const int32_t region = field->tet_region[tet];
+    if (field->region_varies[region])
+        ost_material_rotate_stiffness(field->material[region].stiffness, field->tet_axes + 9 * (size_t)tet, stiffness);
+    else
+        memcpy(stiffness, field->region_stiffness + 36 * (size_t)region, 36 * sizeof(double));
+}
+
+void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
+{
+    const double *source = world;
+    if (field->tet_axes)
+        source = field->tet_axes + 9 * (size_t)tet;
+    else if (field->region_axes)
+        source = field->region_axes + 9 * (size_t)field->tet_region[tet];
+    memcpy(axes, source, sizeof world);
+}
+
+double ost_field_density(const OstMaterialField *field, OstLocal tet)
+{
+    return field->material[field->tet_region[tet]].density;
+}
+
+/* What the bodies' tets are, for as long as the field is being made. */
+typedef struct Tets {
+    OstLocal count;
+    const int32_t *region;
+    const OstGlobal *label;
+    const double *centroids;
+    const double *given_axes;
+} Tets;
+
+static OstStatus check_regions(OstContext *ctx, int region_count, const Tets *tets)
+{
+    for (OstLocal t = 0; t < tets->count; t++)
+        if (tets->region[t] < 0 || tets->region[t] >= region_count)
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "tet %lld is of region %d, but there are materials for regions 0 to %d only",
+                             (long long)tets->label[t], (int)tets->region[t], region_count - 1);
+    return OST_SUCCESS;
+}
+
+/* Puts the tet and its material in front of what the failure below said. */
+static OstStatus raise_for_tet(OstContext *ctx, OstStatus status, const OstMaterial *material, OstGlobal label)
+{
+    char reason[1024];
+    snprintf(reason, sizeof reason, "%s", ost_error_text(ctx));
+    return OST_RAISE(ctx, status, "tet %lld (material '%s'): %s", (long long)label, material->name, reason);
+}
+
+/* Axes of a region that do not vary, and its stiffness in them. Also isotropic materials' axes are checked. */
+static OstStatus fill_fixed_region(OstMaterialField *field, int region, const OstAxesSpec *spec)
+{
+    const OstMaterial *material = &field->material[region];
+    double axes[9];
+    memcpy(axes, world, sizeof world);
+    if (spec && !ost_axes_vary(spec) && spec->kind != OST_AXES_NONE) {
+        char what[128];
+        snprintf(what, sizeof what, "axes of material '%s'", material->name);
+        memcpy(axes, spec->fixed, sizeof axes);
+        OST_TRY(ost_axes_check(field->ctx, what, axes));
+    }
+    if (material->isotropic) {
+        memcpy(axes, world, sizeof world);
+        memcpy(field->region_stiffness + 36 * region, material->stiffness, sizeof material->stiffness);
+    } else if (!field->region_varies[region]) {
+        ost_material_rotate_stiffness(material->stiffness, axes, field->region_stiffness + 36 * region);
+    }
+    if (field->region_axes)
+        memcpy(field->region_axes + 9 * region, axes, sizeof axes);
+    return OST_SUCCESS;
+}
+
+static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const OstAxesSpec *spec, const Tets *tets,
+                                    const OstCurve *curve)
+{
+    const int given = spec->kind == OST_AXES_CELLS || spec->kind == OST_AXES_GRADIENT;
+    for (OstLocal t = 0; t < tets->count; t++) {
+        if (tets->region[t] != region)
+            continue;
+        double *axes = field->tet_axes + 9 * (size_t)t;
+        const double *centroid = tets->centroids + 3 * (size_t)t;
+        OstStatus status = OST_SUCCESS;
+        if (given) {
+            memcpy(axes, tets->given_axes + 9 * (size_t)t, sizeof world);
+            status = ost_axes_check(field->ctx, "given axes", axes);
+        } else if (curve) {
+            status = ost_curve_axes(curve, centroid, axes);
+        } else {
+            status = ost_axes_at(field->ctx, spec, centroid, axes);
+        }
+        if (status != OST_SUCCESS)
+            return raise_for_tet(field->ctx, status, &field->material[region], tets->label[t]);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus fill_varying_region(OstMaterialField *field, int region, const OstAxesSpec *spec, const Tets *tets)
+{
+    const int given = spec->kind == OST_AXES_CELLS || spec->kind == OST_AXES_GRADIENT;
+    if (given && !tets->given_axes && tets->count > 0)
+        return OST_RAISE(field->ctx, OST_INVALID_INPUT,
+                         "material '%s' takes its axes tet by tet, but none came with the mesh; name a file of them "
+                         "(nine numbers a line), or give axes by a formula",
+                         field->material[region].name);
+    OstCurve *curve = NULL;
+    if (spec->kind == OST_AXES_CURVE)
+        OST_TRY(ost_curve_create(field->ctx, spec, &curve));
+    const OstStatus status = tet_axes_of_region(field, region, spec, tets, curve);
+    ost_curve_destroy(&curve);
+    return status;
+}
+
+static void copy_region_axes(OstMaterialField *field, const Tets *tets)
+{
+    for (OstLocal t = 0; t < tets->count; t++)
+        if (!field->region_varies[tets->region[t]])
+            memcpy(field->tet_axes + 9 * (size_t)t, field->region_axes + 9 * (size_t)tets->region[t], sizeof world);
+}
+
+static OstStatus fill_tet_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
+{
+    OST_TRY(OST_NEW(field->ctx, &field->tet_axes, 9 * (size_t)tets->count));
+    for (int r = 0; r < field->region_count; r++)
+        if (field->region_varies[r])
+            OST_TRY(fill_varying_region(field, r, &specs[r], tets));
+    copy_region_axes(field, tets);
+    return OST_SUCCESS;
+}
+
+static OstStatus allocate(OstContext *ctx, int region_count, OstMaterialField *field)
+{
+    field->ctx = ctx;
+    field->region_count = region_count;
+    OST_TRY(OST_NEW(ctx, &field->material, region_count));
+    OST_TRY(OST_NEW(ctx, &field->region_stiffness, 36 * region_count));
+    return OST_NEW(ctx, &field->region_varies, region_count);
+}
+
+/* Runs `fill` with an effect's account open; the effects that are off are never entered. */
+static OstStatus fill_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
+{
+    int orthotropic = 0, varying = 0;
+    for (int r = 0; r < field->region_count; r++) {
+        orthotropic |= !field->material[r].isotropic;
+        field->region_varies[r] = !field->material[r].isotropic && specs && ost_axes_vary(&specs[r]);
+        varying |= field->region_varies[r];
+    }
+    OstStatus status = OST_SUCCESS;
+    if (orthotropic) {
+        ost_ledger_enter(field->ctx, OST_EFFECT_ORTHOTROPY);
+        status = OST_NEW(field->ctx, &field->region_axes, 9 * field->region_count);
+        ost_ledger_leave(field->ctx);
+    }
+    for (int r = 0; r < field->region_count && status == OST_SUCCESS; r++)
+        status = fill_fixed_region(field, r, specs ? &specs[r] : NULL);
+    if (varying && status == OST_SUCCESS) {
+        ost_ledger_enter(field->ctx, OST_EFFECT_VARYING_AXES);
+        status = fill_tet_axes(field, specs, tets);
+        ost_ledger_leave(field->ctx);
+    }
+    return status;
+}
+
+OstStatus ost_field_create(OstContext *ctx, int region_count, const OstMaterial *materials, const OstAxesSpec *specs,
+                           OstLocal tet_count, const int32_t *tet_region, const OstGlobal *tet_label,
+                           const double *centroids, const double *given_axes, OstMaterialField **out)
+{
+    const Tets tets = {tet_count, tet_region, tet_label, centroids, given_axes};
+    OstMaterialField *field = NULL;
+    OstStatus status = OST_SUCCESS;
+    *out = NULL;
+    OST_TRY(check_regions(ctx, region_count, &tets));
+    OST_TRY(OST_NEW(ctx, &field, 1));
+    OST_TRY_DONE(allocate(ctx, region_count, field));
+    memcpy(field->material, materials, sizeof *materials * (size_t)region_count);
+    field->tet_region = tet_region;
+    OST_TRY_DONE(fill_axes(field, specs, &tets));
+    *out = field;
+    return OST_SUCCESS;
+done:
+    ost_field_destroy(&field);
+    return status;
+}
+
+void ost_field_destroy(OstMaterialField **field)
+{
+    if (!*field)
+        return;
+    OST_FREE((*field)->material);
+    OST_FREE((*field)->region_stiffness);
+    OST_FREE((*field)->region_axes);
+    OST_FREE((*field)->region_varies);
+    OST_FREE((*field)->tet_axes);
+    OST_FREE(*field);
+}

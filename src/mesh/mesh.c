@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/mesh.h"
+
+#include "core/error.h"
+#include "core/halo.h"
+#include "core/memory.h"
+#include "mesh/names.h"
+
+#include <math.h>
+
+void ost_mesh_destroy(OstMesh **mesh)
+{
+    OstMesh *old = *mesh;
+    if (!old)
+        return;
+    OST_FREE(old->node_number);
+    OST_FREE(old->node_label);
+    OST_FREE(old->tet_label);
+    OST_FREE(old->coordinates);
+    OST_FREE(old->tet_nodes);
+    OST_FREE(old->tet_region);
+    OST_FREE(old->tet_axes);
+    ost_names_clear(&old->regions);
+    ost_boundaries_destroy(old->boundary_count, &old->boundaries);
+    ost_halo_destroy(&old->halo);
+    OST_FREE(*mesh);
+}
+
+int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes)
+{
+    OstGlobal lowest = INT64_MAX;
+    for (int i = 0; i < count; i++)
+        if (mesh->node_number[nodes[i]] < lowest)
+            lowest = mesh->node_number[nodes[i]];
+    return lowest >= mesh->first_node && lowest < mesh->first_node + mesh->owned_nodes;
+}
+
+OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3])
+{
+    double outer[6]; /* -low, high: one reduction for both */
+    for (int d = 0; d < 6; d++)
+        outer[d] = -INFINITY;
+    for (size_t i = 0; i < (size_t)mesh->owned_nodes; i++) {
+        for (size_t d = 0; d < 3; d++) {
+            outer[d] = fmax(outer[d], -mesh->coordinates[3 * i + d]);
+            outer[3 + d] = fmax(outer[3 + d], mesh->coordinates[3 * i + d]);
+        }
+    }
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, outer, 6, MPI_DOUBLE, MPI_MAX, ost_comm(mesh->ctx))));
+    for (int d = 0; d < 3; d++) {
+        low[d] = -outer[d];
+        high[d] = outer[3 + d];
+    }
+    return OST_SUCCESS;
+}

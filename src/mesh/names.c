@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/names.h"
+
+#include "core/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void ost_names_clear(OstNames *names)
+{
+    for (int i = 0; names->name && i < names->count; i++)
+        OST_FREE(names->name[i]);
+    OST_FREE(names->name);
+    names->count = 0;
+}
+
+void ost_boundaries_destroy(int count, OstBoundary **boundaries)
+{
+    for (int b = 0; *boundaries && b < count; b++) {
+        OST_FREE((*boundaries)[b].name);
+        OST_FREE((*boundaries)[b].nodes);
+    }
+    OST_FREE(*boundaries);
+}
+
+int ost_mesh_find_region(const OstMesh *mesh, const char *name)
+{
+    for (int r = 0; r < mesh->regions.count; r++)
+        if (strcmp(mesh->regions.name[r], name) == 0)
+            return r;
+    return -1;
+}
+
+int ost_mesh_find_boundary(const OstMesh *mesh, const char *name)
+{
+    for (int b = 0; b < mesh->boundary_count; b++)
+        if (strcmp(mesh->boundaries[b].name, name) == 0)
+            return b;
+    return -1;
+}
+
+/* Appends a name to a list in `text`; what does not fit becomes dots. */
+static void append(char *text, size_t size, const char *name)
+{
+    const size_t used = strlen(text);
+    const int length = snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", name);
+    if (length >= 0 && (size_t)length >= size - used && size > 3)
+        strcpy(text + size - 4, "...");
+}
+
+void ost_names_list(const OstNames *names, char *text, size_t size)
+{
+    if (size == 0)
+        return;
+    text[0] = '\0';
+    for (int i = 0; i < names->count; i++)
+        append(text, size, names->name[i]);
+}
+
+void ost_mesh_list_boundaries(const OstMesh *mesh, char *text, size_t size)
+{
+    if (size == 0)
+        return;
+    text[0] = '\0';
+    for (int b = 0; b < mesh->boundary_count; b++)
+        append(text, size, mesh->boundaries[b].name);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_REDISTRIBUTE_H
+#define ORTHOSTAT_MESH_REDISTRIBUTE_H
+
+#include "mesh/slab.h"
+
+/* Collective. Moves a chunk to the ranks that own its parts (`part`: of the slab's nodes and ghosts) and fills `mesh`.
+ * Within a part, nodes and tets keep their order. The chunk's arrays are freed on the way. */
+OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int *part, OstMesh *mesh);
+
+/* Collective. Moves one boundary's items to the ranks that own their nodes; nodes get the mesh's local numbers.
+ * `number`: new global numbers of the slab's nodes and ghosts. */
+OstStatus ost_boundary_redistribute(OstBoundary *boundary, const Slab *slab, const int *part, const OstGlobal *number,
+                                    const OstMesh *mesh);
+
+/* Local. The mesh's local number of a node by its new global number, or -1. */
+OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
+
+#endif

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "mesh/tet.h"
+#include "orthostat/mesh.h"
+
+void ost_surface_destroy(OstSurface **surface)
+{
+    if (!*surface)
+        return;
+    OST_FREE((*surface)->nodes);
+    OST_FREE((*surface)->tet);
+    OST_FREE(*surface);
+}
+
+/* A face of a tet, filed under its lowest vertex. */
+typedef struct Face {
+    OstLocal middle, high; /* its other vertices */
+    OstLocal tet;
+    int8_t opposite; /* the tet's vertex that it lacks */
+    int8_t turn;     /* seen from outside the tet its vertices ascend counter-clockwise (1) or clockwise (-1) */
+    int8_t twins;    /* faces with the same vertices */
+} Face;
+
+typedef struct FaceTable {
+    OstLocal rows;    /* local nodes */
+    OstGlobal *start; /* rows + 2 */
+    Face *face;
+} FaceTable;
+
+static void swap(OstLocal *a, OstLocal *b)
+{
+    const OstLocal c = *a;
+    *a = *b;
+    *b = c;
+}
+
+/* Vertices in ascending order; the number of swaps decides the turn. */
+static OstLocal sort_face(const OstLocal *tet, int opposite, Face *face)
+{
+    OstLocal v[3];
+    face->turn = 1;
+    for (int i = 0; i < 3; i++)
+        v[i] = tet[ost_tet_face[opposite][i]];
+    for (int pass = 0; pass < 3; pass++) {
+        const int i = pass % 2;
+        if (v[i] > v[i + 1]) {
+            swap(&v[i], &v[i + 1]);
+            face->turn = (int8_t)-face->turn;
+        }
+    }
+    face->middle = v[1];
+    face->high = v[2];
+    face->opposite = (int8_t)opposite;
+    return v[0];
+}
+
+/* The mid-edge node between two of a tet's vertices. */
+static OstLocal mid_edge(const OstLocal *tet, int from, int to)
+{
+    int edge = 0;
+    while (!((ost_tet_edge[edge][0] == from && ost_tet_edge[edge][1] == to) ||
+             (ost_tet_edge[edge][0] == to && ost_tet_edge[edge][1] == from)))
+        edge++;
+    return tet[4 + edge];
+}
+
+static void write_face(const OstLocal *tet, int opposite, int nodes_per_face, OstLocal *nodes)
+{
+    const int *corner = ost_tet_face[opposite];
+    for (int i = 0; i < 3; i++)
+        nodes[i] = tet[corner[i]];
+    for (int i = 3; i < nodes_per_face; i++)
+        nodes[i] = mid_edge(tet, corner[i - 3], corner[(i - 2) % 3]);
+}
+
+/* A quadratic face can touch an owned node by its mid-edges alone. */
+static int touches_owned(const OstMesh *mesh, const OstLocal *tet, int opposite)
+{
+    const int count = mesh->nodes_per_tet == 10 ? 6 : 3;
+    OstLocal nodes[6];
+    write_face(tet, opposite, count, nodes);
+    for (int i = 0; i < count; i++)
+        if (nodes[i] < mesh->owned_nodes)
+            return 1;
+    return 0;
+}
+
+static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
+{
+    return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
+}
+
+/* Only faces that touch an owned node: the tets on both sides of these are here. */
+static OstStatus file_faces(const OstMesh *mesh, FaceTable *table)
+{
+    table->rows = mesh->node_count;
+    OST_TRY(OST_NEW(mesh->ctx, &table->start, (size_t)table->rows + 2));
+    OstGlobal *next = table->start + 1; /* one behind, so that filing moves each start to its place */
+    Face face = {0};
+    for (OstLocal t = 0; t < mesh->tet_count; t++)
+        for (int o = 0; o < 4; o++)
+            if (touches_owned(mesh, nodes_of(mesh, t), o))
+                next[sort_face(nodes_of(mesh, t), o, &face) + 1]++;
+    for (OstLocal n = 0; n < table->rows; n++)
+        next[n + 1] += next[n];
+    OST_TRY(OST_NEW(mesh->ctx, &table->face, next[table->rows]));
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        for (int o = 0; o < 4; o++) {
+            if (!touches_owned(mesh, nodes_of(mesh, t), o))
+                continue;
+            const OstLocal low = sort_face(nodes_of(mesh, t), o, &face);
+            face.tet = t;
+            table->face[next[low]++] = face;
+        }
+    }
+    return OST_SUCCESS;
+}
+
+static int are_twins(const Face *a, const Face *b)
+{
+    return a->middle == b->middle && a->high == b->high;
+}
+
+static OstStatus check_twins(const OstMesh *mesh, const Face *a, const Face *b)
+{
+    const char *fault = a->twins > 1 || b->twins > 1 ? "share a face with a third tet" : "lie on one side of a face";
+    if (a->twins > 1 || b->twins > 1 || a->turn == b->turn)
+        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "tets %lld and %lld %s; remove the doubled or overlapping tet",
+                         (long long)mesh->tet_label[a->tet], (long long)mesh->tet_label[b->tet], fault);
+    return OST_SUCCESS;
+}
+
+/* Two tets meet in an inner face, from opposite sides. */
+static OstStatus match_faces(const OstMesh *mesh, FaceTable *table)
+{
+    for (OstLocal n = 0; n < table->rows; n++) {
+        Face *end = table->face + table->start[n + 1];
+        for (Face *a = table->face + table->start[n]; a < end; a++) {
+            for (Face *b = a + 1; b < end; b++) {
+                if (!are_twins(a, b))
+                    continue;
+                a->twins++;
+                b->twins++;
+                OST_TRY(check_twins(mesh, a, b));
+            }
+        }
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus list_faces(const OstMesh *mesh, const FaceTable *table, OstSurface *surface)
+{
+    OstGlobal count = 0;
+    const OstGlobal faces = table->start[table->rows];
+    for (OstGlobal f = 0; f < faces; f++)
+        count += table->face[f].twins == 0;
+    if (count > INT32_MAX)
+        return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED, "%lld surface faces on one rank, at most %d; use more ranks",
+                         (long long)count, INT32_MAX);
+    surface->nodes_per_face = mesh->nodes_per_tet == 10 ? 6 : 3;
+    const size_t width = (size_t)surface->nodes_per_face;
+    OST_TRY(OST_NEW(mesh->ctx, &surface->nodes, (size_t)count * width));
+    OST_TRY(OST_NEW(mesh->ctx, &surface->tet, count));
+    for (OstGlobal f = 0; f < faces; f++) {
+        const Face *face = &table->face[f];
+        if (face->twins > 0)
+            continue;
+        write_face(nodes_of(mesh, face->tet), face->opposite, surface->nodes_per_face,
+                   surface->nodes + (size_t)surface->count * width);
+        surface->tet[surface->count++] = face->tet;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface)
+{
+    FaceTable table = {0};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(OST_NEW(mesh->ctx, surface, 1));
+    OST_TRY_DONE(file_faces(mesh, &table));
+    OST_TRY_DONE(match_faces(mesh, &table));
+    OST_TRY_DONE(list_faces(mesh, &table, *surface));
+done:
+    OST_FREE(table.start);
+    OST_FREE(table.face);
+    status = ost_agree(mesh->ctx, status);
+    if (status != OST_SUCCESS)
+        ost_surface_destroy(surface);
+    return status;
+}

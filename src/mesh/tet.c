@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/tet.h"
+
+#include "core/small.h"
+#include "orthostat/mesh.h"
+
+const int ost_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+const int ost_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
+static void difference(const double *from, const double *to, double d[3])
+{
+    for (int i = 0; i < 3; i++)
+        d[i] = to[i] - from[i];
+}
+
+double ost_tet_volume(const double *coordinates, const OstLocal *nodes)
+{
+    double edge[9];
+    for (int v = 1; v < 4; v++)
+        difference(coordinates + 3 * (size_t)nodes[0], coordinates + 3 * (size_t)nodes[v], edge + 3 * (v - 1));
+    return ost_determinant3(edge) / 6.0;
+}
+
+double ost_tet_quality(const double *coordinates, const OstLocal *nodes)
+{
+    double sum = 0.0;
+    for (int e = 0; e < 6; e++) {
+        double edge[3];
+        difference(coordinates + 3 * (size_t)nodes[ost_tet_edge[e][0]],
+                   coordinates + 3 * (size_t)nodes[ost_tet_edge[e][1]], edge);
+        sum += ost_norm3(edge);
+    }
+    const double mean = sum / 6.0;
+    return mean > 0.0 ? 6.0 * sqrt(2.0) * (ost_tet_volume(coordinates, nodes) / mean / mean / mean) : 0.0;
+}
+
+OstStatus ost_mesh_tet_centroids(const OstMesh *mesh, double *centroids)
+{
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        for (size_t d = 0; d < 3; d++) {
+            double sum = 0.0;
+            for (int v = 0; v < 4; v++)
+                sum += mesh->coordinates[3 * (size_t)nodes[v] + d];
+            centroids[3 * (size_t)t + d] = 0.25 * sum;
+        }
+    }
+    return OST_SUCCESS;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "output/summary.h"
+
+#include <stdio.h>
+
+static void print_levels(const OstSolveReport *report)
+{
+    if (report->levels < 2)
+        return;
+    printf("  levels           ");
+    for (int l = 0; l < report->levels; l++)
+        printf("%s%lld", l ? " > " : "", (long long)report->level_unknowns[l]);
+    printf(" unknowns, operator complexity %.2f\n", report->operator_complexity);
+}
+
+static void print_solve(const OstResult *result)
+{
+    const OstSolveReport *report = &result->solve;
+    printf("  solver           %s, %d iterations, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
+           report->iterations, report->setup_seconds, report->solve_seconds);
+    print_levels(report);
+    printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
+    if (report->condition_estimate > 0.0)
+        printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
+}
+
+static void print_checks(const OstChecks *checks)
+{
+    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
+           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance, checks->energy_imbalance);
+}
+
+void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file)
+{
+    if (ost_rank(scene->ctx) != 0)
+        return;
+    const OstMesh *mesh = result->mesh;
+    const double *at = result->largest_at;
+    printf("%s\n", scene->c->title ? scene->c->title : scene->c->path);
+    printf("  mesh             %lld vertices, %lld tets, %d rank%s\n", (long long)mesh->global_nodes,
+           (long long)mesh->global_tets, ost_size(scene->ctx), ost_size(scene->ctx) == 1 ? "" : "s");
+    printf("  unknowns         %lld\n", (long long)result->unknowns);
+    print_solve(result);
+    print_checks(&result->checks);
+    printf("  strain energy    %.10g\n", result->checks.strain_energy);
+    printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
+    if (file)
+        printf("  written to       %s\n", file);
+}

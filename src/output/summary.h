@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_OUTPUT_SUMMARY_H
+#define ORTHOSTAT_OUTPUT_SUMMARY_H
+
+#include "orthostat/result.h"
+#include "orthostat/scene.h"
+
+/* The ledger over all ranks: seconds of the slowest rank, bytes of all. */
+typedef struct OstLedgerSummary {
+    double seconds[OST_LEDGER_COUNT];
+    double peak_bytes[OST_LEDGER_COUNT];
+    long entries[OST_LEDGER_COUNT];
+    double total_seconds;      /* since the context was made */
+    double peak_tracked_bytes; /* of our own arrays, all ranks */
+    double peak_process_bytes; /* as the system saw the processes, all ranks */
+} OstLedgerSummary;
+
+/* Collective. */
+OstStatus ost_ledger_summarise(OstContext *ctx, OstLedgerSummary *summary);
+
+/* Local; only rank 0 prints. What a person wants to know of a run, then the ledger. `file` is where the fields went, or
+ * NULL. */
+void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file);
+void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
+
+/* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
+ */
+OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
+                                 const char *file, const char *path);
+
+#endif

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "output/summary.h"
+
+#include "core/error.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+static json_t *vector_json(const double v[3])
+{
+    return json_pack("[f, f, f]", v[0], v[1], v[2]);
+}
+
+static json_t *solver_json(const OstSolveReport *report)
+{
+    json_t *levels = json_array();
+    for (int l = 0; l < report->levels; l++)
+        json_array_append_new(levels, json_integer(report->level_unknowns[l]));
+    return json_pack("{s:s, s:i, s:f, s:f, s:f, s:o, s:f, s:f}", "recipe", ost_recipe_name(report->recipe),
+                     "iterations", report->iterations, "relative_residual", report->relative_residual, "setup_seconds",
+                     report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns", levels,
+                     "operator_complexity", report->operator_complexity, "condition_estimate",
+                     report->condition_estimate);
+}
+
+static json_t *checks_json(const OstChecks *checks)
+{
+    return json_pack("{s:f, s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:b}", "relative_residual", checks->relative_residual,
+                     "load", vector_json(checks->load), "reaction", vector_json(checks->reaction), "force_imbalance",
+                     checks->force_imbalance, "moment_imbalance", checks->moment_imbalance, "strain_energy",
+                     checks->strain_energy, "work", checks->work, "energy_imbalance", checks->energy_imbalance,
+                     "finite", checks->finite);
+}
+
+static json_t *account_json(const OstLedgerSummary *summary, int account)
+{
+    return json_pack("{s:s, s:b, s:f, s:f, s:I}", "name", ost_account_label((OstAccount)account), "effect",
+                     ost_account_is_effect((OstAccount)account), "seconds", summary->seconds[account], "bytes",
+                     summary->peak_bytes[account], "entries", (json_int_t)summary->entries[account]);
+}
+
+static json_t *ledger_json(const OstLedgerSummary *summary)
+{
+    json_t *accounts = json_array();
+    for (int a = 0; a < OST_LEDGER_COUNT; a++)
+        json_array_append_new(accounts, account_json(summary, a));
+    return json_pack("{s:o, s:f, s:f, s:f}", "accounts", accounts, "total_seconds", summary->total_seconds,
+                     "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes);
+}
+
+static json_t *effects_json(const OstPlan *plan)
+{
+    json_t *effects = json_array();
+    for (int e = 0; e < OST_PLAN_COUNT; e++)
+        json_array_append_new(effects, json_pack("{s:s, s:b, s:s}", "effect", plan->effect[e].label, "on",
+                                                 plan->effect[e].on, "reason", plan->effect[e].reason));
+    return effects;
+}
+
+static json_t *run_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
+                        const char *file)
+{
+    const OstMesh *mesh = result->mesh;
+    return json_pack("{s:s, s:s?, s:i, s:I, s:I, s:I, s:o, s:o, s:f, s:o, s:o, s:o, s:s?}", "case", scene->c->path,
+                     "title", scene->c->title, "ranks", ost_size(scene->ctx), "vertices",
+                     (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
+                     (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
+                     checks_json(&result->checks), "largest_displacement", result->largest_displacement, "largest_at",
+                     vector_json(result->largest_at), "effects", effects_json(&scene->plan), "ledger",
+                     ledger_json(summary), "output", file);
+}
+
+static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
+{
+    char partial[4096];
+    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
+    if (length < 0 || (size_t)length >= sizeof partial)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
+    if (json_dump_file(document, partial, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
+        rename(partial, path) != 0) {
+        const char *reason = strerror(errno);
+        remove(partial);
+        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
+                                 const char *file, const char *path)
+{
+    OstContext *ctx = scene->ctx;
+    if (ost_rank(ctx) != 0)
+        return OST_SUCCESS;
+    json_t *document = run_json(scene, result, summary, file);
+    if (!document)
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds a number that JSON cannot: not finite");
+    OstStatus status = OST_SUCCESS;
+    if (strcmp(path, "-") != 0)
+        status = write_file(ctx, document, path);
+    else if (json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 || puts("") < 0)
+        status = OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
+    json_decref(document);
+    return status;
+}

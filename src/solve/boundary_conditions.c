@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/boundary_conditions.h"
+
+#include "assembly/loads.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <stdio.h>
+
+/* Puts "case.yaml:12: " in front of a failure's text. */
+static OstStatus at_line(const OstCase *c, int line, OstStatus status)
+{
+    char text[2048];
+    if (status == OST_SUCCESS)
+        return OST_SUCCESS;
+    snprintf(text, sizeof text, "%s", ost_error_text(c->ctx));
+    return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, line, text);
+}
+
+static OstStatus hold_node(const OstConstraint *constraint, OstLocal node, OstSupports *supports)
+{
+    if (constraint->kind == OST_CONSTRAIN_SLIDE)
+        return ost_supports_hold(supports, node, constraint->normal, 0.0);
+    for (int component = 0; component < 3; component++) {
+        double direction[3] = {0.0};
+        direction[component] = 1.0;
+        if (constraint->held[component])
+            OST_TRY(ost_supports_hold(supports, node, direction, constraint->displacement[component]));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
+{
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
+    const int slides = constraint->kind == OST_CONSTRAIN_SLIDE;
+    ost_ledger_enter(scene->ctx, slides ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS);
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
+        if (nodes[i] < scene->mesh->owned_nodes)
+            status = hold_node(constraint, nodes[i], supports);
+    status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
+    ost_ledger_leave(scene->ctx);
+    OST_FREE(nodes);
+    return status;
+}
+
+OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
+{
+    OstStatus status = ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports));
+    for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
+        status = add_constraint(scene, &scene->c->constraints[i], *supports);
+    if (status == OST_SUCCESS)
+        status = ost_supports_complete(*supports);
+    if (status != OST_SUCCESS)
+        ost_supports_destroy(supports);
+    return status;
+}
+
+static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, int *region)
+{
+    *region = -1;
+    if (!load->region)
+        return OST_SUCCESS;
+    *region = ost_mesh_find_region(scene->mesh, load->region);
+    if (*region >= 0)
+        return OST_SUCCESS;
+    char names[1024];
+    ost_names_list(&scene->mesh->regions, names, sizeof names);
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "the mesh has no region '%s'; it has: %s", load->region, names);
+}
+
+/* Gravity with no mass anywhere is a mistake, not a load of zero. */
+static OstStatus check_density(const OstScene *scene, int region)
+{
+    for (int r = 0; r < scene->mesh->regions.count; r++)
+        if ((region < 0 || r == region) && scene->field->material[r].density > 0.0)
+            return OST_SUCCESS;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "gravity acts on mass, but no material it acts on has a density; add density to the material");
+}
+
+static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    int region = -1;
+    OST_TRY(find_load_region(scene, load, &region));
+    if (load->kind == OST_LOAD_BODY_FORCE)
+        return ost_load_body_force(scene->mesh, region, load->vector, force);
+    OST_TRY(check_density(scene, region));
+    return ost_load_gravity(scene->mesh, scene->field, region, load->vector, force);
+}
+
+static OstStatus add_vertex_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &nodes));
+    OstStatus status;
+    if (load->kind == OST_LOAD_POINT_FORCE)
+        status = ost_agree(scene->ctx, ost_load_point_force(scene->mesh, count, nodes, load->vector, force));
+    else
+        status = ost_load_shared_force(scene->mesh, count, nodes, load->vector, force);
+    OST_FREE(nodes);
+    return status;
+}
+
+static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLocal count, int nodes_per_face,
+                               const OstLocal *faces, double area, double *force)
+{
+    const OstMesh *mesh = scene->mesh;
+    if (load->kind == OST_LOAD_PRESSURE)
+        return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));
+    double traction[3];
+    for (int i = 0; i < 3; i++)
+        traction[i] = load->kind == OST_LOAD_TOTAL_FORCE ? load->vector[i] / area : load->vector[i];
+    return ost_agree(scene->ctx, ost_load_traction(mesh, count, faces, nodes_per_face, traction, force));
+}
+
+/* Does a total force go over faces? Selections that are points by nature do not even look for any. */
+static int may_have_faces(const OstLoad *load)
+{
+    if (load->kind != OST_LOAD_TOTAL_FORCE)
+        return load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE;
+    if (load->share == OST_SHARE_AUTO)
+        return load->on.kind != OST_SELECT_VERTICES && load->on.kind != OST_SELECT_NEAREST;
+    return load->share == OST_SHARE_FACES;
+}
+
+static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    if (!may_have_faces(load))
+        return add_vertex_load(scene, load, force);
+    OstLocal count = 0;
+    OstLocal *faces = NULL;
+    int nodes_per_face = 3;
+    double area = 0.0;
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, &count, &nodes_per_face, &faces));
+    OstStatus status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
+    if (status == OST_SUCCESS && area > 0.0)
+        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
+    else if (status == OST_SUCCESS && load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_AUTO)
+        status = add_vertex_load(scene, load, force);
+    else if (status == OST_SUCCESS)
+        status =
+            OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                      "the selection has vertices but no whole face of the body's surface, and this load needs faces; "
+                      "select a named surface, or widen the selection");
+    OST_FREE(faces);
+    return status;
+}
+
+static OstAccount account_of_load(const OstLoad *load)
+{
+    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
+        return OST_EFFECT_BODY_FORCE;
+    return may_have_faces(load) ? OST_EFFECT_SURFACE_LOAD : OST_EFFECT_POINT_FORCE;
+}
+
+OstStatus ost_scene_loads(const OstScene *scene, double *force)
+{
+    for (int i = 0; i < scene->c->load_count; i++) {
+        const OstLoad *load = &scene->c->loads[i];
+        ost_ledger_enter(scene->ctx, account_of_load(load));
+        OstStatus status;
+        if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
+            status = ost_agree(scene->ctx, add_body_load(scene, load, force));
+        else
+            status = add_selected_load(scene, load, force);
+        ost_ledger_leave(scene->ctx);
+        OST_TRY(at_line(scene->c, load->line, status));
+    }
+    return OST_SUCCESS;
+}

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/checks.h"
+
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/halo.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Sums over the body that the checks compare; the order is that of the reduction. */
+enum {
+    SUM_RESIDUAL, /* squares of P (f - K u) */
+    SUM_ROUNDING, /* squares of what rounding may leave of it */
+    SUM_LOAD,     /* 3 */
+    SUM_REACTION = SUM_LOAD + 3,
+    SUM_LOAD_SIZE = SUM_REACTION + 3, /* of |f| + |r| */
+    SUM_MOMENT,                       /* 3 */
+    SUM_MOMENT_SIZE = SUM_MOMENT + 3,
+    SUM_DOUBLE_ENERGY, /* u·K u */
+    SUM_DOUBLE_WORK,   /* (f + r)·u */
+    SUM_WORK_SIZE,     /* of |(f + r)·u| */
+    SUM_NOT_FINITE,
+    SUM_COUNT
+};
+
+/* Roundings that a term of a nodal force goes through: of the displacement, the element's numbers, the sum over tets.
+ * They rarely all pull one way. */
+static const double rounding_steps = 4.0;
+
+/* A balance may miss by this much beyond what the residual explains. */
+static const double balance_tolerance = 1e-10;
+
+static void project_on_held(const OstSupports *supports, OstLocal node, const double vector[3], double held[3])
+{
+    double projector[9], given[3], free_part[3];
+    if (ost_supports_get(supports, node, projector, given) == 0) {
+        memset(held, 0, 3 * sizeof *held);
+        return;
+    }
+    ost_apply3(projector, vector, free_part);
+    for (int i = 0; i < 3; i++)
+        held[i] = vector[i] - free_part[i];
+}
+
+static void add_node(OstResult *result, const OstSupports *supports, OstLocal node, const double *internal,
+                     const double *magnitude, const double centre[3], double *sums)
+{
+    const double *f = result->force + 3 * (size_t)node;
+    const double *u = result->displacement + 3 * (size_t)node;
+    double *r = result->reaction + 3 * (size_t)node;
+    double out_of_balance[3], external[3], arm[3], moment[3];
+    for (int i = 0; i < 3; i++)
+        out_of_balance[i] = internal[i] - f[i];
+    project_on_held(supports, node, out_of_balance, r);
+    for (int i = 0; i < 3; i++) {
+        const double residual = out_of_balance[i] - r[i];
+        external[i] = f[i] + r[i];
+        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] - centre[i];
+        sums[SUM_RESIDUAL] += residual * residual;
+        sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
+        sums[SUM_LOAD + i] += f[i];
+        sums[SUM_REACTION + i] += r[i];
+        sums[SUM_DOUBLE_ENERGY] += internal[i] * u[i];
+        sums[SUM_DOUBLE_WORK] += external[i] * u[i];
+        sums[SUM_WORK_SIZE] += fabs(external[i] * u[i]);
+        sums[SUM_NOT_FINITE] += !isfinite(u[i]) || !isfinite(internal[i]);
+    }
+    ost_cross3(arm, external, moment);
+    for (int i = 0; i < 3; i++)
+        sums[SUM_MOMENT + i] += moment[i];
+    sums[SUM_LOAD_SIZE] += ost_norm3(f) + ost_norm3(r);
+    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
+}
+
+/* Fills the checks from the sums; rounding is the relative residual that rounding alone may leave. */
+static void draw_conclusions(OstChecks *checks, const double *sums, double rhs_norm, double *rounding)
+{
+    double force[3];
+    for (int i = 0; i < 3; i++) {
+        checks->load[i] = sums[SUM_LOAD + i];
+        checks->reaction[i] = sums[SUM_REACTION + i];
+        force[i] = checks->load[i] + checks->reaction[i];
+    }
+    const double tiny = DBL_MIN;
+    const double scale = fmax(rhs_norm, tiny);
+    checks->relative_residual = sqrt(sums[SUM_RESIDUAL]) / scale;
+    *rounding = rounding_steps * DBL_EPSILON * sqrt(sums[SUM_ROUNDING]) / scale;
+    checks->force_imbalance = ost_norm3(force) / fmax(sums[SUM_LOAD_SIZE], tiny);
+    checks->moment_imbalance = ost_norm3(sums + SUM_MOMENT) / fmax(sums[SUM_MOMENT_SIZE], tiny);
+    checks->strain_energy = 0.5 * sums[SUM_DOUBLE_ENERGY];
+    checks->work = 0.5 * sums[SUM_DOUBLE_WORK];
+    checks->energy_imbalance = fabs(checks->strain_energy - checks->work) / fmax(0.5 * sums[SUM_WORK_SIZE], tiny);
+    checks->finite = sums[SUM_NOT_FINITE] == 0.0;
+}
+
+static OstStatus judge(OstContext *ctx, const OstResult *result, double requested, double rounding, double explained)
+{
+    const OstChecks *checks = &result->checks;
+    if (!checks->finite)
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the displacement is not finite everywhere; nothing was written");
+    if (checks->relative_residual > 2.0 * requested + rounding)
+        return OST_RAISE(
+            ctx, OST_CHECK_FAILED,
+            "the true residual, summed tet by tet, is %.2e where %.2e was asked for (rounding explains %.1e); "
+            "nothing was written",
+            checks->relative_residual, requested, rounding);
+    const double balance = balance_tolerance + explained;
+    if (checks->force_imbalance > balance || checks->moment_imbalance > balance)
+        return OST_RAISE(ctx, OST_CHECK_FAILED,
+                         "loads and reactions do not balance: force %.2e, moment %.2e of their size, where %.1e can be "
+                         "explained; nothing was written",
+                         checks->force_imbalance, checks->moment_imbalance, balance);
+    if (checks->energy_imbalance > balance || checks->strain_energy < 0.0)
+        return OST_RAISE(ctx, OST_CHECK_FAILED,
+                         "the strain energy %.10e is not the work %.10e of loads and reactions; nothing was written",
+                         checks->strain_energy, checks->work);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual, double rhs_norm)
+{
+    OstContext *ctx = result->ctx;
+    const OstMesh *mesh = result->mesh;
+    double *internal = NULL, *magnitude = NULL;
+    double sums[SUM_COUNT] = {0.0};
+    double low[3], high[3], centre[3], rounding = 0.0;
+    ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
+    OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes);
+    if (status == OST_SUCCESS)
+        status = ost_internal_force(mesh, result->field, result->displacement, internal, magnitude);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_mesh_bounds(mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5 * (low[i] + high[i]);
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        add_node(result, supports, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, centre, sums);
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
+    draw_conclusions(&result->checks, sums, rhs_norm, &rounding);
+    /* Internal forces sum to zero exactly, so what the balances miss is the sum of the residual: at most sqrt(n) its
+     * norm. */
+    const double explained = sqrt((double)result->unknowns) * (sqrt(sums[SUM_RESIDUAL]) + rounding * rhs_norm) /
+                             fmax(sums[SUM_LOAD_SIZE], DBL_MIN);
+    status = judge(ctx, result, requested_residual, rounding, explained);
+done:
+    OST_FREE(internal);
+    OST_FREE(magnitude);
+    ost_ledger_leave(ctx);
+    return status;
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver.h"
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "orthostat/scene.h"
+#include "solve/boundary_conditions.h"
+#include "solve/checks.h"
+#include "solve/recovery.h"
+
+#include <string.h>
+
+/* What lives from the assembly to the end of the solve, and no longer. */
+typedef struct Work {
+    OstSupports *supports;
+    OstSystem *system;
+    OstSolver *solver;
+    double *rhs, *v;                      /* 3 × rows */
+    double *coordinates, *metric, *modes; /* what multigrid sees */
+} Work;
+
+static void release_system(Work *work)
+{
+    ost_solver_destroy(&work->solver);
+    ost_system_destroy(&work->system);
+    OST_FREE(work->rhs);
+    OST_FREE(work->v);
+    OST_FREE(work->coordinates);
+    OST_FREE(work->metric);
+    OST_FREE(work->modes);
+}
+
+static OstStatus create_result(const OstScene *scene, OstResult **result)
+{
+    OstContext *ctx = scene->ctx;
+    const size_t nodes = (size_t)scene->mesh->node_count;
+    OST_TRY(OST_NEW(ctx, result, 1));
+    (*result)->ctx = ctx;
+    (*result)->mesh = scene->mesh;
+    (*result)->field = scene->field;
+    OST_TRY(OST_NEW(ctx, &(*result)->displacement, 3 * nodes));
+    OST_TRY(OST_NEW(ctx, &(*result)->force, 3 * nodes));
+    return OST_NEW(ctx, &(*result)->reaction, 3 * nodes);
+}
+
+void ost_result_destroy(OstResult **result)
+{
+    if (!*result)
+        return;
+    OST_FREE((*result)->displacement);
+    OST_FREE((*result)->force);
+    OST_FREE((*result)->reaction);
+    OST_FREE((*result)->strain);
+    OST_FREE((*result)->stress);
+    OST_FREE((*result)->strain_energy_density);
+    OST_FREE(*result);
+}
+
+/* An isotropic body's metric is the Euclidean one, which needs no array. */
+static OstStatus fill_geometry(const OstScene *scene, Work *work)
+{
+    OstContext *ctx = scene->ctx;
+    const size_t rows = (size_t)work->system->matrix->rows;
+    OstStatus status = OST_NEW(ctx, &work->coordinates, 3 * rows);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &work->modes, 18 * rows);
+    if (status == OST_SUCCESS && scene->plan.effect[OST_PLAN_ORTHOTROPY].on)
+        status = OST_NEW(ctx, &work->metric, 6 * rows);
+    OST_TRY(ost_agree(ctx, status));
+    return ost_system_geometry(work->system, scene->field, work->coordinates, work->metric, work->modes);
+}
+
+static OstStatus assemble(const OstScene *scene, const OstResult *result, Work *work)
+{
+    OstContext *ctx = scene->ctx;
+    OST_TRY(ost_system_create(scene->mesh, work->supports, &work->system));
+    const size_t rows = (size_t)work->system->matrix->rows;
+    OstStatus status = ost_system_fill(work->system, scene->field);
+    ost_system_release_scatter(work->system);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &work->rhs, 3 * rows);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &work->v, 3 * rows);
+    if (status == OST_SUCCESS)
+        status = ost_system_right_hand_side(work->system, scene->field, result->force, work->rhs);
+    return ost_agree(ctx, status);
+}
+
+static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *work)
+{
+    OstContext *ctx = scene->ctx;
+    OstSolverOptions options = scene->c->solver;
+    if (options.recipe == OST_RECIPE_AUTO)
+        options.recipe = scene->plan.recipe;
+    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
+    const OstStatus status = fill_geometry(scene, work);
+    ost_ledger_leave(ctx);
+    OST_TRY(status);
+    const OstSolverGeometry geometry = {work->coordinates, work->metric, work->modes};
+    OST_TRY(ost_solver_create(ctx, work->system->matrix, &geometry, &options, &work->solver));
+    const OstStatus solved = ost_solver_solve(work->solver, work->rhs, work->v, &result->solve);
+    OST_TRY(ost_system_displacement(work->system, work->v, result->displacement));
+    return solved;
+}
+
+static OstStatus norm_of_rhs(const Work *work, double *norm)
+{
+    const size_t n = 3 * (size_t)work->system->matrix->rows;
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += work->rhs[i] * work->rhs[i];
+    OstContext *ctx = work->system->ctx;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    *norm = sqrt(sum);
+    return OST_SUCCESS;
+}
+
+static OstStatus find_largest_displacement(OstResult *result)
+{
+    OstContext *ctx = result->ctx;
+    const OstMesh *mesh = result->mesh;
+    struct {
+        double value;
+        int rank;
+    } largest = {0.0, ost_rank(ctx)};
+    double at[3] = {0.0};
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        const double size = ost_norm3(result->displacement + 3 * (size_t)n);
+        if (size <= largest.value)
+            continue;
+        largest.value = size;
+        memcpy(at, mesh->coordinates + 3 * (size_t)n, sizeof at);
+    }
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ost_comm(ctx))));
+    OST_TRY(OST_MPI(ctx, MPI_Bcast(at, 3, MPI_DOUBLE, largest.rank, ost_comm(ctx))));
+    result->largest_displacement = largest.value;
+    memcpy(result->largest_at, at, sizeof at);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
+{
+    OstContext *ctx = scene->ctx;
+    Work work = {0};
+    OstResult *result = NULL;
+    double rhs_norm = 0.0;
+    OstStatus status = ost_agree(ctx, create_result(scene, &result));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_scene_supports(scene, &work.supports));
+    OST_TRY_DONE(ost_scene_loads(scene, result->force));
+    OST_TRY_DONE(assemble(scene, result, &work));
+    result->unknowns = 3 * work.system->matrix->global_rows;
+    OST_TRY_DONE(solve_system(scene, result, &work));
+    OST_TRY_DONE(norm_of_rhs(&work, &rhs_norm));
+    release_system(&work);
+    OST_TRY_DONE(ost_result_check(result, work.supports, scene->c->solver.relative_residual, rhs_norm));
+    OST_TRY_DONE(find_largest_displacement(result));
+    OST_TRY_DONE(ost_agree(ctx, ost_result_recover(result, scene->c->output_fields)));
+done:
+    release_system(&work);
+    ost_supports_destroy(&work.supports);
+    *out = result;
+    return status;
+}

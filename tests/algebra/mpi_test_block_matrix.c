@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "elastic_block.h"
+
+#include "core/small.h"
+
+static const ElasticBlock held = {
+    .bricks = {3, 2, 5}, .size = {1.0, 0.8, 1.3}, .modulus = 2.0, .poisson = 0.3, .held = 1};
+static const ElasticBlock afloat = {.bricks = {3, 3, 4}, .size = {0.5, 1.0, 0.7}, .modulus = 3.0, .poisson = 0.25};
+
+static double norm(OstContext *context, size_t n, const double *x)
+{
+    double square = 0.0;
+    for (size_t i = 0; i < n; i++)
+        square += x[i] * x[i];
+    MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, ost_comm(context));
+    return sqrt(square);
+}
+
+/* y = A x on the rows of a context's ranks, x given by the problem's force. */
+static double *product(const ElasticProblem *problem)
+{
+    const OstBlockMatrix *matrix = problem->matrix;
+    double *x = NULL;
+    double *y = NULL;
+    assert_success(OST_NEW(matrix->ctx, &x, 3 * (size_t)matrix->columns));
+    assert_success(OST_NEW(matrix->ctx, &y, 3 * (size_t)matrix->rows));
+    memcpy(x, problem->force, 3 * (size_t)matrix->rows * sizeof *x);
+    assert_success(ost_block_matrix_apply(matrix, x, y));
+    OST_FREE(x);
+    return y;
+}
+
+static void the_product_does_not_depend_on_the_ranks(void **state)
+{
+    (void)state;
+    OstContext *alone = NULL;
+    ElasticProblem shared;
+    ElasticProblem whole;
+    assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
+    assert_success(elastic_create(ctx, &held, &shared));
+    assert_success(elastic_create(alone, &held, &whole));
+    double *y = product(&shared);
+    double *expected = product(&whole);
+    const size_t first = 3 * (size_t)shared.matrix->first_row;
+    for (size_t i = 0; i < 3 * (size_t)shared.matrix->rows; i++)
+        assert_close(y[i], expected[first + i], 1e-13);
+    OST_FREE(y);
+    OST_FREE(expected);
+    elastic_destroy(&shared);
+    elastic_destroy(&whole);
+    ost_context_destroy(&alone);
+}
+
+static void rigid_motions_of_a_free_body_take_no_force(void **state)
+{
+    (void)state;
+    ElasticProblem problem;
+    assert_success(elastic_create(ctx, &afloat, &problem));
+    const OstBlockMatrix *matrix = problem.matrix;
+    const size_t n = 3 * (size_t)matrix->rows;
+    double *x = NULL;
+    double *y = NULL;
+    assert_success(OST_NEW(ctx, &x, 3 * (size_t)matrix->columns));
+    assert_success(OST_NEW(ctx, &y, n));
+    for (size_t mode = 0; mode < 6; mode++) {
+        memcpy(x, problem.modes + mode * n, n * sizeof *x);
+        assert_true(norm(ctx, n, x) > 1.0);
+        assert_success(ost_block_matrix_apply(matrix, x, y));
+        assert_true(norm(ctx, n, y) < 1e-12 * norm(ctx, n, x));
+    }
+    OST_FREE(x);
+    OST_FREE(y);
+    elastic_destroy(&problem);
+}
+
+static void the_six_modes_are_independent(void **state)
+{
+    (void)state;
+    ElasticProblem problem;
+    double gram[36];
+    assert_success(elastic_create(ctx, &afloat, &problem));
+    const size_t n = 3 * (size_t)problem.matrix->rows;
+    for (size_t a = 0; a < 6; a++)
+        for (size_t b = 0; b < 6; b++) {
+            gram[6 * a + b] = 0.0;
+            for (size_t i = 0; i < n; i++)
+                gram[6 * a + b] += problem.modes[a * n + i] * problem.modes[b * n + i];
+        }
+    MPI_Allreduce(MPI_IN_PLACE, gram, 36, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    double values[6];
+    assert_success(ost_symmetric_eigen(ctx, 6, gram, values, NULL));
+    assert_true(values[0] > 1e-3 * values[5]);
+    elastic_destroy(&problem);
+}
+
+static void a_like_matrix_shares_nothing_but_the_pattern(void **state)
+{
+    (void)state;
+    ElasticProblem problem;
+    OstBlockMatrix *like = NULL;
+    assert_success(elastic_create(ctx, &held, &problem));
+    const OstBlockMatrix *matrix = problem.matrix;
+    assert_success(ost_block_matrix_create_like(matrix, &like));
+    const size_t blocks = (size_t)matrix->row_start[matrix->rows];
+    for (size_t k = 0; k < 9 * blocks; k++) {
+        assert_close(like->value[k], 0.0, 0.0);
+        like->value[k] = 2.0 * matrix->value[k];
+    }
+    double *expected = product(&problem);
+    ElasticProblem doubled = problem;
+    doubled.matrix = like;
+    double *y = product(&doubled);
+    for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
+        assert_close(y[i], 2.0 * expected[i], 1e-14);
+    OST_FREE(y);
+    OST_FREE(expected);
+    ost_block_matrix_destroy(&like);
+    elastic_destroy(&problem);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_product_does_not_depend_on_the_ranks),
+    cmocka_unit_test(rigid_motions_of_a_free_body_take_no_force),
+    cmocka_unit_test(the_six_modes_are_independent),
+    cmocka_unit_test(a_like_matrix_shares_nothing_but_the_pattern),
+};
+
+OST_TEST_MAIN(tests)

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "algebra/lanczos.h"
+
+/* Conjugate gradients on diag(values), all of them excited. */
+static double condition_after(int n, const double *values, int steps)
+{
+    double r[64];
+    double p[64];
+    double rr = 0.0;
+    double beta = 0.0;
+    OstLanczos lanczos;
+    assert_success(ost_lanczos_create(ctx, steps, &lanczos));
+    for (int i = 0; i < n; i++) {
+        r[i] = p[i] = 1.0;
+        rr += 1.0;
+    }
+    for (int k = 0; k < steps; k++) {
+        double energy = 0.0;
+        double next = 0.0;
+        for (int i = 0; i < n; i++)
+            energy += values[i] * p[i] * p[i];
+        for (int i = 0; i < n; i++) {
+            r[i] -= rr / energy * values[i] * p[i];
+            next += r[i] * r[i];
+        }
+        ost_lanczos_add(&lanczos, rr / energy, beta);
+        beta = next / rr;
+        rr = next;
+        for (int i = 0; i < n; i++)
+            p[i] = r[i] + beta * p[i];
+    }
+    const double condition = ost_lanczos_condition(&lanczos);
+    ost_lanczos_destroy(&lanczos);
+    return condition;
+}
+
+static void as_many_steps_as_eigenvalues_give_the_condition_number(void **state)
+{
+    (void)state;
+    const double values[] = {0.5, 1.0, 3.0, 7.0, 20.0};
+    assert_close(condition_after(5, values, 5), 40.0, 1e-8);
+}
+
+static void fewer_steps_give_a_lower_bound(void **state)
+{
+    (void)state;
+    double values[64];
+    double before = 1.0;
+    for (int i = 0; i < 64; i++)
+        values[i] = 1.0 + i;
+    for (int steps = 2; steps <= 16; steps += 2) {
+        const double condition = condition_after(64, values, steps);
+        assert_true(condition > before && condition < 64.0);
+        before = condition;
+    }
+    assert_true(before > 32.0);
+}
+
+static void no_steps_give_no_estimate_and_one_gives_1(void **state)
+{
+    (void)state;
+    const double values[] = {4.0, 9.0};
+    assert_close(condition_after(2, values, 0), 0.0, 0.0);
+    assert_close(condition_after(2, values, 1), 1.0, 1e-10);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(as_many_steps_as_eigenvalues_give_the_condition_number),
+    cmocka_unit_test(fewer_steps_give_a_lower_bound),
+    cmocka_unit_test(no_steps_give_no_estimate_and_one_gives_1),
+};
+
+OST_TEST_MAIN(tests)

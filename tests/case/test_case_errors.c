@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case_text.h"
+
+#define CUBE "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+#define STEEL "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3}]\n"
+#define MATERIAL(text) CUBE "materials:\n  - {region: all, " text "}\n"
+#define AXES(text) MATERIAL("youngs_modulus: [1, 2, 3], poissons_ratio: 0.3, axes: {" text "}")
+#define ON(text) CUBE STEEL "constraints:\n  - {on: {" text "}, slide: [0, 0, 1]}\n"
+#define LOAD(text) CUBE STEEL "loads:\n  - {" text "}\n"
+
+static void a_missing_file_is_named(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    assert_failure(ost_case_read(ctx, "/nowhere/no.yaml", &c), OST_FILE_FAILED,
+                   "/nowhere/no.yaml: cannot be opened: No such file or directory");
+    assert_failure(ost_case_read(ctx, "/", &c), OST_FILE_FAILED, "/: cannot be read: Is a directory");
+    assert_null(c);
+}
+
+static void an_unknown_key_comes_with_the_nearest(void **state)
+{
+    (void)state;
+    assert_refused(
+        CUBE "materials:\n  - region: all\n    youngs_modulos: 1\n",
+        "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
+        "youngs_modulus, poissons_ratio, shear_modulus, density, axes");
+    assert_refused("mehs: 1\n", "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
+                                "element, materials, constraints, loads, effects, accuracy, solver, output");
+    assert_refused(CUBE STEEL "accuracy: {relative_error: 0.01}\n",
+                   "3:12: unknown key 'relative_error' in accuracy. Known keys: relative_residual");
+    assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
+                   "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
+    assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
+                   "4:22: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
+                   "point_force, traction, pressure, gravity, body_force, on, share, region");
+}
+
+static void missing_doubled_and_empty_keys_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(STEEL, "1:1: key 'mesh' is missing in the case");
+    assert_refused(CUBE "materials: [{region: all, youngs_modulus: 1}]\n",
+                   "2:13: key 'poissons_ratio' is missing in materials[0]");
+    assert_refused(CUBE CUBE, "2:1: key 'mesh' stands twice in the case, the first time in line 1; keep one");
+    assert_refused(CUBE "materials:\n",
+                   "2:1: key 'materials' in the case has no value; give it one, or leave the key out");
+    assert_refused(CUBE, "1:1: the case has no materials, and its mesh brings none; add materials (region, "
+                         "youngs_modulus, poissons_ratio)");
+}
+
+static void wrong_types_say_what_was_found(void **state)
+{
+    (void)state;
+    assert_refused("- 1\n", "1:1: the case: found a list of 1, expected a mapping with the keys title, mesh, ...");
+    assert_refused("mesh: cube\n", "1:7: mesh: found 'cube', expected a mapping with the keys tube, block, file");
+    assert_refused("mesh: {block: {size: 1, divisions: [2, 2, 2]}}\n",
+                   "1:22: mesh.block.size: found '1', expected a list of 3 numbers");
+    assert_refused("mesh: {block: {size: [1, 1], divisions: [2, 2, 2]}}\n",
+                   "1:22: mesh.block.size: found a list of 2, expected a list of 3 numbers");
+    assert_refused("mesh: {block: {size: [1, 1, 1], divisions: [2, 2.5, 2]}}\n",
+                   "1:48: mesh.block.divisions[1]: found '2.5', expected a whole number from 1 to 1000000");
+    assert_refused(CUBE "materials: {region: all}\n",
+                   "2:12: materials: found a mapping, expected a list of materials (- region: all ...)");
+    assert_refused(MATERIAL("youngs_modulus: '1e6', poissons_ratio: 0.3"),
+                   "3:34: materials[0].youngs_modulus: found the quoted text '1e6', expected a number without quotes");
+}
+
+static void numbers_are_whole_and_finite(void **state)
+{
+    (void)state;
+    assert_refused(
+        MATERIAL("youngs_modulus: 1e6Pa, poissons_ratio: 0.3"),
+        "3:34: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (units are "
+        "yours, and not written)");
+    assert_refused(MATERIAL("youngs_modulus: .nan, poissons_ratio: 0.3"),
+                   "3:34: materials[0].youngs_modulus: found '.nan', expected a finite number");
+    assert_refused(MATERIAL("youngs_modulus: -Infinity, poissons_ratio: 0.3"),
+                   "3:34: materials[0].youngs_modulus: found '-Infinity', expected a finite number");
+    assert_refused(MATERIAL("youngs_modulus: 1e400, poissons_ratio: 0.3"),
+                   "3:34: materials[0].youngs_modulus: found '1e400', expected a finite number (below 1.8e308)");
+    assert_refused(MATERIAL("youngs_modulus: 0x10, poissons_ratio: 0.3"),
+                   "3:34: materials[0].youngs_modulus: found '0x10', expected a number");
+    assert_refused(MATERIAL("youngs_modulus: [1, stiff, 1], poissons_ratio: 0.3"),
+                   "3:38: materials[0].youngs_modulus[1]: found 'stiff', expected a number");
+    assert_refused(MATERIAL("youngs_modulus: [1, 2, -3], poissons_ratio: 0.3"),
+                   "3:41: materials[0].youngs_modulus[2]: found '-3', expected a number above 0");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, density: -1"),
+                   "3:67: materials[0].density: found '-1', expected a density, 0 or above");
+}
+
+static void exactly_one_form_is_expected(void **state)
+{
+    (void)state;
+    assert_refused("mesh: {}\n" STEEL, "1:7: mesh has none of tube, block, file; exactly one of them is expected");
+    assert_refused(
+        LOAD("on: {all: true}, traction: [1, 0, 0], pressure: 1"),
+        "4:5: loads[0] has both 'traction' and 'pressure'; exactly one of total_force, point_force, traction, "
+        "pressure, gravity, body_force is expected");
+    assert_refused(
+        ON("all: true, boundary: xmin"),
+        "4:10: constraints[0].on has both 'boundary' and 'all'; exactly one of boundary, plane, box, sphere, "
+        "cylinder, vertices, nearest, all is expected");
+    assert_refused(AXES("fixed: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], cells: mesh"),
+                   "3:70: materials[0].axes has both 'fixed' and 'cells'; ...");
+}
+
+static void unstable_materials_are_refused_where_they_stand(void **state)
+{
+    (void)state;
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.5"), "3:53: ...");
+    assert_refused(MATERIAL("youngs_modulus: [1, 1, 10], poissons_ratio: {nu12: 0.3, nu23: 0.3, nu31: 0.3}, "
+                            "shear_modulus: {G12: 1, G23: 1, G31: 1}"),
+                   "3:62: ...");
+    assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.3, nu31: 0.3}, "
+                            "shear_modulus: {G12: 1, G23: 1, G31: 1}"),
+                   "3:61: region 'all': neither nu23 nor nu32 is given...");
+}
+
+static void constants_that_do_not_go_together_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
+                   "3:53: poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
+    assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),
+                   "3:61: nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; ...");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G21: 1}"),
+                   "3:87: 'G12' and 'G21' are the same modulus; give one of them");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G23: 1}"),
+                   "3:73: expected either G12, G23 and G31 (or G13), or axis alone");
+    assert_refused(
+        MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: geometrical"),
+        "3:73: unknown shear rule 'geometrical'; did you mean 'geometric'? Known: geometric, arithmetic, min, "
+        "max");
+    assert_refused(MATERIAL("youngs_modulus: {plane: 1, axis: 2}, poissons_ratio: {nu12: 0.1}"),
+                   "3:71: with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, plane_axis}; ...");
+}
+
+static void bad_axes_are_refused_where_they_stand(void **state)
+{
+    (void)state;
+    assert_refused(AXES("fixed: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]"),
+                   "3:78: axes of region 'all': the axes are left-handed; ...");
+    assert_refused(AXES("quaternion: [0, 0, 0, 0]"), "3:83: quaternion (0, 0, 0, 0); ...");
+    assert_refused(AXES("euler: {degrees: [1, 2, 3], sequence: zzx}"), "3:109: Euler sequence 'zzx'; ...");
+    assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 0], order: [axial, radial, tangential]}"),
+                   "3:110: found the vector 0 0 0, expected a direction: three numbers not all zero");
+    assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [axial, radial, radial]}"),
+                   "3:144: direction 'radial' stands twice; e1, e2 and e3 take a different one each");
+    assert_refused(AXES("curve: {points: [[0, 0, 0]]}"), "3:87: found 1 points, expected two at least");
+    assert_refused(AXES("curve: {points: [[0, 0, 0], [0, 0, 0]]}"),
+                   "3:99: this point is the one before it again; a curve moves on");
+    assert_refused(AXES("gradient: {e1: {from: a, to: a}, e2: {from: b, to: c}}"),
+                   "3:100: 'a' is both from and to; a gradient runs between two boundaries");
+}
+
+static void bad_selections_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(ON("all: false"), "4:16: constraints[0].on.all: found 'false', expected true");
+    assert_refused(ON("plane: {point: [0, 0, 0], normal: [0, 0, 1], tolerance: -1}"),
+                   "4:67: constraints[0].on.plane.tolerance: found '-1', expected a distance, 0 or above");
+    assert_refused(ON("box: {min: [0, 2, 0], max: [1, 1, 1]}"),
+                   "4:22: min is above max along y (2 > 1); exchange them");
+    assert_refused(ON("vertices: [1, 2, 1]"), "4:21: vertex 1 stands twice in the list");
+    assert_refused(ON("vertices: held.txt"), "4:21: constraints[0].on.vertices: found 'held.txt', expected a list of "
+                                             "vertex labels, or the name of a .bou file");
+    assert_refused(ON("cylinder: {origin: [0, 0, 0], axis: [0, 0, 1], radius: 1, radii: [0, 1]}"),
+                   "4:21: constraints[0].on.cylinder has both 'radius' and 'radii'; ...");
+}
+
+static void bad_conditions_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [free, free, free]}\n",
+                   "4:37: every component is free, so this constraint holds nothing; leave it out");
+    assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [fre, 0, 0]}\n",
+                   "4:38: constraints[0].displacement[0]: found 'fre', expected a number");
+    assert_refused(LOAD("traction: [1, 0, 0]"), "4:5: 'traction' needs 'on': where it acts");
+    assert_refused(LOAD("on: {all: true}, gravity: [0, 0, 1]"),
+                   "4:10: 'gravity' acts in the volume and has no 'on'; 'region: NAME' restricts it");
+    assert_refused(LOAD("on: {all: true}, pressure: 1, share: faces"),
+                   "4:42: 'share' belongs to total_force, not to 'pressure'");
+    assert_refused(LOAD("on: {all: true}, pressure: 1, region: a"),
+                   "4:43: 'region' belongs to gravity and body_force; 'pressure' acts where 'on' says");
+    assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity pulls on mass, but no material has a density; ...");
+}
+
+static void what_later_versions_will_do_is_refused_in_words(void **state)
+{
+    (void)state;
+    assert_refused(CUBE STEEL "element: {order: 2}\n", "3:18: order 2 is not available in this version; 1 is");
+    assert_refused(CUBE STEEL "effects: {large_rotation: on}\n",
+                   "3:27: large_rotation: on is not part of this version; auto and off take rotations as small");
+    assert_refused(CUBE STEEL "output: {fields: [displacement, error]}\n",
+                   "3:33: unknown field 'error'. Known: displacement, reaction, stress, strain, strain_energy_density, "
+                   "axes, region, rank");
+}
+
+static void bad_settings_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(CUBE STEEL "accuracy: {relative_residual: 1}\n",
+                   "3:31: accuracy.relative_residual: found '1', expected a number from 1e-15 to below 1");
+    assert_refused(CUBE STEEL "solver: {recipe: metrics}\n",
+                   "3:18: unknown recipe 'metrics'; did you mean 'metric'? Known: auto, plain, metric, direct");
+    assert_refused(CUBE STEEL "solver: {max_iterations: 0}\n",
+                   "3:26: solver.max_iterations: found '0', expected a whole number from 1 to 1000000");
+    assert_refused(CUBE STEEL "output: {file: a.vtk}\n",
+                   "3:16: output.file: found 'a.vtk', expected a name that ends with .vtkhdf");
+    assert_refused("mesh: {file: a.stl}\n" STEEL, "1:14: found the mesh file '...");
+    assert_refused("mesh: {tube: {axis: y, length: 1, radii: [2, 1], divisions: {around: 3, radial: 1, axial: 1}}}\n",
+                   "1:42: found radii 2 and 1, expected the inner one first and smaller");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_missing_file_is_named),
+    cmocka_unit_test(an_unknown_key_comes_with_the_nearest),
+    cmocka_unit_test(missing_doubled_and_empty_keys_are_refused),
+    cmocka_unit_test(wrong_types_say_what_was_found),
+    cmocka_unit_test(numbers_are_whole_and_finite),
+    cmocka_unit_test(exactly_one_form_is_expected),
+    cmocka_unit_test(unstable_materials_are_refused_where_they_stand),
+    cmocka_unit_test(constants_that_do_not_go_together_are_refused),
+    cmocka_unit_test(bad_axes_are_refused_where_they_stand),
+    cmocka_unit_test(bad_selections_are_refused),
+    cmocka_unit_test(bad_conditions_are_refused),
+    cmocka_unit_test(what_later_versions_will_do_is_refused_in_words),
+    cmocka_unit_test(bad_settings_are_refused),
+};
+
+OST_TEST_MAIN(tests)

@@ -1,0 +1,58 @@
+"""Runs the program as a user would, for the tests of this folder."""
+import json
+import os
+import subprocess
+import tempfile
+
+PROGRAM = os.environ["ORTHOSTAT_PROGRAM"]
+MPIEXEC = os.environ.get("ORTHOSTAT_MPIEXEC", "mpirun")
+SOURCE = os.environ["ORTHOSTAT_SOURCE"]
+
+
+class Finished:
+    def __init__(self, process):
+        self.exit_code = process.returncode
+        self.output = process.stdout
+        self.errors = process.stderr
+
+
+def run(*arguments, ranks=1, folder=None):
+    command = [PROGRAM, *map(str, arguments)]
+    if ranks > 1:
+        command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+    process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, text=True, timeout=240)
+    return Finished(process)
+
+
+def solve(case_text, ranks=1, folder=None, name="case.yaml", extra=()):
+    """Writes a case, solves it, and returns (finished, json or None, path of the result)."""
+    folder = folder or tempfile.mkdtemp(prefix="orthostat-")
+    with open(os.path.join(folder, name), "w") as stream:
+        stream.write(case_text)
+    summary = os.path.join(folder, "summary.json")
+    result = os.path.join(folder, f"result-{ranks}.vtkhdf")
+    finished = run("solve", name, "--output", result, "--json", summary, *extra, ranks=ranks, folder=folder)
+    report = None
+    if finished.exit_code == 0:
+        with open(summary) as stream:
+            report = json.load(stream)
+    return finished, report, result
+
+
+def read_points(path, array="displacement"):
+    """{label: vector} of a point array, with VTK's own reader."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    reader = vtkHDFReader()
+    reader.SetFileName(path)
+    reader.Update()
+    data = reader.GetOutput().GetPointData()
+    labels = vtk_to_numpy(data.GetArray("vertex"))
+    values = vtk_to_numpy(data.GetArray(array))
+    return dict(zip(labels.tolist(), values))
+
+
+def check(condition, message):
+    if not condition:
+        raise SystemExit("FAILED: " + message)

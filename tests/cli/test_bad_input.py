@@ -1,0 +1,89 @@
+"""Every mistake gets a message one can act on, exit status 2 on all ranks, and leaves existing output alone."""
+import os
+import tempfile
+
+from program import check, run
+
+GOOD = """mesh:
+  block: {size: [2, 1, 1], divisions: [4, 2, 2]}
+materials:
+  - {region: all, youngs_modulus: 1000, poissons_ratio: 0.3}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: [0, 0, -1]}
+output: {file: result.vtkhdf}
+"""
+
+VEG = """*VERTICES
+NODES 3 0 0
+0 0 0 0
+1 1 0 0
+2 0 1 0
+3 0 0 1
+EXTRA
+*ELEMENTS
+TET
+1 4 0
+0 TETNODES
+"""
+
+
+def veg(nodes="4", extra="", tet="0 1 2 3"):
+    return VEG.replace("NODES", nodes).replace("EXTRA\n", extra).replace("TETNODES", tet)
+
+
+def with_mesh(name):
+    text = GOOD.replace("block: {size: [2, 1, 1], divisions: [4, 2, 2]}", f"file: {name}")
+    return text.replace("boundary: xmin", "plane: {point: [0, 0, 0], normal: [1, 0, 0]}").replace(
+        "boundary: xmax", "nearest: [1, 0, 0]")
+
+
+MISTAKES = [
+    ("no case", None, {}, ["nowhere.yaml"]),
+    ("unknown key", GOOD.replace("youngs_modulus", "youngs_modulos"), {}, ["case.yaml:4:", "youngs_modulos", "youngs_modulus"]),
+    ("wrong type", GOOD.replace("1000,", "stiff,"), {}, ["case.yaml:4:", "stiff"]),
+    ("not a number", GOOD.replace("1000,", ".nan,"), {}, ["case.yaml:4:"]),
+    ("infinite force", GOOD.replace("-1]", "-.inf]"), {}, ["case.yaml:8:"]),
+    ("not yaml", GOOD + "  - {", {}, ["case.yaml:"]),
+    ("missing mesh file", with_mesh("lost.veg"), {}, ["lost.veg"]),
+    ("unknown boundary", GOOD.replace("xmax", "tip"), {}, ["tip", "xmin", "xmax"]),
+    ("unknown region", GOOD.replace("region: all", "region: bone"), {}, ["bone", "block"]),
+    ("nothing held", GOOD.replace("displacement: [0, 0, 0]", "displacement: [free, free, free]"), {}, ["held"]),
+    ("indefinite material", GOOD.replace("1000, poissons_ratio: 0.3", "1000, poissons_ratio: 0.6"), {}, ["case.yaml:4:", "0.5"]),
+    ("truncated mesh", with_mesh("m.veg"), {"m.veg": veg()[:60]}, ["m.veg"]),
+    ("inverted tet", with_mesh("m.veg"), {"m.veg": veg(tet="0 2 1 3")}, ["tet 0", "-0.166"]),
+    ("flat tet", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 1 1 0")}, ["tet 0", "flat"]),
+    ("unused vertex", with_mesh("m.veg"), {"m.veg": veg(nodes="5", extra="4 2 2 2\n")}, ["4"]),
+    ("coordinate not finite", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 0 0 nan")}, ["m.veg"]),
+    ("cubic elements", with_mesh("m.veg"), {"m.veg": veg().replace("TET\n", "CUBIC\n")}, ["CUBIC"]),
+    ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
+    ("quadratic elements", GOOD + "element: {order: 3}\n", {}, ["order"]),
+]
+
+
+def main():
+    for name, text, files, wanted in MISTAKES:
+        for ranks in (1, 2):
+            folder = tempfile.mkdtemp(prefix="orthostat-")
+            for file, content in files.items():
+                with open(os.path.join(folder, file), "w") as stream:
+                    stream.write(content)
+            if text is not None:
+                with open(os.path.join(folder, "case.yaml"), "w") as stream:
+                    stream.write(text)
+            with open(os.path.join(folder, "result.vtkhdf"), "w") as stream:
+                stream.write("precious")
+            finished = run("solve", "case.yaml" if text is not None else "nowhere.yaml", ranks=ranks, folder=folder)
+            where = f"{name} on {ranks} rank(s)"
+            check(finished.exit_code == 2, f"{where}: exit status {finished.exit_code}\n{finished.errors}")
+            for word in wanted:
+                check(word in finished.errors, f"{where}: no '{word}' in: {finished.errors}")
+            check(finished.errors.count("orthostat: error:") == 1, f"{where}: one message wanted: {finished.errors}")
+            with open(os.path.join(folder, "result.vtkhdf")) as stream:
+                check(stream.read() == "precious", f"{where}: the existing output was touched")
+            left = sorted(set(os.listdir(folder)) - set(files) - {"case.yaml", "result.vtkhdf"})
+            check(not left, f"{where}: left behind {left}")
+
+
+main()

@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "msh_writer.h"
+
+#include "orthostat/mesh_file.h"
+
+static OstMeshChunk *chunk;
+static OstFileMaterials *materials;
+
+static OstStatus read_mesh(const char *path)
+{
+    return ost_mesh_file_read(ctx, path, &chunk, &materials);
+}
+
+static void drop_mesh(void)
+{
+    ost_chunk_destroy(&chunk);
+    ost_file_materials_destroy(&materials);
+}
+
+static const OstBoundary *boundary(const char *name)
+{
+    for (int b = 0; b < chunk->boundary_count; b++)
+        if (strcmp(chunk->boundaries[b].name, name) == 0)
+            return &chunk->boundaries[b];
+    fail_msg("no boundary '%s'", name);
+    return NULL;
+}
+
+/* Position in the chunk of the node with this label. */
+static OstGlobal position(OstGlobal label)
+{
+    for (OstLocal i = 0; i < chunk->node_count; i++)
+        if (chunk->node_label[i] == label)
+            return i;
+    fail_msg("no node %d", (int)label);
+    return -1;
+}
+
+static void assert_nodes(const OstGlobal *nodes, int count, const int *labels)
+{
+    for (int i = 0; i < count; i++)
+        assert_int_equal(nodes[i], position(labels[i]));
+}
+
+/* Three tets on five nodes with gaps in the numbers; the last tet is in no physical volume. */
+static const MshNode nodes4[] = {{10, {0, 0, 0}}, {20, {1, 0, 0}},    {31, {0, 1, 0}},
+                                 {40, {0, 0, 1}}, {55, {1.25, 1, 1}}, {56, {-1, -1, 0.1}}};
+static const MshElement elements4[] = {{1, 15, 0, 3, 1, {10}},
+                                       {2, 1, 1, 4, 2, {10, 20}},
+                                       {3, 2, 2, 5, 3, {10, 31, 20}},
+                                       {4, 2, 2, 6, 4, {10, 20, 40}},
+                                       {7, 4, 3, 1, 5, {10, 20, 31, 40}},
+                                       {9, 4, 3, 2, 6, {20, 31, 40, 55}},
+                                       {12, 4, 3, 0, 7, {10, 31, 56, 40}}};
+static const MshModel model4 = {"4\n0 3 \"tip\"\n2 5 \"pull side\"\n3 1 \"cortical\"\n3 2 \"spongy\"\n", 6, 7, nodes4,
+                                elements4};
+
+static void check_model4(void)
+{
+    assert_int_equal(chunk->nodes_per_tet, 4);
+    assert_int_equal(chunk->global_nodes, 6);
+    assert_int_equal(chunk->node_count, 6);
+    assert_int_equal(chunk->global_tets, 3);
+    assert_int_equal(chunk->tet_count, 3);
+    for (int n = 0; n < 6; n++)
+        for (int c = 0; c < 3; c++)
+            assert_true(chunk->coordinates[3 * position(nodes4[n].tag) + c] == nodes4[n].x[c]);
+    assert_int_equal(chunk->regions.count, 3);
+    const char *const regions[] = {"cortical", "spongy", "unnamed"};
+    for (int t = 0; t < 3; t++) {
+        assert_nodes(chunk->tet_nodes + 4 * t, 4, elements4[4 + t].nodes);
+        assert_int_equal(chunk->tet_label[t], elements4[4 + t].tag);
+        assert_string_equal(chunk->regions.name[chunk->tet_region[t]], regions[t]);
+    }
+    const char *const names[] = {"tip", "curve-4", "pull side", "surface-6"};
+    assert_int_equal(chunk->boundary_count, 4);
+    for (int b = 0; b < 4; b++) {
+        const OstBoundary *found = boundary(names[b]);
+        assert_int_equal(found->dimension, elements4[b].dimension);
+        assert_int_equal(found->nodes_per_item, elements4[b].dimension + 1);
+        assert_int_equal(found->count, 1);
+        assert_nodes(found->nodes, found->nodes_per_item, elements4[b].nodes);
+    }
+    assert_int_equal(materials->count, 0);
+}
+
+static void every_flavour_gives_the_same_mesh(void **state)
+{
+    (void)state;
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        const char *path = msh_write(&model4, msh_flavours[f], "flavour.msh");
+        const OstStatus status = read_mesh(path);
+        if (status != OST_SUCCESS)
+            fail_msg("%s: %s", msh_flavours[f].name, ost_error_text(ctx));
+        check_model4();
+        drop_mesh();
+    }
+}
+
+static void without_physical_volumes_there_is_one_region(void **state)
+{
+    (void)state;
+    const MshElement tet = {3, 4, 3, 0, 1, {10, 20, 31, 40}};
+    const MshModel model = {NULL, 4, 1, nodes4, &tet};
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_success(read_mesh(msh_write(&model, msh_flavours[f], "one.msh")));
+        assert_int_equal(chunk->regions.count, 1);
+        assert_string_equal(chunk->regions.name[0], "volume");
+        assert_int_equal(chunk->tet_region[0], 0);
+        assert_int_equal(chunk->tet_label[0], 3);
+        drop_mesh();
+    }
+}
+
+/* Gmsh's manual: the mid-edge nodes of a Tetrahedron 10 are on the edges 01 12 02 03 23 13, ours on 01 12 02 03 13 23.
+ */
+static void second_order_tets_come_in_our_order(void **state)
+{
+    (void)state;
+    static const double corner[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    static const int gmsh_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
+    static const int our_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    static const int face_edge[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+    MshNode nodes[10];
+    for (int n = 0; n < 10; n++) {
+        nodes[n].tag = n + 1;
+        for (int c = 0; c < 3; c++)
+            nodes[n].x[c] =
+                n < 4 ? corner[n][c] : (corner[gmsh_edge[n - 4][0]][c] + corner[gmsh_edge[n - 4][1]][c]) / 2;
+    }
+    const MshElement elements[] = {{1, 8, 1, 8, 1, {1, 2, 5}},
+                                   {2, 9, 2, 9, 2, {1, 2, 3, 5, 6, 7}},
+                                   {3, 11, 3, 1, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}};
+    const MshModel model = {NULL, 10, 3, nodes, elements};
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_success(read_mesh(msh_write(&model, msh_flavours[f], "second.msh")));
+        assert_int_equal(chunk->nodes_per_tet, 10);
+        for (int e = 0; e < 6; e++)
+            for (int c = 0; c < 3; c++)
+                assert_true(chunk->coordinates[3 * chunk->tet_nodes[4 + e] + c] ==
+                            (corner[our_edge[e][0]][c] + corner[our_edge[e][1]][c]) / 2);
+        const OstBoundary *face = boundary("surface-9");
+        assert_int_equal(face->nodes_per_item, 6);
+        for (int e = 0; e < 3; e++)
+            for (int c = 0; c < 3; c++)
+                assert_true(chunk->coordinates[3 * face->nodes[3 + e] + c] ==
+                            (corner[face_edge[e][0]][c] + corner[face_edge[e][1]][c]) / 2);
+        assert_int_equal(boundary("curve-8")->nodes_per_item, 3);
+        assert_string_equal(chunk->regions.name[0], "volume-1");
+        drop_mesh();
+    }
+}
+
+static void tets_come_in_the_order_of_their_tags(void **state)
+{
+    (void)state;
+    const MshElement elements[] = {{8, 4, 3, 1, 1, {10, 20, 31, 40}}, {5, 4, 3, 2, 2, {20, 31, 40, 55}}};
+    const MshModel model = {NULL, 5, 2, nodes4, elements};
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_success(read_mesh(msh_write(&model, msh_flavours[f], "order.msh")));
+        assert_int_equal(chunk->tet_label[0], 5);
+        assert_nodes(chunk->tet_nodes, 4, elements[1].nodes);
+        assert_string_equal(chunk->regions.name[chunk->tet_region[0]], "volume-2");
+        assert_int_equal(chunk->tet_label[1], 8);
+        drop_mesh();
+    }
+    ost_log_set_level(ctx, OST_LOG_NORMAL);
+}
+
+/* Other programs write 2.2 with one entity for all elements; the physical tag of each element counts. */
+static void elements_of_one_entity_stay_in_their_groups(void **state)
+{
+    (void)state;
+    const MshElement elements[] = {{1, 2, 2, 5, 1, {10, 31, 20}},
+                                   {2, 2, 2, 6, 1, {10, 20, 40}},
+                                   {3, 2, 2, 6, 1, {10, 40, 31}},
+                                   {4, 4, 3, 1, 1, {10, 20, 31, 40}},
+                                   {5, 4, 3, 2, 1, {20, 31, 40, 55}}};
+    const MshModel model = {NULL, 5, 5, nodes4, elements};
+    for (int f = 0; f < 3; f++) {
+        assert_success(read_mesh(msh_write(&model, msh_flavours[f], "entity.msh")));
+        assert_int_equal(boundary("surface-5")->count, 1);
+        assert_int_equal(boundary("surface-6")->count, 2);
+        assert_int_equal(chunk->regions.count, 2);
+        drop_mesh();
+    }
+}
+
+static void groups_of_one_name_are_one(void **state)
+{
+    (void)state;
+    MshModel model = model4;
+    model.names = "4\n2 5 \"skin\"\n2 6 \"skin\"\n3 1 \"bone\"\n3 2 \"bone\"\n";
+    assert_success(read_mesh(msh_write(&model, msh_flavours[4], "skin.msh")));
+    assert_int_equal(boundary("skin")->count, 2);
+    assert_int_equal(chunk->regions.count, 2);
+    assert_int_equal(chunk->tet_region[0], chunk->tet_region[1]);
+    drop_mesh();
+    model.names = "2\n1 4 \"skin\"\n2 6 \"skin\"\n";
+    assert_failure(read_mesh(msh_write(&model, msh_flavours[0], "skin.msh")), OST_INVALID_INPUT,
+                   "physical name 'skin' stands for faces and for curves");
+}
+
+static void refuse(const MshElement *elements, int count, const char *text)
+{
+    const MshModel model = {NULL, 6, count, nodes4, elements};
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_failure(read_mesh(msh_write(&model, msh_flavours[f], "refused.msh")), OST_INVALID_INPUT, text);
+        assert_non_null(strstr(ost_error_text(ctx), "refused.msh"));
+        assert_null(chunk);
+        assert_null(materials);
+    }
+}
+
+static const MshElement tet_a = {7, 4, 3, 1, 5, {10, 20, 31, 40}};
+static const MshElement tet_b = {8, 4, 3, 1, 5, {20, 31, 40, 55}};
+static const MshElement tet_c = {9, 4, 3, 1, 5, {10, 31, 56, 40}};
+
+static void other_solid_elements_are_refused_by_name(void **state)
+{
+    (void)state;
+    const MshElement prism = {1, 6, 3, 1, 5, {10, 20, 31, 40, 55, 56}};
+    const MshElement pyramid = {1, 7, 3, 1, 5, {10, 20, 31, 40, 55}};
+    refuse((MshElement[]){prism, tet_a, tet_b}, 3, "holds 1 elements of Gmsh's type 'Prism 6'");
+    refuse((MshElement[]){pyramid, tet_a, tet_c, tet_b}, 4, "'Pyramid 5'");
+    refuse(&prism, 1, "'Prism 6'");
+}
+
+static void a_mesh_without_tets_is_refused(void **state)
+{
+    (void)state;
+    const MshElement faces[] = {{1, 2, 2, 5, 1, {10, 20, 31}}, {2, 2, 2, 5, 1, {40, 55, 56}}};
+    const MshModel model = {NULL, 6, 2, nodes4, faces};
+    for (int f = 0; f < 3; f++)
+        assert_failure(read_mesh(msh_write(&model, msh_flavours[f], "shell.msh")), OST_INVALID_INPUT, "holds no tets");
+}
+
+static void quadrilaterals_in_a_boundary_are_refused(void **state)
+{
+    (void)state;
+    const MshElement quad = {1, 3, 2, 5, 3, {10, 20, 55, 31}};
+    refuse((MshElement[]){quad, tet_a, tet_b, tet_c}, 4,
+           "boundary 'surface-5' holds elements of Gmsh's type 'Quadrilateral 4', expected 'Triangle 3'");
+}
+
+static void a_tet_in_two_regions_is_refused(void **state)
+{
+    (void)state;
+    MshElement again = tet_a;
+    again.tag = 20;
+    again.physical = 2;
+    again.entity = 6;
+    refuse((MshElement[]){tet_a, tet_b, tet_c, again}, 4, "tets 7 (region 'volume-1') and 20 (region 'volume-2') have");
+    const char *twice = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 2 3 4 0\n"
+                        "$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+                        "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
+    assert_failure(read_mesh(write_text("twice.msh", twice)), OST_INVALID_INPUT,
+                   "volume 1 belongs to the physical volumes 3 and 4");
+}
+
+static void repeated_tags_and_unused_nodes_are_refused(void **state)
+{
+    (void)state;
+    MshElement again = tet_b;
+    again.tag = tet_a.tag;
+    refuse((MshElement[]){tet_a, again, tet_c}, 3, "element tag 7 is given to two tets");
+    MshNode nodes[6];
+    memcpy(nodes, nodes4, sizeof nodes);
+    nodes[5].tag = 55;
+    const MshModel model = {NULL, 6, 2, nodes, (MshElement[]){tet_a, tet_b}};
+    for (int f = 0; f < MSH_FLAVOURS; f++)
+        assert_failure(read_mesh(msh_write(&model, msh_flavours[f], "repeated.msh")), OST_INVALID_INPUT,
+                       f < 3 ? "of its 6 nodes Gmsh takes 5" : "node tag 55 is given to two nodes");
+    const MshModel unused = {NULL, 6, 2, nodes4, (MshElement[]){tet_a, tet_b}};
+    assert_failure(read_mesh(msh_write(&unused, msh_flavours[0], "unused.msh")), OST_INVALID_INPUT,
+                   "of its 6 nodes Gmsh takes 5; the others belong to no element");
+}
+
+/* What follows the end mark of the elements may be cut; everything else is missed. */
+static void every_cut_file_is_refused(void **state)
+{
+    (void)state;
+    static MshFile file;
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        msh_make(&model4, msh_flavours[f], &file);
+        for (size_t length = 0; length + 1 < file.length; length++) {
+            const OstStatus status = read_mesh(write_bytes("cut.msh", file.bytes, length));
+            if (status != OST_INVALID_INPUT || !strstr(ost_error_text(ctx), "cut.msh"))
+                fail_msg("%s cut at %zu of %zu: %s '%s'", msh_flavours[f].name, length, file.length,
+                         ost_status_name(status), ost_error_text(ctx));
+        }
+    }
+}
+
+/* One byte is changed at a time. Some changes give another mesh; none may crash, hang or leave anything behind. */
+static void damaged_files_do_no_harm(void **state)
+{
+    (void)state;
+    static MshFile file;
+    unsigned random = 12345;
+    int refused = 0;
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        msh_make(&model4, msh_flavours[f], &file);
+        for (size_t place = 0; place < file.length; place += 3) {
+            const char kept = file.bytes[place];
+            random = random * 1103515245u + 12345u;
+            file.bytes[place] = (char)(random >> 16);
+            const OstStatus status = read_mesh(write_bytes("damaged.msh", file.bytes, file.length));
+            assert_true(status == OST_SUCCESS || strstr(ost_error_text(ctx), "damaged.msh"));
+            refused += status != OST_SUCCESS;
+            drop_mesh();
+            file.bytes[place] = kept;
+        }
+    }
+    ost_log_set_level(ctx, OST_LOG_NORMAL);
+    assert_true(refused > 100);
+}
+
+static void refuse_text(const char *contents, const char *text)
+{
+    assert_failure(read_mesh(write_text("text.msh", contents)), OST_INVALID_INPUT, text);
+    assert_non_null(strstr(ost_error_text(ctx), "text.msh"));
+}
+
+#define HEAD22 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+#define NODES22 HEAD22 "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+#define HEAD41 "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+
+/* Gmsh would run a file that does not begin like a mesh as a script of its own language. */
+static void scripts_are_not_run(void **state)
+{
+    (void)state;
+    char script[600];
+    snprintf(script, sizeof script, "SystemCall \"touch %s\";\n", scratch("touched"));
+    refuse_text(script, "expected $MeshFormat: not a Gmsh mesh");
+    assert_int_not_equal(access(scratch("touched"), F_OK), 0);
+    refuse_text("", "not a Gmsh mesh");
+}
+
+static void wrong_files_are_refused_where_they_are_wrong(void **state)
+{
+    (void)state;
+    refuse_text("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", "text.msh:2: format version 4.0 found, expected 2.2 or 4.1");
+    refuse_text("$MeshFormat\n4.1 0 4\n$EndMeshFormat\n", "text.msh:2: numbers of 4 bytes");
+    refuse_text("$MeshFormat\n4.1 2 8\n$EndMeshFormat\n", "text.msh:2: '4.1 2 8' found");
+    refuse_text(HEAD22, "the file ends without a section $Nodes");
+    refuse_text(NODES22, "the file ends without a section $Elements");
+    refuse_text(HEAD22 "$Nodes\n999999999\n", "text.msh:5: 999999999 nodes stated, which do not fit");
+    refuse_text(HEAD22 "$Nodes\n-1\n", "text.msh:5: '-1' found");
+    refuse_text(HEAD22 "$Nodes\n\n1\n", "text.msh:5: '' found, expected the number of nodes");
+    refuse_text(HEAD22 "$Nodes\n1\n1 0 nan 0\n", "text.msh:6: 'nan' found, expected a coordinate that is finite");
+    refuse_text(HEAD22 "$Nodes\n1\n1 0 1e999 0\n", "'1e999' found");
+    refuse_text(HEAD22 "$Nodes\n1\n1 0 0,5 0\n", "text.msh:6: '0,5' found, expected a coordinate");
+    refuse_text(HEAD22 "$Nodes\n1\n0 0 0 0\n", "node tag 0 found");
+    refuse_text(HEAD22 "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", "text.msh:7: '2 0 0 0' found, expected $EndNodes");
+    refuse_text(HEAD22 "$NodeData\n", "text.msh:4: section $NodeData found");
+    refuse_text(HEAD22 "$Entities\n", "section $Entities found");
+    refuse_text(NODES22 "$Elements\n1\n1 4 2 1 1 1 2 3 5\n$EndElements\n", "text.msh:13: an element uses node 5");
+    refuse_text(NODES22 "$Elements\n1\n1 4 4 1 1 1 1 1 2 3 4\n$EndElements\n", "an element has 4 tags");
+    refuse_text(NODES22 "$Elements\n1\n1 92 2 1 1 1 2 3 4\n$EndElements\n", "element of type 92 found");
+    refuse_text(NODES22 "$Elements\n2\n1 4 2 1 1 1 2 3 4\n$EndElements\n", "'$EndElements' found, expected");
+    refuse_text(HEAD22 "$PhysicalNames\n1\n7 1 \"x\"\n$EndPhysicalNames\n", "text.msh:6: '7 1 \"x\"' found");
+    refuse_text(HEAD22 "$PhysicalNames\n1\n3 1 \"x\n$EndPhysicalNames\n", "expected a physical name");
+    refuse_text(HEAD41 "$Nodes\n1 4 1 4\n3 1 0 5\n1\n2\n3\n4\n5\n", "the blocks hold 5 nodes, the head");
+    refuse_text(HEAD41 "$Nodes\n1 1 1 1\n4 1 0 1\n", "nodes of an entity of dimension 4");
+    refuse_text(HEAD41 "$Nodes\n0 1000000000000 1 1\n", "1000000000000 nodes stated");
+    refuse_text(HEAD41 "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 99999999999\n", "99999999999 physical groups");
+}
+
+static void comments_and_blank_lines_are_skipped(void **state)
+{
+    (void)state;
+    assert_success(read_mesh(
+        write_text("comments.msh", NODES22
+                   "\n$Comments\nmade by hand\n$EndComments\n$Elements\r\n1\n1 4 2 1 1 1 2 3 4\n$EndElements")));
+    assert_int_equal(chunk->tet_count, 1);
+    drop_mesh();
+}
+
+static void missing_files_and_unknown_endings_are_named(void **state)
+{
+    (void)state;
+    assert_failure(read_mesh(scratch("missing.msh")), OST_FILE_FAILED, "missing.msh: cannot be read: No such file");
+    assert_failure(read_mesh(scratch("missing.stl")), OST_INVALID_INPUT,
+                   "the ending '.stl' is not that of a mesh file; known are .msh (Gmsh), .veg (Vega FEM) and .vtkhdf");
+    assert_failure(read_mesh("folder.msh/mesh"), OST_INVALID_INPUT, "the ending ''");
+    mkdir(scratch("folder.msh"), 0700);
+    assert_failure(read_mesh(scratch("folder.msh")), OST_FILE_FAILED, "is a folder, expected a file");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_flavour_gives_the_same_mesh),
+    cmocka_unit_test(without_physical_volumes_there_is_one_region),
+    cmocka_unit_test(second_order_tets_come_in_our_order),
+    cmocka_unit_test(tets_come_in_the_order_of_their_tags),
+    cmocka_unit_test(elements_of_one_entity_stay_in_their_groups),
+    cmocka_unit_test(groups_of_one_name_are_one),
+    cmocka_unit_test(other_solid_elements_are_refused_by_name),
+    cmocka_unit_test(a_mesh_without_tets_is_refused),
+    cmocka_unit_test(quadrilaterals_in_a_boundary_are_refused),
+    cmocka_unit_test(a_tet_in_two_regions_is_refused),
+    cmocka_unit_test(repeated_tags_and_unused_nodes_are_refused),
+    cmocka_unit_test(every_cut_file_is_refused),
+    cmocka_unit_test(damaged_files_do_no_harm),
+    cmocka_unit_test(scripts_are_not_run),
+    cmocka_unit_test(wrong_files_are_refused_where_they_are_wrong),
+    cmocka_unit_test(comments_and_blank_lines_are_skipped),
+    cmocka_unit_test(missing_files_and_unknown_endings_are_named),
+};
+OST_TEST_MAIN(tests)

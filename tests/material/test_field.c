@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "material/random.h"
+#include "orthostat/field.h"
+
+enum { TETS = 6 };
+
+static const int32_t one_region[TETS] = {0};
+static const int32_t two_regions[TETS] = {0, 1, 0, 1, 1, 0};
+static const OstGlobal labels[TETS] = {101, 102, 103, 104, 105, 106};
+static const double centroids[3 * TETS] = {1, 0, 0, 0, 1, 0, -1, 0, 2, 0, -1, 3, 1, 1, 4, 2, 1, 5};
+static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static OstMaterial isotropic(void)
+{
+    const OstOrthotropic constants = ost_orthotropic_isotropic(5.0, 0.3);
+    OstMaterial material;
+    assert_success(ost_material_create(ctx, "rubber", &constants, 1.5, &material));
+    return material;
+}
+
+static OstMaterial orthotropic(void)
+{
+    const double e[3] = {1, 10, 100};
+    const OstOrthotropic constants = ost_orthotropic_family(e, 0.3, OST_SHEAR_GEOMETRIC);
+    OstMaterial material;
+    assert_success(ost_material_create(ctx, "wood", &constants, 0.7, &material));
+    return material;
+}
+
+static const OstAxesSpec cylindrical = {
+    .kind = OST_AXES_CYLINDRICAL, .axis = {0, 0, 1}, .order = {OST_RADIAL, OST_TANGENTIAL, OST_AXIAL}};
+static const OstAxesSpec fixed = {.kind = OST_AXES_FIXED, .fixed = {0, 1, 0, 0, 0, 1, 1, 0, 0}};
+
+typedef struct Booked {
+    size_t orthotropy, varying;
+    long orthotropy_entries, varying_entries;
+} Booked;
+
+static Booked booked(void)
+{
+    const OstLedgerEntry a = ost_ledger_entry(ctx, OST_EFFECT_ORTHOTROPY);
+    const OstLedgerEntry b = ost_ledger_entry(ctx, OST_EFFECT_VARYING_AXES);
+    return (Booked){a.bytes, b.bytes, a.entries, b.entries};
+}
+
+static void assert_tet_is(const OstMaterialField *field, OstLocal tet, const OstMaterial *material,
+                          const double axes[9])
+{
+    double expected[36], stiffness[36], found[9];
+    ost_material_rotate_stiffness(material->stiffness, axes, expected);
+    ost_field_stiffness(field, tet, stiffness);
+    for (int i = 0; i < 36; i++)
+        assert_close(stiffness[i], expected[i], 1e-14 * material->stiffness[14]);
+    ost_field_axes(field, tet, found);
+    assert_axes(found, axes, 1e-15);
+    assert_close(ost_field_density(field, tet), material->density, 0.0);
+}
+
+static void an_isotropic_body_carries_no_axes(void **state)
+{
+    (void)state;
+    const OstMaterial materials[2] = {isotropic(), isotropic()};
+    const OstAxesSpec specs[2] = {cylindrical, fixed};
+    const Booked before = booked();
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
+    const Booked after = booked();
+    assert_int_equal(after.orthotropy, 0);
+    assert_int_equal(after.varying, 0);
+    assert_int_equal(after.orthotropy_entries, before.orthotropy_entries);
+    assert_int_equal(after.varying_entries, before.varying_entries);
+    assert_null(field->tet_axes);
+    assert_null(field->region_axes);
+    for (OstLocal t = 0; t < TETS; t++)
+        assert_tet_is(field, t, &materials[0], world);
+    ost_field_destroy(&field);
+    assert_null(field);
+}
+
+static void fixed_axes_cost_nothing_per_tet(void **state)
+{
+    (void)state;
+    const OstMaterial material = orthotropic();
+    const Booked before = booked();
+    const size_t bytes_before = ost_ledger_bytes(ctx);
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 1, &material, &fixed, TETS, one_region, labels, centroids, NULL, &field));
+    const Booked after = booked();
+    assert_int_equal(after.orthotropy, 9 * sizeof(double));
+    assert_int_equal(after.varying, 0);
+    assert_int_equal(after.orthotropy_entries, before.orthotropy_entries + 1);
+    assert_int_equal(after.varying_entries, before.varying_entries);
+    assert_null(field->tet_axes);
+    for (OstLocal t = 0; t < TETS; t++)
+        assert_tet_is(field, t, &material, fixed.fixed);
+    const size_t held = ost_ledger_bytes(ctx) - bytes_before;
+    assert_int_equal(held, sizeof(OstMaterialField) + sizeof(OstMaterial) + (36 + 9) * sizeof(double) + 1);
+    ost_field_destroy(&field);
+    assert_int_equal(ost_ledger_bytes(ctx), bytes_before);
+}
+
+static void varying_axes_are_kept_by_tet(void **state)
+{
+    (void)state;
+    const OstMaterial material = orthotropic();
+    OstMaterialField *field = NULL;
+    assert_success(
+        ost_field_create(ctx, 1, &material, &cylindrical, TETS, one_region, labels, centroids, NULL, &field));
+    assert_int_equal(booked().orthotropy, 9 * sizeof(double));
+    assert_int_equal(booked().varying, 9 * TETS * sizeof(double));
+    for (OstLocal t = 0; t < TETS; t++) {
+        double axes[9];
+        assert_success(ost_axes_at(ctx, &cylindrical, centroids + 3 * t, axes));
+        assert_tet_is(field, t, &material, axes);
+    }
+    ost_field_destroy(&field);
+    assert_int_equal(booked().varying, 0);
+    assert_int_equal(booked().orthotropy, 0);
+}
+
+static void each_region_keeps_its_own_ways(void **state)
+{
+    (void)state;
+    const OstMaterial materials[4] = {orthotropic(), isotropic(), orthotropic(), orthotropic()};
+    const OstAxesSpec specs[4] = {cylindrical, cylindrical, fixed, {.kind = OST_AXES_NONE}};
+    const int32_t regions[TETS] = {0, 1, 2, 3, 0, 2};
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 4, materials, specs, TETS, regions, labels, centroids, NULL, &field));
+    for (OstLocal t = 0; t < TETS; t++) {
+        double axes[9];
+        if (regions[t] == 0)
+            assert_success(ost_axes_at(ctx, &cylindrical, centroids + 3 * t, axes));
+        else
+            memcpy(axes, regions[t] == 2 ? fixed.fixed : world, sizeof axes);
+        assert_tet_is(field, t, &materials[regions[t]], axes);
+    }
+    ost_field_destroy(&field);
+}
+
+static void a_curve_is_followed(void **state)
+{
+    (void)state;
+    double points[9] = {0, 0, -1, 0, 0, 3, 1, 0, 9};
+    const OstAxesSpec spec = {
+        .kind = OST_AXES_CURVE, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}, .point_count = 3, .points = points};
+    const OstMaterial material = orthotropic();
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field));
+    assert_int_equal(booked().varying, 9 * TETS * sizeof(double)); /* the curve's frames are gone again */
+    for (OstLocal t = 0; t < TETS; t++) {
+        double axes[9];
+        assert_success(ost_axes_at(ctx, &spec, centroids + 3 * t, axes));
+        assert_tet_is(field, t, &material, axes);
+    }
+    ost_field_destroy(&field);
+}
+
+static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
+{
+    (void)state;
+    const OstMaterial material = orthotropic();
+    const OstAxesSpec spec = {.kind = OST_AXES_CELLS};
+    double given[9 * TETS];
+    OstMaterialField *field = NULL;
+    for (OstLocal t = 0; t < TETS; t++)
+        random_axes(given + 9 * t);
+    assert_success(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field));
+    for (OstLocal t = 0; t < TETS; t++)
+        assert_tet_is(field, t, &material, given + 9 * t);
+    ost_field_destroy(&field);
+    for (int i = 0; i < 3; i++)
+        given[9 * 3 + 6 + i] *= -1.0;
+    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
+                   OST_INVALID_INPUT, "tet 104 (material 'wood'): given axes: the axes are left-handed");
+    assert_null(field);
+    given[9 * 1] += 0.5;
+    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
+                   OST_INVALID_INPUT, "tet 102 (material 'wood'): given axes: e1 has length");
+    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+                   OST_INVALID_INPUT, "tet by tet, but none came");
+}
+
+static void bad_axes_regions_and_points_are_refused(void **state)
+{
+    (void)state;
+    const OstMaterial material = orthotropic(), plain = isotropic();
+    OstAxesSpec spec = {.kind = OST_AXES_FIXED, .fixed = {1, 0, 0, 0, 1, 0, 0, 0, -1}};
+    OstMaterialField *field = NULL;
+    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+                   OST_INVALID_INPUT, "axes of material 'wood': the axes are left-handed");
+    assert_failure(ost_field_create(ctx, 1, &plain, &spec, TETS, one_region, labels, centroids, NULL, &field),
+                   OST_INVALID_INPUT, "axes of material 'rubber': the axes are left-handed");
+    assert_failure(ost_field_create(ctx, 1, &material, NULL, TETS, two_regions, labels, centroids, NULL, &field),
+                   OST_INVALID_INPUT, "tet 102 is of region 1");
+    spec = cylindrical;
+    spec.origin[0] = 1.0; /* the first centroid is on the axis */
+    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+                   OST_INVALID_INPUT, "tet 101 (material 'wood'): the point (1, 0, 0) lies on the cylinder's axis");
+    assert_null(field);
+}
+
+static void a_rank_without_tets_has_a_field_too(void **state)
+{
+    (void)state;
+    const OstMaterial material = orthotropic();
+    const OstAxesSpec spec = {.kind = OST_AXES_CELLS};
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 1, &material, &spec, 0, NULL, NULL, NULL, NULL, &field));
+    assert_int_equal(booked().varying, 0);
+    ost_field_destroy(&field);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(an_isotropic_body_carries_no_axes),
+    cmocka_unit_test(fixed_axes_cost_nothing_per_tet),
+    cmocka_unit_test(varying_axes_are_kept_by_tet),
+    cmocka_unit_test(each_region_keeps_its_own_ways),
+    cmocka_unit_test(a_curve_is_followed),
+    cmocka_unit_test(given_axes_are_taken_and_bad_ones_refused_by_tet),
+    cmocka_unit_test(bad_axes_regions_and_points_are_refused),
+    cmocka_unit_test(a_rank_without_tets_has_a_field_too),
+};
+
+OST_TEST_MAIN(tests)
