@@ -8,15 +8,15 @@
 
 #include <string.h>
 
-void ost_batch_add_force(const OstBatch *batch, const OstElement *element, const double *u, double scale,
+void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel, const double *u, double scale,
                          OstLocal owned, double *force)
 {
     OstLanes displacement[3 * OST_MAX_TET_NODES];
     OstLanes of_tets[3 * OST_MAX_TET_NODES];
-    ost_batch_gather_vectors(batch, element->nodes, u, displacement);
-    element->force(batch->x, batch->elasticity.c, displacement, of_tets);
+    ost_batch_gather_vectors(batch, nodes, u, displacement);
+    kernel(batch->x, batch->elasticity.c, displacement, of_tets);
     for (int lane = 0; lane < batch->count; lane++)
-        for (int a = 0; a < element->nodes; a++) {
+        for (int a = 0; a < nodes; a++) {
             const OstLocal node = batch->node[lane][a];
             if (node >= owned)
                 continue;
@@ -25,13 +25,17 @@ void ost_batch_add_force(const OstBatch *batch, const OstElement *element, const
         }
 }
 
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force)
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
+                             double *magnitude)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
     OstBatch batch;
     if (!element)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "quadratic tets are not available in this version");
-    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
+    memset(force, 0, bytes);
+    if (magnitude)
+        memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
         const OstLocal left = mesh->tet_count - first;
@@ -39,7 +43,9 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
         for (int lane = 0; lane < OST_LANES; lane++)
             tets[lane] = first + lane;
         ost_batch_gather(&batch, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
-        ost_batch_add_force(&batch, element, u, 1.0, mesh->owned_nodes, force);
+        ost_batch_add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
+        if (magnitude)
+            ost_batch_add_force(&batch, element->nodes, element->magnitude, u, 1.0, mesh->owned_nodes, magnitude);
     }
     return OST_SUCCESS;
 }
@@ -83,7 +89,7 @@ static void subtract_moved(const OstSystem *system, const OstMaterialField *fiel
             tets[count++] = tet;
         if (count == OST_LANES || (count > 0 && tet == mesh->tet_count - 1)) {
             ost_batch_gather(&batch, mesh, field, count, tets);
-            ost_batch_add_force(&batch, element, g, -1.0, mesh->owned_nodes, force);
+            ost_batch_add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
             count = 0;
         }
     }

@@ -4,8 +4,12 @@
 
 #include "assembly/batch.h"
 
-/* Local. Adds scale × K u of the tets of a batch to `force`, 3 numbers for each of the first `owned` local nodes. */
-void ost_batch_add_force(const OstBatch *batch, const OstElement *element, const double *u, double scale,
+/* OstElement.force or OstElement.magnitude. */
+typedef void (*OstForceKernel)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force);
+
+/* Local. Adds scale × the kernel's forces of the tets of a batch to `force`, 3 numbers for each of the first `owned`
+ * local nodes. */
+void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel, const double *u, double scale,
                          OstLocal owned, double *force);
 
 #endif

@@ -43,8 +43,11 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
 /* Collective. Displacement of every local node, u = P v + g, ghosts included; v has 3 × matrix->rows numbers. */
 OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u);
 
-/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes. */
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force);
+/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes.
+ * `magnitude` (as force, or NULL) takes the sums of absolute values |B'| |C| |B| |u|, of which rounding leaves a few
+ * 1e-16 in the forces. */
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
+                             double *magnitude);
 
 /* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
  * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes about the

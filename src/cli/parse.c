@@ -49,7 +49,7 @@ static int asks_for_help(int argc, char **argv)
 int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input, int *exit_code)
 {
     const struct argp_child children[] = {{argp, 0, NULL, 0}, {0}};
-    const struct argp whole = {common_options, parse_common, argp->args_doc, argp->doc, children, NULL, NULL};
+    const struct argp whole = {common_options, parse_common, NULL, NULL, children, NULL, NULL};
     Common common = {ctx, input};
     *exit_code = 0;
     if (asks_for_help(argc, argv)) {

@@ -22,6 +22,9 @@ typedef struct OstElement {
     /* Internal forces K u, without K: 3 numbers a node. */
     void (*force)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force);
 
+    /* Bounds of the forces, against which rounding is measured: the absolute values |B'| |C| |B| |u|. */
+    void (*magnitude)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *magnitude);
+
     /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j), and mean strain. */
     double (*volume)(const double *x);
     void (*gradient)(const double *x, const double *u, double gradient[9]);

@@ -35,9 +35,16 @@ static inline void cross_lanes(const OstLanes a[3], const OstLanes b[3], OstLane
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Gradients of the shape functions of nodes 1 to 3 times the determinant, which is returned; node 0's is minus their
- * sum. */
-static inline OstLanes scaled_gradients(const OstLanes *x, OstLanes gradient[3][3])
+/* a = |a|. (Lanes go by pointer: by value, their passing would depend on the processor.) */
+static inline void make_absolute(OstLanes *a)
+{
+    for (int lane = 0; lane < OST_LANES; lane++)
+        (*a)[lane] = fabs((*a)[lane]);
+}
+
+/* Gradients of the shape functions of nodes 1 to 3 times the determinant d; node 0's is minus their sum. `factor` is
+ * the volume |d|/6 times the 1/d of each of the two gradients in a product. */
+static inline void scaled_gradients(const OstLanes *x, OstLanes gradient[3][3], OstLanes *factor)
 {
     OstLanes edge[3][3];
     for (int a = 0; a < 3; a++)
@@ -46,14 +53,9 @@ static inline OstLanes scaled_gradients(const OstLanes *x, OstLanes gradient[3][
     cross_lanes(edge[1], edge[2], gradient[0]);
     cross_lanes(edge[2], edge[0], gradient[1]);
     cross_lanes(edge[0], edge[1], gradient[2]);
-    return edge[0][0] * gradient[0][0] + edge[0][1] * gradient[0][1] + edge[0][2] * gradient[0][2];
-}
-
-static inline OstLanes absolute(OstLanes a)
-{
-    for (int lane = 0; lane < OST_LANES; lane++)
-        a[lane] = fabs(a[lane]);
-    return a;
+    OstLanes determinant = edge[0][0] * gradient[0][0] + edge[0][1] * gradient[0][1] + edge[0][2] * gradient[0][2];
+    make_absolute(&determinant);
+    *factor = 1.0 / (6.0 * determinant);
 }
 
 /* Stress (6) for each displacement component (3) of a node with gradient g: C times the node's columns of B. */
@@ -98,9 +100,8 @@ static inline void complete_by_translations(OstLanes *k)
 static void tet4_stiffness(const OstLanes *x, const OstLanes *elasticity, OstLanes *blocks)
 {
     OstLanes gradient[3][3];
-    const OstLanes determinant = scaled_gradients(x, gradient);
-    /* volume |d|/6 times the 1/d of each of two gradients */
-    const OstLanes factor = 1.0 / (6.0 * absolute(determinant));
+    OstLanes factor;
+    scaled_gradients(x, gradient, &factor);
     for (int b = 0; b < 3; b++) {
         OstLanes stress[6][3];
         const OstLanes scaled[3] = {factor * gradient[b][0], factor * gradient[b][1], factor * gradient[b][2]};
@@ -138,8 +139,8 @@ static void tet4_force(const OstLanes *x, const OstLanes *elasticity, const OstL
     OstLanes gradient[3][3];
     OstLanes strain[6];
     OstLanes stress[6];
-    const OstLanes determinant = scaled_gradients(x, gradient);
-    const OstLanes factor = 1.0 / (6.0 * absolute(determinant));
+    OstLanes factor;
+    scaled_gradients(x, gradient, &factor);
     strain_lanes(gradient, u, strain);
     for (int p = 0; p < 6; p++) {
         stress[p] = elasticity[upper[p][0]] * strain[0];
@@ -151,6 +152,37 @@ static void tet4_force(const OstLanes *x, const OstLanes *elasticity, const OstL
         force_of(gradient[a - 1], stress, force + 3 * a);
     for (int i = 0; i < 3; i++)
         force[i] = -(force[3 + i] + force[6 + i] + force[9 + i]);
+}
+
+static void tet4_magnitude(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *magnitude)
+{
+    OstLanes g[4][3];
+    OstLanes strain[6] = {{0}};
+    OstLanes stress[6] = {{0}};
+    OstLanes factor;
+    scaled_gradients(x, g + 1, &factor);
+    for (int i = 0; i < 3; i++)
+        g[0][i] = g[1][i] + g[2][i] + g[3][i];
+    for (int a = 0; a < 4; a++) {
+        OstLanes size[3] = {u[3 * a], u[3 * a + 1], u[3 * a + 2]};
+        for (int i = 0; i < 3; i++) {
+            make_absolute(&g[a][i]);
+            make_absolute(&size[i]);
+        }
+        for (int i = 0; i < 3; i++) {
+            const int next = (i + 1) % 3;
+            strain[i] += g[a][i] * size[i];
+            strain[3 + i] += g[a][next] * size[i] + g[a][i] * size[next];
+        }
+    }
+    for (int p = 0; p < 6; p++)
+        for (int q = 0; q < 6; q++) {
+            OstLanes c = elasticity[upper[p][q]];
+            make_absolute(&c);
+            stress[p] += factor * c * strain[q];
+        }
+    for (int a = 0; a < 4; a++)
+        force_of(g[a], stress, magnitude + 3 * a);
 }
 
 static double tet4_volume(const double *x)
@@ -219,6 +251,7 @@ const OstElement ost_tet4 = {
     .nodes_per_face = 3,
     .stiffness = tet4_stiffness,
     .force = tet4_force,
+    .magnitude = tet4_magnitude,
     .volume = tet4_volume,
     .gradient = tet4_gradient,
     .strain = tet4_strain,

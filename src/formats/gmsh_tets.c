@@ -25,41 +25,69 @@ static OstStatus refuse_type(const OstGmshMesh *mesh, int type, size_t count)
                      mesh->gmsh.path, count, name);
 }
 
-/* The one type of the body's tets, and their number. */
-static OstStatus choose_type(const OstGmshMesh *mesh, size_t type_count, const int *types, int *type, size_t *count)
+/* Number of elements of a type. */
+static OstStatus count_type(const OstGmshMesh *mesh, int type, size_t *count)
 {
+    size_t *tags = NULL, *nodes = NULL;
+    OST_TRY(ost_gmsh_elements(mesh, type, -1, &tags, count, &nodes));
+    mesh->gmsh.free(tags);
+    mesh->gmsh.free(nodes);
+    return OST_SUCCESS;
+}
+
+/* Takes note of a type of solid elements that the mesh holds `count` of. */
+static OstStatus choose_type(const OstGmshMesh *mesh, int candidate, size_t count, int *type, size_t *tets)
+{
+    if (count == 0)
+        return OST_SUCCESS;
+    if (!is_tet(candidate))
+        return refuse_type(mesh, candidate, count);
+    if (*tets > 0)
+        return OST_RAISE(mesh->gmsh.ctx, OST_INVALID_INPUT,
+                         "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
+                         mesh->gmsh.path);
+    *type = candidate;
+    *tets = count;
+    return OST_SUCCESS;
+}
+
+/* Of elements with the same tag Gmsh may keep the last one only. */
+static OstStatus check_elements(const OstGmshMesh *mesh, size_t taken)
+{
+    if ((OstGlobal)taken == mesh->contents.elements)
+        return OST_SUCCESS;
+    return OST_RAISE(mesh->gmsh.ctx, OST_INVALID_INPUT,
+                     "%s: of its %" PRId64 " elements Gmsh takes %zu; the others repeat a tag: give each its own",
+                     mesh->gmsh.path, mesh->contents.elements, taken);
+}
+
+/* The one type of the body's tets, and their number. */
+static OstStatus choose_types(const OstGmshMesh *mesh, size_t type_count, const int *types, int *type, size_t *tets)
+{
+    size_t count = 0, total = 0;
     *type = 0;
-    *count = 0;
+    *tets = 0;
     for (size_t i = 0; i < type_count; i++) {
-        size_t *tags = NULL, *nodes = NULL, found = 0;
-        OST_TRY(ost_gmsh_elements(mesh, types[i], -1, &tags, &found, &nodes));
-        mesh->gmsh.free(tags);
-        mesh->gmsh.free(nodes);
-        if (found == 0)
-            continue;
-        if (!is_tet(types[i]))
-            return refuse_type(mesh, types[i], found);
-        if (*count > 0)
-            return OST_RAISE(mesh->gmsh.ctx, OST_INVALID_INPUT,
-                             "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
-                             mesh->gmsh.path);
-        *type = types[i];
-        *count = found;
+        OST_TRY(count_type(mesh, types[i], &count));
+        total += count;
+        if (ost_msh_type_dimension(types[i]) == 3)
+            OST_TRY(choose_type(mesh, types[i], count, type, tets));
     }
-    if (*count == 0)
+    OST_TRY(check_elements(mesh, total));
+    if (*tets == 0)
         return OST_RAISE(mesh->gmsh.ctx, OST_INVALID_INPUT, "%s: holds no tets; mesh its volume (gmsh -3)",
                          mesh->gmsh.path);
     return OST_SUCCESS;
 }
 
-static OstStatus find_type(const OstGmshMesh *mesh, int *type, size_t *count)
+static OstStatus find_type(const OstGmshMesh *mesh, int *type, size_t *tets)
 {
     int *types = NULL;
     size_t type_count = 0;
     int error = 0;
-    mesh->gmsh.get_element_types(&types, &type_count, 3, -1, &error);
+    mesh->gmsh.get_element_types(&types, &type_count, -1, -1, &error);
     OST_TRY(ost_gmsh_check(&mesh->gmsh, error, "list its element types"));
-    const OstStatus status = choose_type(mesh, type_count, types, type, count);
+    const OstStatus status = choose_types(mesh, type_count, types, type, tets);
     mesh->gmsh.free(types);
     return status;
 }

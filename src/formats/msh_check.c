@@ -27,6 +27,11 @@ OstStatus ost_msh_element_type(const OstMshCursor *cursor, int type, int *dimens
     return OST_SUCCESS;
 }
 
+int ost_msh_type_dimension(int type)
+{
+    return element_type[type].dimension;
+}
+
 OstStatus ost_msh_define_node(const OstMshCursor *cursor, OstMshContents *contents, OstGlobal tag)
 {
     if (tag < 1 || tag > INT_MAX)

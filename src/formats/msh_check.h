@@ -35,4 +35,7 @@ OstStatus ost_msh_use_node(const OstMshCursor *cursor, const OstMshContents *con
 /* Local. Dimension and node count of Gmsh's element types; raises on one that Gmsh does not write for solids. */
 OstStatus ost_msh_element_type(const OstMshCursor *cursor, int type, int *dimension, int *nodes);
 
+/* Local. Dimension of a type that has passed. */
+int ost_msh_type_dimension(int type);
+
 #endif

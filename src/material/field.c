@@ -34,7 +34,7 @@ double ost_field_density(const OstMaterialField *field, OstLocal tet)
     return field->material[field->tet_region[tet]].density;
 }
 
-/* What the bodies' tets are, for as long as the field is being made. */
+/* The tets as given to ost_field_create. */
 typedef struct Tets {
     OstLocal count;
     const int32_t *region;
@@ -150,7 +150,7 @@ static OstStatus allocate(OstContext *ctx, int region_count, OstMaterialField *f
     return OST_NEW(ctx, &field->region_varies, region_count);
 }
 
-/* Runs `fill` with an effect's account open; the effects that are off are never entered. */
+/* Each effect's work with its account open; the accounts of effects that are off are never entered. */
 static OstStatus fill_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
 {
     int orthotropic = 0, varying = 0;

@@ -135,4 +135,34 @@ static inline double *by_label(const OstMesh *mesh, const double *values)
     return all;
 }
 
+/* Plain conjugate gradients on the system, to rounding. */
+static inline void solve(OstContext *of, const OstBlockMatrix *matrix, const double *rhs, double *v)
+{
+    const OstLocal n = 3 * matrix->rows;
+    double *r = numbers((size_t)n);
+    double *p = numbers(3 * (size_t)matrix->columns);
+    double *ap = numbers((size_t)n);
+    memset(v, 0, (size_t)n * sizeof *v);
+    memcpy(r, rhs, (size_t)n * sizeof *r);
+    memcpy(p, rhs, (size_t)n * sizeof *p);
+    const double start = dot(of, n, r, r);
+    double rr = start;
+    for (int k = 0; k < 1000 && rr > 1e-30 * start; k++) {
+        assert_success(ost_block_matrix_apply(matrix, p, ap));
+        const double alpha = rr / dot(of, n, p, ap);
+        for (OstLocal i = 0; i < n; i++) {
+            v[i] += alpha * p[i];
+            r[i] -= alpha * ap[i];
+        }
+        const double next = dot(of, n, r, r);
+        for (OstLocal i = 0; i < n; i++)
+            p[i] = r[i] + next / rr * p[i];
+        rr = next;
+    }
+    assert_true(rr <= 1e-30 * start);
+    free(r);
+    free(p);
+    free(ap);
+}
+
 #endif

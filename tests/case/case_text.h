@@ -64,7 +64,6 @@ static inline void check_refused(const char *text, const char *expected, const c
     if (prefix)
         whole[length -= 3] = 0;
     const char *found = ost_error_text(ctx);
-    {int L=0,C=0; sscanf(found+strlen(path)+1,"%d:%d",&L,&C); const char*q=text; for(int i=1;i<L&&q;i++){q=strchr(q,'\n'); if(q)q++;} fprintf(stderr,"REVIEW %d %s | %.14s | %s\n", line, found+strlen(path)+1 , q? q+(C>0?C-1:0):"?", strcmp(found,whole)?"":"same"); return;}
     if (status != OST_INVALID_INPUT || c || (prefix ? strncmp(found, whole, length) : strcmp(found, whole)) != 0) {
         ost_case_destroy(&c);
         print_error("%s:%d: status %s\n  found    '%s'\n  expected '%s'\n", file, line, ost_status_name(status), found,

@@ -32,7 +32,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
-                   "4:22: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
+                   "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
                    "point_force, traction, pressure, gravity, body_force, on, share, region");
 }
 
@@ -63,7 +63,7 @@ static void wrong_types_say_what_was_found(void **state)
     assert_refused(CUBE "materials: {region: all}\n",
                    "2:12: materials: found a mapping, expected a list of materials (- region: all ...)");
     assert_refused(MATERIAL("youngs_modulus: '1e6', poissons_ratio: 0.3"),
-                   "3:34: materials[0].youngs_modulus: found the quoted text '1e6', expected a number without quotes");
+                   "3:35: materials[0].youngs_modulus: found the quoted text '1e6', expected a number without quotes");
 }
 
 static void numbers_are_whole_and_finite(void **state)
@@ -71,22 +71,22 @@ static void numbers_are_whole_and_finite(void **state)
     (void)state;
     assert_refused(
         MATERIAL("youngs_modulus: 1e6Pa, poissons_ratio: 0.3"),
-        "3:34: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (units are "
+        "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (units are "
         "yours, and not written)");
     assert_refused(MATERIAL("youngs_modulus: .nan, poissons_ratio: 0.3"),
-                   "3:34: materials[0].youngs_modulus: found '.nan', expected a finite number");
+                   "3:35: materials[0].youngs_modulus: found '.nan', expected a finite number");
     assert_refused(MATERIAL("youngs_modulus: -Infinity, poissons_ratio: 0.3"),
-                   "3:34: materials[0].youngs_modulus: found '-Infinity', expected a finite number");
+                   "3:35: materials[0].youngs_modulus: found '-Infinity', expected a finite number");
     assert_refused(MATERIAL("youngs_modulus: 1e400, poissons_ratio: 0.3"),
-                   "3:34: materials[0].youngs_modulus: found '1e400', expected a finite number (below 1.8e308)");
+                   "3:35: materials[0].youngs_modulus: found '1e400', expected a finite number (below 1.8e308)");
     assert_refused(MATERIAL("youngs_modulus: 0x10, poissons_ratio: 0.3"),
-                   "3:34: materials[0].youngs_modulus: found '0x10', expected a number");
+                   "3:35: materials[0].youngs_modulus: found '0x10', expected a number");
     assert_refused(MATERIAL("youngs_modulus: [1, stiff, 1], poissons_ratio: 0.3"),
-                   "3:38: materials[0].youngs_modulus[1]: found 'stiff', expected a number");
+                   "3:39: materials[0].youngs_modulus[1]: found 'stiff', expected a number");
     assert_refused(MATERIAL("youngs_modulus: [1, 2, -3], poissons_ratio: 0.3"),
-                   "3:41: materials[0].youngs_modulus[2]: found '-3', expected a number above 0");
+                   "3:42: materials[0].youngs_modulus[2]: found '-3', expected a number above 0");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, density: -1"),
-                   "3:67: materials[0].density: found '-1', expected a density, 0 or above");
+                   "3:68: materials[0].density: found '-1', expected a density, 0 or above");
 }
 
 static void exactly_one_form_is_expected(void **state)
@@ -102,56 +102,56 @@ static void exactly_one_form_is_expected(void **state)
         "4:10: constraints[0].on has both 'boundary' and 'all'; exactly one of boundary, plane, box, sphere, "
         "cylinder, vertices, nearest, all is expected");
     assert_refused(AXES("fixed: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], cells: mesh"),
-                   "3:70: materials[0].axes has both 'fixed' and 'cells'; ...");
+                   "3:73: materials[0].axes has both 'fixed' and 'cells'; ...");
 }
 
 static void unstable_materials_are_refused_where_they_stand(void **state)
 {
     (void)state;
-    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.5"), "3:53: ...");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.5"), "3:54: ...");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 10], poissons_ratio: {nu12: 0.3, nu23: 0.3, nu31: 0.3}, "
                             "shear_modulus: {G12: 1, G23: 1, G31: 1}"),
-                   "3:62: ...");
+                   "3:63: ...");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.3, nu31: 0.3}, "
                             "shear_modulus: {G12: 1, G23: 1, G31: 1}"),
-                   "3:61: region 'all': neither nu23 nor nu32 is given...");
+                   "3:62: region 'all': neither nu23 nor nu32 is given...");
 }
 
 static void constants_that_do_not_go_together_are_refused(void **state)
 {
     (void)state;
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
-                   "3:53: poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
+                   "3:54: poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),
-                   "3:61: nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; ...");
+                   "3:62: nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; ...");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G21: 1}"),
-                   "3:87: 'G12' and 'G21' are the same modulus; give one of them");
+                   "3:88: 'G12' and 'G21' are the same modulus; give one of them");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G23: 1}"),
-                   "3:73: expected either G12, G23 and G31 (or G13), or axis alone");
+                   "3:74: expected either G12, G23 and G31 (or G13), or axis alone");
     assert_refused(
         MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: geometrical"),
-        "3:73: unknown shear rule 'geometrical'; did you mean 'geometric'? Known: geometric, arithmetic, min, "
+        "3:74: unknown shear rule 'geometrical'; did you mean 'geometric'? Known: geometric, arithmetic, min, "
         "max");
     assert_refused(MATERIAL("youngs_modulus: {plane: 1, axis: 2}, poissons_ratio: {nu12: 0.1}"),
-                   "3:71: with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, plane_axis}; ...");
+                   "3:72: with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, plane_axis}; ...");
 }
 
 static void bad_axes_are_refused_where_they_stand(void **state)
 {
     (void)state;
     assert_refused(AXES("fixed: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]"),
-                   "3:78: axes of region 'all': the axes are left-handed; ...");
-    assert_refused(AXES("quaternion: [0, 0, 0, 0]"), "3:83: quaternion (0, 0, 0, 0); ...");
-    assert_refused(AXES("euler: {degrees: [1, 2, 3], sequence: zzx}"), "3:109: Euler sequence 'zzx'; ...");
+                   "3:81: axes of region 'all': the axes are left-handed; ...");
+    assert_refused(AXES("quaternion: [0, 0, 0, 0]"), "3:86: quaternion (0, 0, 0, 0); ...");
+    assert_refused(AXES("euler: {degrees: [1, 2, 3], sequence: zzx}"), "3:112: Euler sequence 'zzx'; ...");
     assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 0], order: [axial, radial, tangential]}"),
-                   "3:110: found the vector 0 0 0, expected a direction: three numbers not all zero");
+                   "3:113: found the vector 0 0 0, expected a direction: three numbers not all zero");
     assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [axial, radial, radial]}"),
-                   "3:144: direction 'radial' stands twice; e1, e2 and e3 take a different one each");
-    assert_refused(AXES("curve: {points: [[0, 0, 0]]}"), "3:87: found 1 points, expected two at least");
+                   "3:147: direction 'radial' stands twice; e1, e2 and e3 take a different one each");
+    assert_refused(AXES("curve: {points: [[0, 0, 0]]}"), "3:90: found 1 points, expected two at least");
     assert_refused(AXES("curve: {points: [[0, 0, 0], [0, 0, 0]]}"),
-                   "3:99: this point is the one before it again; a curve moves on");
+                   "3:102: this point is the one before it again; a curve moves on");
     assert_refused(AXES("gradient: {e1: {from: a, to: a}, e2: {from: b, to: c}}"),
-                   "3:100: 'a' is both from and to; a gradient runs between two boundaries");
+                   "3:103: 'a' is both from and to; a gradient runs between two boundaries");
 }
 
 static void bad_selections_are_refused(void **state)
@@ -180,9 +180,9 @@ static void bad_conditions_are_refused(void **state)
     assert_refused(LOAD("on: {all: true}, gravity: [0, 0, 1]"),
                    "4:10: 'gravity' acts in the volume and has no 'on'; 'region: NAME' restricts it");
     assert_refused(LOAD("on: {all: true}, pressure: 1, share: faces"),
-                   "4:42: 'share' belongs to total_force, not to 'pressure'");
+                   "4:43: 'share' belongs to total_force, not to 'pressure'");
     assert_refused(LOAD("on: {all: true}, pressure: 1, region: a"),
-                   "4:43: 'region' belongs to gravity and body_force; 'pressure' acts where 'on' says");
+                   "4:44: 'region' belongs to gravity and body_force; 'pressure' acts where 'on' says");
     assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity pulls on mass, but no material has a density; ...");
 }
 

@@ -16,7 +16,7 @@ output: {file: result.vtkhdf}
 """
 
 VEG = """*VERTICES
-NODES 3 0 0
+COUNT 3 0 0
 0 0 0 0
 1 1 0 0
 2 0 1 0
@@ -25,12 +25,12 @@ EXTRA
 *ELEMENTS
 TET
 1 4 0
-0 TETNODES
+0 CORNERS
 """
 
 
 def veg(nodes="4", extra="", tet="0 1 2 3"):
-    return VEG.replace("NODES", nodes).replace("EXTRA\n", extra).replace("TETNODES", tet)
+    return VEG.replace("COUNT", nodes).replace("EXTRA\n", extra).replace("CORNERS", tet)
 
 
 def with_mesh(name):
@@ -49,7 +49,8 @@ MISTAKES = [
     ("missing mesh file", with_mesh("lost.veg"), {}, ["lost.veg"]),
     ("unknown boundary", GOOD.replace("xmax", "tip"), {}, ["tip", "xmin", "xmax"]),
     ("unknown region", GOOD.replace("region: all", "region: bone"), {}, ["bone", "block"]),
-    ("nothing held", GOOD.replace("displacement: [0, 0, 0]", "displacement: [free, free, free]"), {}, ["held"]),
+    ("a constraint that holds nothing", GOOD.replace("[0, 0, 0]", "[free, free, free]"), {}, ["case.yaml:6:", "holds nothing"]),
+    ("nothing held", GOOD.replace("constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), {}, ["held"]),
     ("indefinite material", GOOD.replace("1000, poissons_ratio: 0.3", "1000, poissons_ratio: 0.6"), {}, ["case.yaml:4:", "0.5"]),
     ("truncated mesh", with_mesh("m.veg"), {"m.veg": veg()[:60]}, ["m.veg"]),
     ("inverted tet", with_mesh("m.veg"), {"m.veg": veg(tet="0 2 1 3")}, ["tet 0", "-0.166"]),

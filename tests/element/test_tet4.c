@@ -207,6 +207,34 @@ static void force_is_stiffness_times_displacement(void **state)
     }
 }
 
+/* |B'| |C| |B| |u|, by the plain matrices. */
+static void magnitude_sums_absolute_values(void **state)
+{
+    (void)state;
+    Case test;
+    OstLanes u[12];
+    OstLanes magnitude[12];
+    unsigned seed = 5u;
+    make_case(&test);
+    for (int i = 0; i < 12; i++)
+        for (int lane = 0; lane < OST_LANES; lane++)
+            u[i][lane] = random_number(&seed);
+    ost_tet4.magnitude(test.lanes_x, test.lanes_c, u, magnitude);
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        double g[12];
+        double b[6][12];
+        const double volume = fabs(plain_gradients(test.x[lane], g));
+        strain_matrix(g, b);
+        for (int i = 0; i < 12; i++) {
+            double expected = 0.0;
+            for (int pq = 0; pq < 36; pq++)
+                for (int j = 0; j < 12; j++)
+                    expected += volume * fabs(b[pq / 6][i] * test.c[pq] * b[pq % 6][j] * u[j][lane]);
+            assert_close(magnitude[i][lane] / expected, 1.0, 1e-11);
+        }
+    }
+}
+
 static void rigid_motions_meet_no_stiffness(void **state)
 {
     (void)state;
@@ -272,6 +300,34 @@ static void a_linear_field_has_its_strain_and_energy(void **state)
     }
 }
 
+static void gradients_and_laplacian_follow_the_shape_functions(void **state)
+{
+    (void)state;
+    double x[12];
+    double u[12];
+    double g[12];
+    double gradient[9];
+    double pairs[PAIRS];
+    unsigned seed = 3u;
+    random_tet(1u, x); /* turned inside out: the laplacian is positive all the same */
+    for (int i = 0; i < 12; i++)
+        u[i] = random_number(&seed);
+    const double volume = fabs(plain_gradients(x, g));
+    ost_tet4.gradient(x, u, gradient);
+    ost_tet4.laplacian(x, pairs);
+    for (int i = 0; i < 9; i++) {
+        double expected = 0.0;
+        for (int a = 0; a < 4; a++)
+            expected += u[3 * a + i / 3] * g[3 * a + i % 3];
+        assert_close(gradient[i], expected, 1e-12);
+    }
+    for (int a = 0; a < 4; a++)
+        for (int b = a; b < 4; b++)
+            assert_close(pairs[ost_pair_index(4, a, b)],
+                         volume * (g[3 * a] * g[3 * b] + g[3 * a + 1] * g[3 * b + 1] + g[3 * a + 2] * g[3 * b + 2]),
+                         1e-12);
+}
+
 static void volumes_carry_the_orientation(void **state)
 {
     (void)state;
@@ -331,10 +387,16 @@ static void lanes_turn_into_tets(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pairs_are_numbered_row_by_row),       cmocka_unit_test(lanes_turn_into_tets),
-    cmocka_unit_test(stiffness_is_the_full_product_b_c_b), cmocka_unit_test(force_is_stiffness_times_displacement),
-    cmocka_unit_test(rigid_motions_meet_no_stiffness),     cmocka_unit_test(a_linear_field_has_its_strain_and_energy),
-    cmocka_unit_test(volumes_carry_the_orientation),       cmocka_unit_test(faces_share_area_and_direction),
+    cmocka_unit_test(pairs_are_numbered_row_by_row),
+    cmocka_unit_test(lanes_turn_into_tets),
+    cmocka_unit_test(stiffness_is_the_full_product_b_c_b),
+    cmocka_unit_test(force_is_stiffness_times_displacement),
+    cmocka_unit_test(magnitude_sums_absolute_values),
+    cmocka_unit_test(rigid_motions_meet_no_stiffness),
+    cmocka_unit_test(a_linear_field_has_its_strain_and_energy),
+    cmocka_unit_test(gradients_and_laplacian_follow_the_shape_functions),
+    cmocka_unit_test(volumes_carry_the_orientation),
+    cmocka_unit_test(faces_share_area_and_direction),
     cmocka_unit_test(other_tets_are_not_available_yet),
 };
 

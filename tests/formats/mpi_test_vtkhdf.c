@@ -204,6 +204,52 @@ static void without_labels_equal_places_are_one_node(void **state)
     remove_file();
 }
 
+/* Moves the second point of a vertex that two pieces share; returns the vertex's label, or 0 if there is none. */
+static OstGlobal tear_a_vertex_apart(void)
+{
+    enum { MANY = 4 * 12 * 3 * 9 };
+    static OstGlobal label[MANY];
+    static double place[MANY][3];
+    OstGlobal torn = 0;
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t labels = H5Dopen2(file, "/VTKHDF/PointData/vertex", H5P_DEFAULT);
+    const hid_t places = H5Dopen2(file, "/VTKHDF/Points", H5P_DEFAULT);
+    assert_true(H5Dget_storage_size(labels) <= sizeof label);
+    const size_t count = H5Dget_storage_size(labels) / sizeof *label;
+    assert_true(H5Dread(labels, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, label) >= 0);
+    assert_true(H5Dread(places, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, place) >= 0);
+    for (size_t i = 0; i < count && torn == 0; i++)
+        for (size_t j = 0; j < i && torn == 0; j++)
+            if (label[i] == label[j]) {
+                torn = label[i];
+                place[i][1] += 1e-9;
+            }
+    assert_true(H5Dwrite(places, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, place) >= 0);
+    H5Dclose(labels);
+    H5Dclose(places);
+    assert_true(H5Fclose(file) >= 0);
+    return torn;
+}
+
+static void a_label_at_two_places_is_refused(void **state)
+{
+    (void)state;
+    name_file("torn");
+    write_tube(ctx, path);
+    OstGlobal torn = 0;
+    char text[128];
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (ost_rank(ctx) == 0)
+        torn = tear_a_vertex_apart();
+    MPI_Bcast(&torn, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+    assert_int_equal(torn > 0, ost_size(ctx) > 1);
+    OstMeshChunk *read = NULL;
+    snprintf(text, sizeof text, "are both vertex %lld but lie at different places", (long long)torn);
+    if (torn > 0)
+        assert_failure(ost_vtkhdf_read(ctx, path, &read), OST_INVALID_INPUT, text);
+    remove_file();
+}
+
 static void an_infinite_value_leaves_the_old_file_alone(void **state)
 {
     (void)state;
@@ -310,6 +356,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_rank_reads_the_pieces_of_all),
     cmocka_unit_test(all_ranks_share_the_piece_of_one),
     cmocka_unit_test(without_labels_equal_places_are_one_node),
+    cmocka_unit_test(a_label_at_two_places_is_refused),
     cmocka_unit_test(an_infinite_value_leaves_the_old_file_alone),
     cmocka_unit_test(a_folder_that_is_not_there_is_named),
     cmocka_unit_test(a_name_that_cannot_be_given_leaves_nothing_behind),

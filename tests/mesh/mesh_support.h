@@ -168,6 +168,12 @@ static inline double surface_area(const OstMesh *mesh, double vector[3])
     OstGlobal *faces = malloc((entries + 1) * sizeof *faces);
     for (size_t i = 0; i < entries; i++)
         faces[i] = surface->nodes[i];
+    for (OstLocal i = 0; i < surface->count; i++) {
+        int owned = 0;
+        for (int v = 0; v < surface->nodes_per_face; v++)
+            owned += surface->nodes[i * surface->nodes_per_face + v] < mesh->owned_nodes;
+        assert_true(owned > 0);
+    }
     const double area = total_area(mesh, surface->count, surface->nodes_per_face, faces, vector);
     free(faces);
     ost_surface_destroy(&surface);

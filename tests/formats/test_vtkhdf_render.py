@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/render draws a result with no display, and says what is wrong when it cannot."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from matplotlib.image import imread
+
+RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
+
+
+class Render(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.result = os.path.join(cls.folder.name, "tube.vtkhdf")
+        program = os.path.join(os.environ["ORTHOSTAT_TEST_BIN"], "formats_mpi_test_vtkhdf")
+        subprocess.run([os.environ["ORTHOSTAT_MPIEXEC"], "-n", "2", program], cwd=cls.folder.name, check=True,
+                       env={**os.environ, "ORTHOSTAT_WRITE_TO": cls.result}, capture_output=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def render(self, *arguments):
+        environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        return subprocess.run([RENDER, *arguments], env=environment, capture_output=True, text=True, timeout=120)
+
+    def refusal(self, *arguments):
+        done = self.render(*arguments)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        return done.stderr
+
+    def test_a_picture_of_the_size_asked_for_shows_shape_and_section(self):
+        picture = os.path.join(self.folder.name, "picture.png")
+        done = self.render(self.result, picture, "--size", "800x500", "--scale", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # the largest displacement is 0.8 at mid height
+        self.assertEqual(done.stdout, f"{picture}: largest |u| 0.8, drawn × 2\n")
+        pixels = imread(picture)
+        self.assertEqual(pixels.shape[:2], (500, 800))
+        coloured = abs(pixels[80:420, :, 0] - pixels[80:420, :, 2]) > 0.1
+        self.assertGreater(coloured[:, :300].mean(), 0.05)  # the shape
+        self.assertGreater(coloured[:, 400:].mean(), 0.05)  # the section
+
+    def test_what_cannot_be_drawn_is_refused_in_words(self):
+        self.assertIn("no such file", self.refusal("nothing.vtkhdf"))
+        self.assertIn("not a VTKHDF file", self.refusal(__file__))
+        self.assertIn("misses the deformed body", self.refusal(self.result, "--section", "y=11"))
+        self.assertIn("expected an axis and where", self.refusal(self.result, "--section", "w=1"))
+
+
+if __name__ == "__main__":
+    sys.exit(not unittest.main(exit=False).result.wasSuccessful())
