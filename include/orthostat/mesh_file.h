@@ -5,8 +5,8 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 
-/* Materials that came with a mesh (.veg): for each region its material and axes. count is 0 where the format has none.
- */
+/* Materials that came with a mesh (.veg): for each region its material and axes; the same on every rank. count is 0
+ * where the format has none. */
 typedef struct OstFileMaterials {
     int count;             /* as many as regions, in their order, or 0 */
     OstMaterial *material; /* count */
@@ -15,12 +15,14 @@ typedef struct OstFileMaterials {
 
 /* Collective. Reads a mesh by its file's ending: .msh (Gmsh 2.2 and 4.1, ASCII and binary), .veg (Vega FEM), .vtkhdf.
  * Serial formats are read by rank 0, .vtkhdf by all ranks in parallel. Raises OST_FILE_FAILED or OST_INVALID_INPUT with
- * file:line where there is one, what was found and what was expected. Cubic .veg elements are refused by name. */
+ * file:line where there is one, what was found and what was expected. Cubic .veg elements are refused by name.
+ * Nodes and tets have the file's numbers as labels. Tets come in the file's order; those of a .msh file in the order of
+ * their numbers. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 void ost_file_materials_destroy(OstFileMaterials **materials);
 
-/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments); `labels` in memory from the
- * context, owned by the caller. Read by rank 0, given to all. */
+/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments), ascending, each once; at most
+ * 2^24. `labels` in memory from the context, owned by the caller. Read by rank 0, given to all. */
 OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstGlobal **labels);
 
 /* Collective. `width` numbers a line for each of `lines` lines (blank lines and # comments skipped), as axes.txt holds;

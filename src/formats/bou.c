@@ -76,7 +76,8 @@ static OstStatus read_list(OstContext *ctx, const char *path, LabelList *list)
     }
     if (list->count == 0)
         status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: names no vertex", path);
-    sort_labels(list);
+    else
+        sort_labels(list);
 done:
     ost_lines_close(&reader);
     return status;

@@ -150,6 +150,9 @@ static OstStatus add_tets(const OstGmshMesh *mesh, int32_t region, size_t count,
     OstMeshChunk *chunk = mesh->chunk;
     const size_t width = (size_t)chunk->nodes_per_tet;
     const size_t first = (size_t)chunk->tet_count;
+    if (first + count > (size_t)chunk->global_tets)
+        return OST_RAISE(mesh->gmsh.ctx, OST_LIBRARY_FAILED, "%s: Gmsh gives more tets by volume than in all",
+                         mesh->gmsh.path);
     OST_TRY(ost_gmsh_find_nodes(mesh, count * width, nodes, chunk->tet_nodes + first * width));
     for (size_t t = first; t < first + count; t++) {
         chunk->tet_label[t] = (OstGlobal)tags[t - first];
@@ -226,6 +229,9 @@ OstStatus ost_gmsh_read_tets(OstGmshMesh *mesh)
     OST_TRY(find_type(mesh, &type, &count));
     OST_TRY(allocate_tets(mesh, type, count));
     OST_TRY(read_volumes(mesh, type));
+    if (mesh->chunk->tet_count != mesh->chunk->global_tets)
+        return OST_RAISE(mesh->gmsh.ctx, OST_LIBRARY_FAILED, "%s: Gmsh gives fewer tets by volume than in all",
+                         mesh->gmsh.path);
     OST_TRY(name_the_rest(mesh->chunk));
     OST_TRY(ost_tets_sort(mesh->chunk, mesh->gmsh.path));
     if (mesh->contents.tets_out_of_order)

@@ -28,10 +28,17 @@ static OstStatus skip_tags(OstMshCursor *cursor, const char *what)
     return OST_SUCCESS;
 }
 
-static OstStatus check_entity(OstMshCursor *cursor, int dimension)
+/* Gmsh takes a negative tag for "all entities". */
+static OstStatus read_entity_tag(OstMshCursor *cursor)
 {
     int tag = 0;
     OST_TRY(ost_msh_int(cursor, "an entity's tag", &tag));
+    return tag >= 0 ? OST_SUCCESS : OST_RAISE_MSH(cursor, "entity tag %d found, expected 0 or more", tag);
+}
+
+static OstStatus check_entity(OstMshCursor *cursor, int dimension)
+{
+    OST_TRY(read_entity_tag(cursor));
     OST_TRY(skip_doubles(cursor, "the box of an entity", dimension == 0 ? 3 : 6));
     OST_TRY(skip_tags(cursor, "physical groups of an entity"));
     return dimension == 0 ? OST_SUCCESS : skip_tags(cursor, "bounds of an entity");
@@ -73,10 +80,10 @@ static OstStatus check_total(const OstMshCursor *cursor, const char *what, OstGl
 
 static OstStatus check_node_block(OstMshCursor *cursor, OstMshContents *contents, OstGlobal total)
 {
-    int dimension = 0, entity = 0, parametric = 0;
+    int dimension = 0, parametric = 0;
     OstGlobal count = 0, tag = 0;
     OST_TRY(ost_msh_int(cursor, "the dimension of an entity", &dimension));
-    OST_TRY(ost_msh_int(cursor, "an entity's tag", &entity));
+    OST_TRY(read_entity_tag(cursor));
     OST_TRY(ost_msh_int(cursor, "0 or 1 for parametric nodes", &parametric));
     OST_TRY(ost_msh_size(cursor, "a number of nodes", &count));
     if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > (dimension < 3))
@@ -103,10 +110,10 @@ OstStatus ost_msh41_nodes(OstMshCursor *cursor, OstMshContents *contents)
 
 static OstStatus check_element_block(OstMshCursor *cursor, OstMshContents *contents, OstGlobal total)
 {
-    int dimension = 0, entity = 0, type = 0, own_dimension = 0, nodes = 0;
+    int dimension = 0, type = 0, own_dimension = 0, nodes = 0;
     OstGlobal count = 0, tag = 0;
     OST_TRY(ost_msh_int(cursor, "the dimension of an entity", &dimension));
-    OST_TRY(ost_msh_int(cursor, "an entity's tag", &entity));
+    OST_TRY(read_entity_tag(cursor));
     OST_TRY(ost_msh_int(cursor, "an element's type", &type));
     OST_TRY(ost_msh_size(cursor, "a number of elements", &count));
     OST_TRY(ost_msh_element_type(cursor, type, &own_dimension, &nodes));

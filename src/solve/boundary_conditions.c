@@ -6,13 +6,14 @@
 #include "core/memory.h"
 
 #include <stdio.h>
+#include <string.h>
 
-/* Puts "case.yaml:12: " in front of a failure's text. */
+/* Puts "case.yaml:12: " in front of a failure's text, unless it says already where it is. */
 static OstStatus at_line(const OstCase *c, int line, OstStatus status)
 {
     char text[2048];
-    if (status == OST_SUCCESS)
-        return OST_SUCCESS;
+    if (status == OST_SUCCESS || strncmp(ost_error_text(c->ctx), c->path, strlen(c->path)) == 0)
+        return status;
     snprintf(text, sizeof text, "%s", ost_error_text(c->ctx));
     return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, line, text);
 }

@@ -68,9 +68,8 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
         status = OST_NEW(ctx, &v, unknowns);
     if (status == OST_SUCCESS)
         status = ost_system_fill_laplacian(system, rhs);
-    if (status == OST_SUCCESS)
-        status = ost_system_geometry(system, NULL, coordinates, NULL, modes);
     OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_system_geometry(system, NULL, coordinates, NULL, modes));
     const OstSolverGeometry geometry = {coordinates, NULL, modes};
     OST_TRY_DONE(ost_solver_create(ctx, system->matrix, &geometry, &options, &solver));
     OST_TRY_DONE(ost_solver_solve(solver, rhs, v, &report));

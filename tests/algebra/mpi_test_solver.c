@@ -239,7 +239,7 @@ static void one_row_is_enough(void **state)
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
         for (OstLocal i = 0; i < problem.matrix->rows; i++) {
-            double inverse[9];
+            double inverse[9] = {0.0};
             double expected[3];
             assert_true(ost_invert3(problem.matrix->value, inverse) != 0.0);
             ost_apply3(inverse, problem.force, expected);
