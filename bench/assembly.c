@@ -9,7 +9,8 @@
 #include <stdlib.h>
 
 /* Times of the pattern and of the stiffness of the paper's tube (Li and Barbič 2014, Fig. 6), isotropic and stiff
- * along, across and around; least of several. Arguments: repetitions (15), refinement (1: 129,600 tets). */
+ * along, across and around; least of several. Arguments: repetitions (15), refinement (1: 129,600 tets), kind of tets
+ * (1: linear, 2: quadratic, 3: quadratic with curved edges). */
 
 typedef struct Bench {
     OstContext *ctx;
@@ -18,7 +19,18 @@ typedef struct Bench {
     int repetitions;
 } Bench;
 
-static OstStatus make_tube(Bench *bench, OstLocal refinement)
+/* Exchanges the linear mesh for a quadratic one. */
+static OstStatus raise_order(Bench *bench, const OstTubeShape *shape, int curved)
+{
+    const OstShapeSurface surface = ost_shape_surface_tube(shape);
+    OstMesh *quadratic = NULL;
+    OST_TRY(ost_mesh_raise(bench->mesh, curved ? &surface : NULL, &quadratic));
+    ost_mesh_destroy(&bench->mesh);
+    bench->mesh = quadratic;
+    return OST_SUCCESS;
+}
+
+static OstStatus make_tube(Bench *bench, OstLocal refinement, int kind)
 {
     const OstTubeShape shape = {.axis = 1,
                                 .length = 10.0,
@@ -28,7 +40,8 @@ static OstStatus make_tube(Bench *bench, OstLocal refinement)
                                 .axial = 60 * refinement};
     OstMeshChunk *chunk = NULL;
     OST_TRY(ost_chunk_create_tube(bench->ctx, &shape, &chunk));
-    return ost_mesh_distribute(bench->ctx, &chunk, &bench->mesh);
+    OST_TRY(ost_mesh_distribute(bench->ctx, &chunk, &bench->mesh));
+    return kind == 1 ? OST_SUCCESS : raise_order(bench, &shape, kind == 3);
 }
 
 static OstStatus hold_ends(Bench *bench)
@@ -53,13 +66,10 @@ static OstStatus make_field(const Bench *bench, const double youngs_modulus[3], 
     double *centroids = NULL;
     OST_TRY(ost_material_create(bench->ctx, "tube", &constants, 0.0, &material));
     OST_TRY(OST_NEW(bench->ctx, &centroids, 3 * (size_t)mesh->tet_count));
-    for (size_t i = 0; i < 12 * (size_t)mesh->tet_count; i++) {
-        const size_t tet = i / 12;
-        const OstLocal node = mesh->tet_nodes[4 * tet + i / 3 % 4];
-        centroids[3 * tet + i % 3] += 0.25 * mesh->coordinates[3 * (size_t)node + i % 3];
-    }
-    const OstStatus status = ost_field_create(bench->ctx, 1, &material, &axes, mesh->tet_count, mesh->tet_region,
-                                              mesh->tet_label, centroids, NULL, field);
+    OstStatus status = ost_mesh_tet_centroids(mesh, centroids);
+    if (status == OST_SUCCESS)
+        status = ost_field_create(bench->ctx, 1, &material, &axes, mesh->tet_count, mesh->tet_region, mesh->tet_label,
+                                  centroids, NULL, field);
     OST_FREE(centroids);
     return status;
 }
@@ -100,13 +110,13 @@ static OstStatus time_fill(const Bench *bench, OstSystem *system, OstMaterialFie
     return OST_SUCCESS;
 }
 
-static OstStatus run(Bench *bench, OstLocal refinement)
+static OstStatus run(Bench *bench, OstLocal refinement, int kind)
 {
     static const double modulus[MATERIALS][3] = {{1e6, 1e6, 1e6}, {1e9, 1e6, 1e6}, {1e6, 1e9, 1e6}, {1e6, 1e6, 1e9}};
     OstMaterialField *field[MATERIALS] = {NULL};
     OstSystem *system = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(make_tube(bench, refinement));
+    OST_TRY_DONE(make_tube(bench, refinement, kind));
     OST_TRY_DONE(hold_ends(bench));
     for (int m = 0; m < MATERIALS; m++)
         OST_TRY_DONE(make_field(bench, modulus[m], &field[m]));
@@ -128,7 +138,7 @@ int main(int argc, char **argv)
     MPI_Init(&argc, &argv);
     if (ost_context_create(MPI_COMM_WORLD, &bench.ctx) != OST_SUCCESS)
         return 1;
-    const OstStatus status = run(&bench, argc > 2 ? atoi(argv[2]) : 1);
+    const OstStatus status = run(&bench, argc > 2 ? atoi(argv[2]) : 1, argc > 3 ? atoi(argv[3]) : 1);
     if (status != OST_SUCCESS)
         fprintf(stderr, "%s\n", ost_error_text(bench.ctx));
     ost_context_destroy(&bench.ctx);

@@ -4,6 +4,8 @@ include(CMakePackageConfigHelpers)
 install(TARGETS orthostat EXPORT OrthostatTargets)
 if(TARGET orthostat_program)
   install(TARGETS orthostat_program)
+  install(PROGRAMS scripts/plot-cost scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
 endif()
 install(DIRECTORY include/orthostat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 

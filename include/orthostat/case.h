@@ -43,6 +43,7 @@ typedef struct OstConstraint {
     int line;
     OstSelection on;
     int held[3];            /* DISPLACEMENT: is the component held? (false: the word free) */
+    int exact[3];           /* DISPLACEMENT: held to the formula's (the word exact), see orthostat/exact.h */
     double displacement[3]; /* DISPLACEMENT */
     double normal[3];       /* SLIDE: the plane's normal */
 } OstConstraint;
@@ -65,6 +66,7 @@ typedef struct OstLoad {
     char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
     double vector[3];
     double pressure;
+    int exact;      /* TRACTION, BODY_FORCE: the formula's (the word exact) */
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
@@ -77,7 +79,23 @@ typedef struct OstCaseMaterial {
     OstAxesSpec axes;
 } OstCaseMaterial;
 
-typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_FILE } OstMeshKind;
+/* A number that a person wants of the answer; `orthostat cost` prices its error. */
+typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
+
+enum {
+    OST_WATCH_LENGTH = 3, /* instead of a component */
+    OST_MOST_WATCHES = 20
+};
+
+typedef struct OstWatch {
+    char *name;
+    OstWatchKind kind;
+    int line;
+    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
+    int component;   /* 0 to 2, or OST_WATCH_LENGTH */
+} OstWatch;
+
+typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_SECTOR, OST_MESH_OCTANT, OST_MESH_FILE } OstMeshKind;
 
 typedef struct OstCase {
     OstContext *ctx;
@@ -86,17 +104,25 @@ typedef struct OstCase {
     OstMeshKind mesh_kind;
     OstTubeShape tube;
     OstBlockShape block;
+    OstSectorShape sector;
+    OstOctantShape octant;
     char *mesh_file; /* resolved path */
-    int order;       /* of the elements: 1 */
+    double merge;    /* FILE: vertices no farther apart than this are joined; 0: none are */
+    int refinement;  /* uniform refinements of the mesh as given: each cuts a tet in eight */
+    int order;       /* of the elements: 1 or 2; 0: as the mesh has it */
     int material_count;
     OstCaseMaterial *materials;
+    int free_body; /* the word free_body instead of constraints: loads balance each other, and nothing is held */
     int constraint_count;
     OstConstraint *constraints;
     int load_count;
     OstLoad *loads;
-    OstSolverOptions solver; /* accuracy and solver sections over the defaults */
-    char *output_file;       /* as written: relative to the caller's directory; or NULL */
-    unsigned output_fields;  /* bits of OstOutputField */
+    int watch_count;
+    OstWatch *watches;
+    struct OstVerify *verify; /* orthostat/verify.h; NULL: the case has no such section */
+    OstSolverOptions solver;  /* accuracy and solver sections over the defaults */
+    char *output_file;        /* as written: relative to the caller's directory; or NULL */
+    unsigned output_fields;   /* bits of OstOutputField */
 } OstCase;
 
 /* Columns: name, its word in the case file. */
@@ -104,6 +130,7 @@ typedef struct OstCase {
     X(OST_FIELD_DISPLACEMENT, "displacement")    \
     X(OST_FIELD_REACTION, "reaction")            \
     X(OST_FIELD_STRESS, "stress")                \
+    X(OST_FIELD_NODE_STRESS, "node_stress")      \
     X(OST_FIELD_STRAIN, "strain")                \
     X(OST_FIELD_ENERGY, "strain_energy_density") \
     X(OST_FIELD_AXES, "axes")                    \

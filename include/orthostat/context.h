@@ -41,6 +41,9 @@ void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...) __attr
 void ost_warn(OstContext *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ost_progress(OstContext *ctx, const char *what, double fraction);
 
+/* Local. Hands every warning of rank 0 to `hear` too, quiet or not; NULL ends it. */
+void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener);
+
 /* Seconds on a clock that only moves forward. */
 double ost_seconds(void);
 

@@ -61,4 +61,8 @@ OstLedgerEntry ost_ledger_entry(struct OstContext *ctx, OstAccount account);
 size_t ost_ledger_bytes(const struct OstContext *ctx);
 size_t ost_ledger_peak_bytes(const struct OstContext *ctx);
 
+/* Local. Forgets the peaks so far, of all accounts: what is held now is the peak until more is. For measuring one of
+ * several runs in one context. */
+void ost_ledger_restart_peak(struct OstContext *ctx);
+
 #endif

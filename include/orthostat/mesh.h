@@ -87,9 +87,33 @@ typedef struct OstBlockShape {
     OstLocal divisions[3];
 } OstBlockShape;
 
+/* A part of a tube, from 0 to `angle` degrees (less than 360) about the axis: nodes as the tube's, with around + 1 of
+ * them on each arc; k, j, i has label (k·(around + 1) + j)·(radial + 1) + i + 1. Region "sector"; boundaries "bottom",
+ * "top", "inner", "outer", and at 0 and `angle` "start" and "finish" (exactly in a coordinate plane where the angle is
+ * a multiple of 90). */
+typedef struct OstSectorShape {
+    int axis; /* 0 x, 1 y, 2 z */
+    double origin[3];
+    double length;
+    double radii[2];
+    double angle;
+    OstLocal around, radial, axial;
+} OstSectorShape;
+
+/* The octant x, y, z >= 0 (from its centre) of a thick sphere, in 3 × around × around × radial hexes of six tets: three
+ * faces of a cube blown up, with 2 × around divisions on each quarter circle. Region "shell"; boundaries "inner",
+ * "outer", and exactly in the planes of symmetry "xmin", "ymin", "zmin". */
+typedef struct OstOctantShape {
+    double centre[3];
+    double radii[2];
+    OstLocal around, radial;
+} OstOctantShape;
+
 /* Collective. Each rank makes its share only. */
 OstStatus ost_chunk_create_tube(OstContext *ctx, const OstTubeShape *shape, OstMeshChunk **chunk);
 OstStatus ost_chunk_create_block(OstContext *ctx, const OstBlockShape *shape, OstMeshChunk **chunk);
+OstStatus ost_chunk_create_sector(OstContext *ctx, const OstSectorShape *shape, OstMeshChunk **chunk);
+OstStatus ost_chunk_create_octant(OstContext *ctx, const OstOctantShape *shape, OstMeshChunk **chunk);
 void ost_chunk_destroy(OstMeshChunk **chunk);
 
 /* Collective. Checks the chunk (finite coordinates, no inverted or flat tet, node numbers in range, no node used twice

@@ -5,15 +5,18 @@
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
 #include "orthostat/context.h"
+#include "orthostat/exact.h"
 #include "orthostat/field.h"
 #include "orthostat/ledger.h"
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"
 #include "orthostat/plan.h"
+#include "orthostat/refine.h"
 #include "orthostat/result.h"
 #include "orthostat/scene.h"
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
+#include "orthostat/verify.h"
 
 #endif

@@ -44,6 +44,9 @@ typedef struct OstPlan {
 void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
                    OstPlan *plan);
 
+/* Local. Does anything act on the body: a load, or a displacement given that is not zero? */
+int ost_plan_acts(const OstCase *c, const OstPlan *plan);
+
 /* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. */
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 

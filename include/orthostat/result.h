@@ -26,8 +26,9 @@ typedef struct OstResult {
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads */
     double *reaction;              /* 3 × node_count; zero where nothing is held */
-    double *strain, *stress;       /* 6 × owned_tets (11 22 33 12 23 31, strain with 2e), or NULL */
+    double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
+    double *node_stress;           /* 6 × node_count, or NULL */
     OstGlobal unknowns;
     double largest_displacement;
     double largest_at[3];

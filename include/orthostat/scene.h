@@ -3,6 +3,7 @@
 #define ORTHOSTAT_SCENE_H
 
 #include "orthostat/case.h"
+#include "orthostat/exact.h"
 #include "orthostat/plan.h"
 #include "orthostat/result.h"
 
@@ -13,6 +14,7 @@ typedef struct OstScene {
     OstPlan plan;
     OstMesh *mesh;
     OstMaterialField *field;
+    const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
 } OstScene;
 
 /* Collective. Reads or makes the mesh, distributes it, and sets up materials and axes. The case outlives the scene. */

@@ -8,8 +8,8 @@
 typedef enum {
     OST_RECIPE_AUTO,   /* METRIC, or DIRECT below 3000 unknowns */
     OST_RECIPE_PLAIN,  /* AztecOO's CG, ML's smoothed aggregation with its own aggregates */
-    OST_RECIPE_METRIC, /* flexible CG, ML's hierarchy on aggregates round in the material's metric, block smoother,
-                          K-cycle */
+    OST_RECIPE_METRIC, /* flexible CG, smoothed aggregation on aggregates round in the material's metric, block
+                          smoother, K-cycle */
     OST_RECIPE_DIRECT  /* MUMPS, refined by CG to the requested residual */
 } OstRecipe;
 

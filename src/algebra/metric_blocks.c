@@ -2,13 +2,14 @@
 #include "algebra/metric_blocks.h"
 
 #include "algebra/metric_aggregate.h"
+#include "algebra/metric_lanes.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
 
 #include <string.h>
 
-enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK };
+enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK, MOST_STRIPS = 3 };
 
 void ost_metric_blocks_destroy(OstMetricBlocks **blocks)
 {
@@ -21,20 +22,6 @@ void ost_metric_blocks_destroy(OstMetricBlocks **blocks)
     OST_FREE(*blocks);
 }
 
-/* Sorts the nodes by aggregate; start has aggregates + 1 entries. */
-static void sort_nodes(const OstAggregates *aggregates, OstLocal nodes, OstLocal *start, OstLocal *node)
-{
-    for (OstLocal i = 0; i < nodes; i++)
-        start[aggregates->of_node[i] + 1]++;
-    for (OstLocal a = 0; a < aggregates->count; a++)
-        start[a + 1] += start[a];
-    for (OstLocal i = nodes - 1; i >= 0; i--)
-        node[--start[aggregates->of_node[i] + 1]] = i;
-    for (OstLocal a = 0; a < aggregates->count; a++)
-        start[a] = start[a + 1];
-    start[aggregates->count] = nodes;
-}
-
 /* One block per aggregate; those too large for a dense inverse are cut. */
 static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstMetricBlocks *blocks)
 {
@@ -42,11 +29,9 @@ static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, Os
     OstLocal *start = NULL;
     OstStatus status = OST_SUCCESS;
     const size_t room = (size_t)aggregates->count + (size_t)nodes / LARGEST_BLOCK + 1;
-    OST_TRY_DONE(OST_NEW(ctx, &start, aggregates->count + 1));
-    OST_TRY_DONE(OST_NEW(ctx, &blocks->node, nodes));
+    OST_TRY_DONE(ost_aggregates_list(aggregates, nodes, &start, &blocks->node));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->node_start, room));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->value_start, room));
-    sort_nodes(aggregates, nodes, start, blocks->node);
     for (OstLocal a = 0; a < aggregates->count; a++)
         for (OstLocal from = start[a]; from < start[a + 1]; from += LARGEST_BLOCK) {
             const OstLocal end = from + LARGEST_BLOCK < start[a + 1] ? from + LARGEST_BLOCK : start[a + 1];
@@ -55,29 +40,37 @@ static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, Os
             blocks->node_start[b + 1] = end;
             blocks->value_start[b + 1] = blocks->value_start[b] + side * side;
         }
-    OST_TRY_DONE(OST_NEW(ctx, &blocks->value, blocks->value_start[blocks->count]));
+    OST_TRY_DONE(OST_NEW(ctx, &blocks->value, blocks->value_start[blocks->count] + OST_PADDING));
 done:
     OST_FREE(start);
     return status;
 }
 
+/* Puts a 3 × 3 or 6 × 6 block in its place, and its mirror image. */
+static void spread(int size, const float *value, int side, double *lower, double *upper)
+{
+    for (int r = 0; r < size; r++)
+        for (int c = 0; c < size; c++)
+            lower[c * side + r] = upper[r * side + c] = (double)value[r * size + c];
+}
+
 /* The block's part of the matrix, dense; `place` is each node's place in its block and `of_node` its block. */
-static void gather_block(const OstMetricOperator *matrix, const OstMetricBlocks *blocks, OstLocal b,
+static void gather_block(const OstLevelMatrix *matrix, const OstMetricBlocks *blocks, OstLocal b,
                          const OstLocal *of_node, const OstLocal *place, double *dense)
 {
     const int size = blocks->size;
     const int side = size * (blocks->node_start[b + 1] - blocks->node_start[b]);
+    const size_t square = (size_t)(size * size);
     memset(dense, 0, (size_t)side * (size_t)side * sizeof *dense);
-    for (OstLocal k = blocks->node_start[b]; k < blocks->node_start[b + 1]; k++) {
-        const OstLocal i = blocks->node[k];
-        for (OstLocal e = matrix->row_start[i]; e < matrix->row_start[i + 1]; e++) {
-            const OstLocal j = matrix->column[e];
-            if (j >= matrix->rows || of_node[j] != b)
-                continue;
-            const float *value = matrix->value + (size_t)(size * size) * (size_t)e;
-            for (int c = 0; c < size; c++)
-                for (int r = 0; r < size; r++)
-                    dense[(place[i] * size + r) * side + place[j] * size + c] = (double)value[c * size + r];
+    for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++) {
+        const OstLocal i = blocks->node[m];
+        double *row = dense + place[i] * size * side, *column = dense + place[i] * size;
+        spread(size, matrix->diagonal + square * (size_t)i, side, row + place[i] * size, row + place[i] * size);
+        for (OstLocal k = matrix->row_start[i]; k < matrix->own_end[i]; k++) {
+            const OstLocal j = matrix->column[k];
+            if (of_node[j] == b)
+                spread(size, matrix->value + square * (size_t)k, side, column + place[j] * size * side,
+                       row + place[j] * size);
         }
     }
 }
@@ -129,8 +122,8 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
     }
 }
 
-static void invert_blocks(const OstMetricOperator *matrix, const OstLocal *of_node, const OstLocal *place,
-                          double *dense, double *inverse, OstMetricBlocks *blocks)
+static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node, const OstLocal *place, double *dense,
+                          double *inverse, OstMetricBlocks *blocks)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
@@ -145,7 +138,7 @@ static void invert_blocks(const OstMetricOperator *matrix, const OstLocal *of_no
     }
 }
 
-static OstStatus fill_blocks(const OstMetricOperator *matrix, OstMetricBlocks *blocks)
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstMetricBlocks *blocks)
 {
     OstContext *ctx = blocks->ctx;
     OstLocal *of_node = NULL, *place = NULL;
@@ -169,10 +162,10 @@ done:
     return status;
 }
 
-OstStatus ost_metric_blocks_create(const OstMetricOperator *matrix, const OstMetricGraph *graph, double target,
+OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                    OstMetricBlocks **blocks)
 {
-    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 1};
+    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0};
     OstAggregates *aggregates = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &aggregates);
@@ -180,7 +173,7 @@ OstStatus ost_metric_blocks_create(const OstMetricOperator *matrix, const OstMet
         return status;
     OST_TRY_DONE(OST_NEW(matrix->ctx, blocks, 1));
     (*blocks)->ctx = matrix->ctx;
-    (*blocks)->size = matrix->height;
+    (*blocks)->size = matrix->size;
     OST_TRY_DONE(list_blocks(aggregates, matrix->rows, *blocks));
     OST_TRY_DONE(fill_blocks(matrix, *blocks));
 done:
@@ -190,23 +183,65 @@ done:
     return status;
 }
 
-void ost_metric_blocks_apply(const OstMetricBlocks *blocks, const double *r, double *z)
+/* Rows offset[0 .. count - 1] and the seven behind each of value × in; columns by twos, for what they wait for. */
+OST_UNROLLED void multiply_strips(int count, int side, const float *value, const int *offset, const float *in,
+                                  float *out)
 {
-    const int size = blocks->size;
+    OstFloat8 even[MOST_STRIPS] = {{0}}, odd[MOST_STRIPS] = {{0}};
+    int j = 0;
+    for (; j + 1 < side; j += 2, value += 2 * side)
+        for (int s = 0; s < count; s++) {
+            even[s] += in[j] * *(const OstFloat8 *)(value + offset[s]);
+            odd[s] += in[j + 1] * *(const OstFloat8 *)(value + side + offset[s]);
+        }
+    for (int s = 0; s < count && j < side; s++)
+        even[s] += in[j] * *(const OstFloat8 *)(value + offset[s]);
+    for (int s = 0; s < count; s++)
+        *(OstFloat8 *)(out + offset[s]) = even[s] + odd[s];
+}
+
+/* out = value × in, in strips of eight rows of which the last two overlap; what is behind out[side - 1] is written over
+ * if there are fewer than eight. */
+static void multiply_dense(int side, const float *value, const float *in, float *out)
+{
+    for (int from = 0; from < side; from += 8 * MOST_STRIPS) {
+        int count = 0, offset[MOST_STRIPS];
+        for (int row = from; row < side && count < MOST_STRIPS; row += 8)
+            offset[count++] = row + 8 <= side ? row : side > 8 ? side - 8 : 0;
+        if (count == 3)
+            multiply_strips(3, side, value, offset, in, out);
+        else if (count == 2)
+            multiply_strips(2, side, value, offset, in, out);
+        else
+            multiply_strips(1, side, value, offset, in, out);
+    }
+}
+
+OST_UNROLLED void apply_blocks(const OstMetricBlocks *blocks, int size, const OstBlockStep *step, const double *r)
+{
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal *node = blocks->node + blocks->node_start[b];
         const int nodes = blocks->node_start[b + 1] - blocks->node_start[b];
-        const int side = size * nodes;
-        const float *value = blocks->value + blocks->value_start[b];
-        float in[LARGEST_SIDE], out[LARGEST_SIDE] = {0};
+        float in[LARGEST_SIDE + OST_PADDING], out[LARGEST_SIDE + OST_PADDING];
         for (int k = 0; k < nodes; k++)
             for (int c = 0; c < size; c++)
-                in[k * size + c] = (float)r[size * node[k] + c];
-        for (int j = 0; j < side; j++)
-            for (int i = 0; i < side; i++)
-                out[i] += value[j * side + i] * in[j];
-        for (int k = 0; k < nodes; k++)
-            for (int c = 0; c < size; c++)
-                z[size * node[k] + c] = (double)out[k * size + c];
+                in[k * size + c] = (float)r[(size_t)size * (size_t)node[k] + (size_t)c];
+        multiply_dense(size * nodes, blocks->value + blocks->value_start[b], in, out);
+        for (int k = 0; k < nodes; k++) {
+            double *restrict direction = step->direction + (size_t)size * (size_t)node[k];
+            double *restrict x = step->x + (size_t)size * (size_t)node[k];
+            for (int c = 0; c < size; c++) {
+                direction[c] = step->keep * direction[c] + step->add * (double)out[k * size + c];
+                x[c] += direction[c];
+            }
+        }
     }
+}
+
+void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r)
+{
+    if (blocks->size == 3)
+        apply_blocks(blocks, 3, step, r);
+    else
+        apply_blocks(blocks, 6, step, r);
 }

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_METRIC_BLOCKS_H
 
 #include "algebra/metric_graph.h"
-#include "algebra/metric_operator.h"
+#include "algebra/metric_matrix.h"
 
 /* Block Jacobi: the inverses of a matrix' diagonal blocks over groups of nodes that do not overlap. */
 typedef struct OstMetricBlocks {
@@ -13,16 +13,22 @@ typedef struct OstMetricBlocks {
     OstLocal *node_start; /* count + 1 */
     OstLocal *node;       /* nodes, block by block */
     size_t *value_start;  /* count + 1 */
-    float *value;         /* dense symmetric inverses */
+    float *value;         /* dense symmetric inverses, and padding */
 } OstMetricBlocks;
 
 /* Local. Blocks of about `target` nodes, round in the graph's metric. A block that is not positive definite falls back
  * to its nodes alone, and these to their diagonal. */
-OstStatus ost_metric_blocks_create(const OstMetricOperator *matrix, const OstMetricGraph *graph, double target,
+OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                    OstMetricBlocks **blocks);
 void ost_metric_blocks_destroy(OstMetricBlocks **blocks);
 
-/* Local. z = B^-1 r; z may not be r. */
-void ost_metric_blocks_apply(const OstMetricBlocks *blocks, const double *r, double *z);
+/* A step of an iteration: direction = keep direction + add B^-1 r, then x += direction. */
+typedef struct OstBlockStep {
+    double keep, add;
+    double *direction, *x;
+} OstBlockStep;
+
+/* Local. */
+void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r);
 
 #endif

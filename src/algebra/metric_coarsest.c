@@ -44,17 +44,17 @@ static OstStatus number_unknowns(OstCoarsest *coarsest)
 }
 
 /* This rank's rows, in place in the dense matrix. `number` has each block column's first global unknown. */
-static void spread_rows(const OstMetricOperator *matrix, const OstGlobal *number, OstCoarsest *coarsest)
+static void spread_rows(const OstExactMatrix *matrix, const OstGlobal *number, OstCoarsest *coarsest)
 {
-    const int size = matrix->height;
+    const int size = matrix->size;
     const size_t order = (size_t)coarsest->order;
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
-            const double *value = matrix->exact + (size_t)(size * size) * (size_t)k;
+            const double *value = matrix->value + (size_t)(size * size) * (size_t)k;
             double *target = coarsest->factor + (size_t)number[i] * order + (size_t)number[matrix->column[k]];
-            for (int c = 0; c < size; c++)
-                for (int r = 0; r < size; r++)
-                    target[(size_t)r * order + (size_t)c] = value[c * size + r];
+            for (int r = 0; r < size; r++)
+                for (int c = 0; c < size; c++)
+                    target[(size_t)r * order + (size_t)c] = value[r * size + c];
         }
 }
 
@@ -72,7 +72,7 @@ static OstStatus gather_rows(OstCoarsest *coarsest)
     return status != OST_SUCCESS ? status : freed;
 }
 
-static OstStatus assemble(const OstMetricOperator *matrix, OstCoarsest *coarsest)
+static OstStatus assemble(const OstExactMatrix *matrix, OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
     OstGlobal *number = NULL;
@@ -80,7 +80,7 @@ static OstStatus assemble(const OstMetricOperator *matrix, OstCoarsest *coarsest
     if (status != OST_SUCCESS)
         goto done;
     for (OstLocal i = 0; i < matrix->rows; i++)
-        number[i] = coarsest->start[ost_rank(ctx)] + (OstGlobal)matrix->height * i;
+        number[i] = coarsest->start[ost_rank(ctx)] + (OstGlobal)matrix->size * i;
     OST_TRY_DONE(ost_halo_import(matrix->halo, sizeof *number, number));
     spread_rows(matrix, number, coarsest);
     OST_TRY_DONE(gather_rows(coarsest));
@@ -125,7 +125,7 @@ static OstStatus factor(OstCoarsest *coarsest)
                      info, coarsest->order);
 }
 
-OstStatus ost_coarsest_create(const OstMetricOperator *matrix, OstCoarsest **coarsest)
+OstStatus ost_coarsest_create(const OstExactMatrix *matrix, OstCoarsest **coarsest)
 {
     OstContext *ctx = matrix->ctx;
     const size_t ranks = (size_t)ost_size(ctx);
@@ -138,7 +138,7 @@ OstStatus ost_coarsest_create(const OstMetricOperator *matrix, OstCoarsest **coa
         status = OST_NEW(ctx, &made->start, ranks);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->ctx = ctx;
-    made->owned = matrix->height * matrix->rows;
+    made->owned = matrix->size * matrix->rows;
     OST_TRY_DONE(ost_agree(ctx, number_unknowns(made)));
     status = OST_NEW(ctx, &made->factor, (size_t)made->order * (size_t)made->order);
     if (status == OST_SUCCESS)

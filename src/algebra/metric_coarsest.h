@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_METRIC_COARSEST_H
 #define ORTHOSTAT_ALGEBRA_METRIC_COARSEST_H
 
-#include "algebra/metric_operator.h"
+#include "algebra/metric_exact.h"
 
 /* A small matrix that every rank holds whole and factors alone: on the coarsest level messages cost more than flops. */
 typedef struct OstCoarsest {
@@ -18,9 +18,9 @@ typedef struct OstCoarsest {
 /* The largest order that is factored as a dense matrix: 128 MiB a rank. */
 enum { OST_COARSEST_LIMIT = 4096 };
 
-/* Collective. The matrix keeps its double precision. Raises OST_LIMIT_EXCEEDED over the limit and OST_LIBRARY_FAILED if
+/* Collective. The matrix is not kept. Raises OST_LIMIT_EXCEEDED over the limit and OST_LIBRARY_FAILED if
  * the matrix cannot be factored even with a small shift, which a positive semidefinite one gets. */
-OstStatus ost_coarsest_create(const OstMetricOperator *matrix, OstCoarsest **coarsest);
+OstStatus ost_coarsest_create(const OstExactMatrix *matrix, OstCoarsest **coarsest);
 void ost_coarsest_destroy(OstCoarsest **coarsest);
 
 /* Collective. Solves A x = b; this rank's parts. */

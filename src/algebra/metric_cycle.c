@@ -11,11 +11,6 @@ enum { INNER_STEPS = 2, COARSEST_STEPS = 50 };
 /* Inner iterations stop at this residual; the second is for a coarsest level without a direct solve. */
 static const double inner_tolerance = 0.1, coarsest_tolerance = 0.01;
 
-static size_t unknowns(const OstMetricOperator *matrix)
-{
-    return (size_t)matrix->height * (size_t)matrix->rows;
-}
-
 static void destroy_level(OstCycleLevel *level)
 {
     ost_smoother_destroy(&level->smoother);
@@ -39,20 +34,26 @@ void ost_cycle_destroy(OstCycle **cycle)
     OST_FREE(*cycle);
 }
 
+/* What a level's conjugate gradients need beyond a cycle. */
+static OstStatus allocate_inner(OstContext *ctx, OstCycleLevel *level, OstLocal columns)
+{
+    const int size = level->matrix->size;
+    const OstLocal rows = level->matrix->rows;
+    OST_TRY(ost_level_vector_create(ctx, size, columns, &level->right_side));
+    OST_TRY(ost_level_vector_create(ctx, size, columns, &level->preconditioned));
+    OST_TRY(ost_level_vector_create(ctx, size, rows, &level->product));
+    OST_TRY(ost_level_vector_create(ctx, size, rows, &level->direction));
+    return ost_level_vector_create(ctx, size, rows, &level->direction_product);
+}
+
 /* `columns`: the most that any operator reading this level's vectors has. */
 static OstStatus allocate_level(OstContext *ctx, OstCycleLevel *level, OstLocal columns, int inner)
 {
-    const size_t owned = unknowns(level->matrix);
-    const size_t room = (size_t)level->matrix->height * (size_t)columns;
-    OST_TRY(OST_NEW(ctx, &level->solution, room));
-    OST_TRY(OST_NEW(ctx, &level->residual, owned));
-    if (!inner)
-        return OST_SUCCESS;
-    OST_TRY(OST_NEW(ctx, &level->right_side, room));
-    OST_TRY(OST_NEW(ctx, &level->preconditioned, room));
-    OST_TRY(OST_NEW(ctx, &level->product, owned));
-    OST_TRY(OST_NEW(ctx, &level->direction, owned));
-    return OST_NEW(ctx, &level->direction_product, owned);
+    const int size = level->matrix->size;
+    const OstLocal rows = level->matrix->rows;
+    OST_TRY(ost_level_vector_create(ctx, size, columns, &level->solution));
+    OST_TRY(ost_level_vector_create(ctx, size, rows, &level->residual));
+    return inner ? allocate_inner(ctx, level, columns) : OST_SUCCESS;
 }
 
 static OstStatus set_up_level(OstCycle *cycle, int l, const OstSolverOptions *options)
@@ -73,13 +74,13 @@ static OstStatus set_up_level(OstCycle *cycle, int l, const OstSolverOptions *op
 
 static OstStatus factor_coarsest(OstCycle *cycle)
 {
-    OstMetricOperator *matrix = cycle->levels.matrix[cycle->levels.count - 1];
-    const OstGlobal mine = (OstGlobal)unknowns(matrix);
+    OstMetricLevels *levels = &cycle->levels;
+    const OstGlobal mine = (OstGlobal)ost_level_unknowns(levels->matrix[levels->count - 1]);
     OstGlobal all = 0;
     OST_TRY(OST_MPI(cycle->ctx, MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, ost_comm(cycle->ctx))));
     if (all <= OST_COARSEST_LIMIT)
-        OST_TRY(ost_coarsest_create(matrix, &cycle->coarsest));
-    OST_FREE(matrix->exact);
+        OST_TRY(ost_coarsest_create(levels->coarsest, &cycle->coarsest));
+    ost_exact_matrix_destroy(&levels->coarsest);
     return OST_SUCCESS;
 }
 
@@ -115,11 +116,11 @@ static OstStatus descend(OstCycle *cycle, int l, const double *b, double *x)
                                : ost_smoother_apply(level->smoother, b, x, 1);
     OstCycleLevel *coarse = level + 1;
     OST_TRY(ost_smoother_apply(level->smoother, b, x, 1));
-    memcpy(level->residual, b, unknowns(level->matrix) * sizeof *b);
-    OST_TRY(ost_metric_operator_add(level->matrix, -1.0, x, level->residual));
-    OST_TRY(ost_metric_operator_apply_transposed(level->prolongator, level->residual, coarse->right_side));
+    memcpy(level->residual, b, ost_level_unknowns(level->matrix) * sizeof *b);
+    OST_TRY(ost_level_matrix_add(level->matrix, -1.0, x, level->residual));
+    OST_TRY(ost_prolongator_restrict(level->prolongator, level->residual, coarse->right_side));
     OST_TRY(solve_coarse(cycle, l + 1));
-    OST_TRY(ost_metric_operator_add(level->prolongator, 1.0, coarse->solution, x));
+    OST_TRY(ost_prolongator_add(level->prolongator, coarse->solution, x));
     return ost_smoother_apply(level->smoother, b, x, 0);
 }
 
@@ -142,12 +143,12 @@ static OstStatus sum_over_ranks(const OstCycle *cycle, int count, double *sums)
 static OstStatus inner_step(OstCycle *cycle, int l, double *r, double *x, double *scale, double *square)
 {
     OstCycleLevel *level = &cycle->level[l];
-    const size_t n = unknowns(level->matrix);
+    const size_t n = ost_level_unknowns(level->matrix);
     double *z = level->preconditioned, *az = level->product;
     double *p = level->direction, *ap = level->direction_product;
     OST_TRY(descend(cycle, l, r, z));
     memset(az, 0, n * sizeof *az);
-    OST_TRY(ost_metric_operator_add(level->matrix, 1.0, z, az));
+    OST_TRY(ost_level_matrix_add(level->matrix, 1.0, z, az));
     if (*scale > 0.0) {
         double overlap = dot(n, z, ap);
         OST_TRY(sum_over_ranks(cycle, 1, &overlap));
@@ -175,11 +176,11 @@ static OstStatus inner_step(OstCycle *cycle, int l, double *r, double *x, double
     return OST_SUCCESS;
 }
 
-/* Solves on level l > 0, roughly unless it is the coarsest, from right_side (which is used up) into solution. */
+/* Solves on level l, roughly unless it is the coarsest, from right_side (which is used up) into solution. */
 static OstStatus solve_coarse(OstCycle *cycle, int l)
 {
     OstCycleLevel *level = &cycle->level[l];
-    const size_t n = unknowns(level->matrix);
+    const size_t n = ost_level_unknowns(level->matrix);
     const int smoother_only = !level->prolongator && !cycle->coarsest;
     const int steps = smoother_only ? COARSEST_STEPS : cycle->inner_steps;
     const double tolerance = smoother_only ? coarsest_tolerance : inner_tolerance;
@@ -201,6 +202,18 @@ OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z)
 {
     OstCycleLevel *level = &cycle->level[0];
     OST_TRY(descend(cycle, 0, r, level->solution));
-    memcpy(z, level->solution, unknowns(level->matrix) * sizeof *z);
+    memcpy(z, level->solution, ost_level_unknowns(level->matrix) * sizeof *z);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cycle_solve(OstCycle *cycle, const double *r, double *z)
+{
+    OstCycleLevel *level = &cycle->level[0];
+    const size_t n = ost_level_unknowns(level->matrix);
+    if (!level->direction_product)
+        OST_TRY(ost_agree(cycle->ctx, allocate_inner(cycle->ctx, level, level->matrix->columns)));
+    memcpy(level->right_side, r, n * sizeof *r);
+    OST_TRY(solve_coarse(cycle, 0));
+    memcpy(z, level->solution, n * sizeof *z);
     return OST_SUCCESS;
 }

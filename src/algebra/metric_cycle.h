@@ -3,14 +3,14 @@
 #define ORTHOSTAT_ALGEBRA_METRIC_CYCLE_H
 
 #include "algebra/metric_coarsest.h"
-#include "algebra/metric_ml.h"
+#include "algebra/metric_levels.h"
 #include "algebra/metric_smoother.h"
 
 /* What a level works on; vectors have room for the ghosts of its own matrix and of the finer level's prolongator. */
 typedef struct OstCycleLevel {
-    const OstMetricOperator *matrix;
-    const OstMetricOperator *prolongator; /* to this level from the next; NULL on the coarsest */
-    OstSmoother *smoother;                /* NULL where the coarsest level is solved directly */
+    const OstLevelMatrix *matrix;
+    const OstProlongator *prolongator; /* to this level from the next; NULL on the coarsest */
+    OstSmoother *smoother;             /* NULL where the coarsest level is solved directly */
     double *right_side, *solution;
     double *residual;
     /* of the inner conjugate gradients; NULL on the finest level */
@@ -33,5 +33,9 @@ void ost_cycle_destroy(OstCycle **cycle);
 
 /* Collective. z = one cycle from zero for A z = r on the finest level; 3 × rows numbers each. */
 OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z);
+
+/* Collective. z solves A z = r roughly: a few steps of flexible conjugate gradients, as on the levels below. For cycles
+ * that something finer stands on; memory for it is taken at the first call. */
+OstStatus ost_cycle_solve(OstCycle *cycle, const double *r, double *z);
 
 #endif

@@ -27,6 +27,22 @@ void ost_aggregates_destroy(OstAggregates **aggregates)
     OST_FREE(*aggregates);
 }
 
+OstStatus ost_aggregates_list(const OstAggregates *aggregates, OstLocal nodes, OstLocal **start, OstLocal **member)
+{
+    OST_TRY(OST_NEW(aggregates->ctx, start, aggregates->count + 2));
+    OST_TRY(OST_NEW(aggregates->ctx, member, nodes));
+    OstLocal *next = *start + 1; /* becomes the next aggregate's start while it is filled */
+    for (OstLocal i = 0; i < nodes; i++)
+        if (aggregates->of_node[i] >= 0)
+            next[aggregates->of_node[i] + 1]++;
+    for (OstLocal a = 0; a < aggregates->count; a++)
+        next[a + 1] += next[a];
+    for (OstLocal i = 0; i < nodes; i++)
+        if (aggregates->of_node[i] >= 0)
+            (*member)[next[aggregates->of_node[i]]++] = i;
+    return OST_SUCCESS;
+}
+
 static OstStatus allocate_graph(OstContext *ctx, OstLocal nodes, OstLocal edges, OstMetricGraph **graph)
 {
     OST_TRY(OST_NEW(ctx, graph, 1));
@@ -115,32 +131,18 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     return status;
 }
 
-/* Nodes of each aggregate as linked lists: first[a], then next[i], -1 at the end. */
-static void link_members(const OstMetricGraph *fine, const OstAggregates *aggregates, OstLocal *first, OstLocal *next)
-{
-    for (OstLocal a = 0; a < aggregates->count; a++)
-        first[a] = -1;
-    for (OstLocal i = fine->nodes - 1; i >= 0; i--) {
-        const OstLocal a = aggregates->of_node[i];
-        if (a < 0)
-            continue;
-        next[i] = first[a];
-        first[a] = i;
-    }
-}
-
-static void average_members(const OstMetricGraph *fine, const OstLocal *first, const OstLocal *next,
+static void average_members(const OstMetricGraph *fine, const OstLocal *start, const OstLocal *member,
                             OstMetricGraph *coarse)
 {
     for (OstLocal a = 0; a < coarse->nodes; a++) {
         double *x = coarse->position + 3 * (size_t)a;
         double *w = coarse->metric + 6 * (size_t)a;
-        int members = 0;
-        for (OstLocal i = first[a]; i >= 0; i = next[i], members++) {
+        const OstLocal members = start[a + 1] - start[a];
+        for (OstLocal m = start[a]; m < start[a + 1]; m++) {
             for (int c = 0; c < 3; c++)
-                x[c] += fine->position[3 * (size_t)i + (size_t)c];
+                x[c] += fine->position[3 * (size_t)member[m] + (size_t)c];
             for (int c = 0; c < 6; c++)
-                w[c] += fine->metric[6 * (size_t)i + (size_t)c];
+                w[c] += fine->metric[6 * (size_t)member[m] + (size_t)c];
         }
         for (int c = 0; c < 3; c++)
             x[c] /= members;
@@ -150,15 +152,15 @@ static void average_members(const OstMetricGraph *fine, const OstLocal *first, c
 }
 
 /* `seen` holds, for each aggregate, the last one whose neighbour it was found to be. */
-static void connect_aggregates(const OstMetricGraph *fine, const OstAggregates *aggregates, const OstLocal *first,
-                               const OstLocal *next, OstLocal *seen, OstMetricGraph *coarse)
+static void connect_aggregates(const OstMetricGraph *fine, const OstAggregates *aggregates, const OstLocal *start,
+                               const OstLocal *member, OstLocal *seen, OstMetricGraph *coarse)
 {
     OstLocal edges = 0;
     for (OstLocal a = 0; a < coarse->nodes; a++)
         seen[a] = -1;
     for (OstLocal a = 0; a < coarse->nodes; a++) {
-        for (OstLocal i = first[a]; i >= 0; i = next[i])
-            for (OstLocal k = fine->edge_start[i]; k < fine->edge_start[i + 1]; k++) {
+        for (OstLocal m = start[a]; m < start[a + 1]; m++)
+            for (OstLocal k = fine->edge_start[member[m]]; k < fine->edge_start[member[m] + 1]; k++) {
                 const OstLocal b = aggregates->of_node[fine->neighbour[k]];
                 if (b < 0 || b == a || seen[b] == a)
                     continue;
@@ -172,24 +174,22 @@ static void connect_aggregates(const OstMetricGraph *fine, const OstAggregates *
 OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregates *aggregates, OstMetricGraph **coarse)
 {
     OstContext *ctx = fine->ctx;
-    OstLocal *first = NULL, *next = NULL, *seen = NULL;
+    OstLocal *start = NULL, *member = NULL, *seen = NULL;
     *coarse = NULL;
     OstStatus status = allocate_graph(ctx, aggregates->count, fine->edge_start[fine->nodes], coarse);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(OST_NEW(ctx, &first, aggregates->count));
-    OST_TRY_DONE(OST_NEW(ctx, &next, fine->nodes));
+    OST_TRY_DONE(ost_aggregates_list(aggregates, fine->nodes, &start, &member));
     OST_TRY_DONE(OST_NEW(ctx, &seen, aggregates->count));
-    link_members(fine, aggregates, first, next);
-    average_members(fine, first, next, *coarse);
-    connect_aggregates(fine, aggregates, first, next, seen, *coarse);
+    average_members(fine, start, member, *coarse);
+    connect_aggregates(fine, aggregates, start, member, seen, *coarse);
     const OstLocal edges = (*coarse)->edge_start[aggregates->count];
     OST_TRY_DONE(OST_RESIZE(ctx, &(*coarse)->neighbour, edges));
     OST_TRY_DONE(OST_RESIZE(ctx, &(*coarse)->length, edges));
     measure_edges(*coarse);
 done:
-    OST_FREE(first);
-    OST_FREE(next);
+    OST_FREE(start);
+    OST_FREE(member);
     OST_FREE(seen);
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(coarse);

@@ -36,6 +36,10 @@ void ost_metric_graph_destroy(OstMetricGraph **graph);
 
 void ost_aggregates_destroy(OstAggregates **aggregates);
 
+/* Local. The nodes of each aggregate, ascending: member[start[a]] up to start[a + 1]; both arrays are the caller's to
+ * free. Nodes that are in none are left out. */
+OstStatus ost_aggregates_list(const OstAggregates *aggregates, OstLocal nodes, OstLocal **start, OstLocal **member);
+
 /* Local. Squared length of a vector in a metric. */
 static inline double ost_metric_square(const double w[6], const double d[3])
 {

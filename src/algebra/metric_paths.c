@@ -40,6 +40,9 @@ void ost_paths_clear(OstPaths *paths)
     }
 }
 
+/* A heap in which each entry has four below it: half as many steps as with two, on the same cache lines. */
+enum { BELOW = 4 };
+
 static OstStatus push(OstPaths *paths, float distance, OstLocal node)
 {
     if (paths->queue_count == paths->queue_room) {
@@ -49,8 +52,8 @@ static OstStatus push(OstPaths *paths, float distance, OstLocal node)
     }
     OstPathEnd *queue = paths->queue;
     OstLocal k = paths->queue_count++;
-    for (; k > 0 && queue[(k - 1) / 2].distance > distance; k = (k - 1) / 2)
-        queue[k] = queue[(k - 1) / 2];
+    for (; k > 0 && queue[(k - 1) / BELOW].distance > distance; k = (k - 1) / BELOW)
+        queue[k] = queue[(k - 1) / BELOW];
     queue[k] = (OstPathEnd){distance, node};
     return OST_SUCCESS;
 }
@@ -62,13 +65,15 @@ static OstPathEnd pop(OstPaths *paths)
     const OstLocal count = --paths->queue_count;
     const OstPathEnd last = queue[count];
     OstLocal k = 0;
-    for (OstLocal child = 1; child < count; child = 2 * k + 1) {
-        if (child + 1 < count && queue[child + 1].distance < queue[child].distance)
-            child++;
-        if (queue[child].distance >= last.distance)
+    for (OstLocal child = 1; child < count; child = BELOW * k + 1) {
+        const OstLocal end = child + BELOW < count ? child + BELOW : count;
+        OstLocal least = child;
+        for (OstLocal c = child + 1; c < end; c++)
+            least = queue[c].distance < queue[least].distance ? c : least;
+        if (queue[least].distance >= last.distance)
             break;
-        queue[k] = queue[child];
-        k = child;
+        queue[k] = queue[least];
+        k = least;
     }
     queue[k] = last;
     return nearest;

@@ -3,6 +3,7 @@
 
 #include "algebra/cg.h"
 #include "algebra/metric_cycle.h"
+#include "algebra/metric_quadratic.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -13,6 +14,10 @@ struct OstMetric {
     OstScaling *scaling;
     OstBlockMatrix *scaled;
     OstCycle *cycle;
+    /* quadratic tets: the cycle is that of the linear ones under them */
+    OstQuadraticLevel *quadratic;
+    OstScaling *linear_scaling;
+    OstBlockMatrix *linear_scaled;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -22,7 +27,10 @@ void ost_metric_destroy(OstMetric **metric)
 {
     if (!*metric)
         return;
-    ost_cycle_destroy(&(*metric)->cycle); /* before the matrix whose halo it borrows */
+    ost_quadratic_level_destroy(&(*metric)->quadratic);
+    ost_cycle_destroy(&(*metric)->cycle); /* before the matrices whose halos they borrow */
+    ost_block_matrix_destroy(&(*metric)->linear_scaled);
+    ost_scaling_destroy(&(*metric)->linear_scaling);
     ost_block_matrix_destroy(&(*metric)->scaled);
     ost_scaling_destroy(&(*metric)->scaling);
     OST_FREE(*metric);
@@ -43,9 +51,8 @@ static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels
 {
     OstGlobal size[2 * OST_MAX_LEVELS] = {0};
     for (int l = 0; l < levels->count; l++) {
-        const OstMetricOperator *matrix = levels->matrix[l];
-        size[2 * l] = (OstGlobal)matrix->height * matrix->rows;
-        size[2 * l + 1] = (OstGlobal)matrix->height * matrix->width * matrix->row_start[matrix->rows];
+        size[2 * l] = (OstGlobal)ost_level_unknowns(levels->matrix[l]);
+        size[2 * l + 1] = levels->matrix[l]->nonzeros;
     }
     OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, size, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM,
                                                ost_comm(metric->ctx))));
@@ -59,23 +66,57 @@ static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels
     return OST_SUCCESS;
 }
 
-static OstStatus build_cycle(OstMetric *metric, const OstSolverGeometry *geometry)
+/* The cycle of a matrix on aggregates of its graph. */
+static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, const OstBlockMatrix *scaled,
+                             const OstScaling *scaling, const OstSolverGeometry *geometry)
 {
     OstContext *ctx = metric->ctx;
     OstMetricGraph *graph = NULL;
     OstMetricLevels levels = {0};
     double *modes = NULL;
-    OstStatus status = ost_metric_graph_create(metric->matrix, geometry, &graph);
+    OstStatus status = ost_metric_graph_create(matrix, geometry, &graph);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_agree(ctx, scale_modes(metric->scaling, geometry->modes, &modes)));
-    OST_TRY_DONE(ost_metric_levels_create(metric->scaled, modes, &graph, &metric->options, &levels));
+    OST_TRY_DONE(ost_agree(ctx, scale_modes(scaling, geometry->modes, &modes)));
+    OST_TRY_DONE(ost_metric_levels_create(scaled, modes, &graph, &metric->options, &levels));
     OST_TRY_DONE(measure_levels(metric, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
 done:
     OST_FREE(modes);
     ost_metric_graph_destroy(&graph);
     ost_metric_levels_clear(&levels);
+    return status;
+}
+
+/* Puts the quadratic tets on top in the report: complexity is over the finest matrix. */
+static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear)
+{
+    OstGlobal blocks[2] = {metric->matrix->row_start[metric->matrix->rows], linear->row_start[linear->rows]};
+    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, blocks, 2, MPI_INT64_T, MPI_SUM, ost_comm(metric->ctx))));
+    if (metric->levels < OST_MAX_LEVELS)
+        metric->levels++;
+    for (int l = metric->levels - 1; l > 0; l--)
+        metric->level_unknowns[l] = metric->level_unknowns[l - 1];
+    metric->level_unknowns[0] = 3 * metric->matrix->global_rows;
+    metric->operator_complexity = 1.0 + metric->operator_complexity * (double)blocks[1] / (double)blocks[0];
+    return OST_SUCCESS;
+}
+
+static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry)
+{
+    const OstCoarseSpace *space = geometry->coarse;
+    OstMetricGraph *graph = NULL;
+    OstStatus status = ost_scaling_create(space->matrix, &metric->linear_scaling);
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_scaling_apply_matrix(metric->linear_scaling, space->matrix, &metric->linear_scaled));
+    OST_TRY_DONE(build_cycle(metric, space->matrix, metric->linear_scaled, metric->linear_scaling, space->geometry));
+    OST_TRY_DONE(count_quadratic(metric, space->matrix));
+    OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
+    OST_TRY_DONE(ost_quadratic_level_create(metric->scaled, graph, space, metric->scaling, metric->linear_scaling,
+                                            metric->cycle, &metric->options, &metric->quadratic));
+done:
+    ost_metric_graph_destroy(&graph);
     return status;
 }
 
@@ -92,7 +133,10 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->matrix = matrix;
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
     OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
-    OST_TRY_DONE(build_cycle(made, geometry));
+    if (geometry->coarse)
+        OST_TRY_DONE(build_quadratic(made, geometry));
+    else
+        OST_TRY_DONE(build_cycle(made, matrix, made->scaled, made->scaling, geometry));
 done:
     if (status != OST_SUCCESS)
         ost_metric_destroy(&made);
@@ -105,13 +149,19 @@ static OstStatus apply_cycle(void *data, const double *r, double *z)
     return ost_cycle_apply(data, r, z);
 }
 
+static OstStatus apply_quadratic(void *data, const double *r, double *z)
+{
+    return ost_quadratic_level_apply(data, r, z);
+}
+
 OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
 {
-    const OstPreconditioner preconditioner = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
+    const OstPreconditioner linear = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
+    const OstPreconditioner quadratic = {.data = metric->quadratic, .apply = apply_quadratic, .flexible = 1};
     const OstCgSystem system = {.matrix = metric->matrix, .scaled_matrix = metric->scaled, .scaling = metric->scaling};
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];
     report->operator_complexity = metric->operator_complexity;
-    return ost_cg_solve(&system, &preconditioner, f, u, &metric->options, report);
+    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, &metric->options, report);
 }

@@ -4,8 +4,8 @@
 
 #include "algebra/solver.h"
 
-/* The recipe METRIC: rows scaled by their diagonal blocks, aggregates round in the material's metric, ML's smoothed
- * aggregation on them, block Chebyshev smoothing, a K-cycle, flexible conjugate gradients. */
+/* The recipe METRIC: rows scaled by their diagonal blocks, aggregates round in the material's metric,
+ * smoothed aggregation on them, block Chebyshev smoothing, a K-cycle, flexible conjugate gradients. */
 typedef struct OstMetric OstMetric;
 
 /* Collective. The matrix stays the caller's and outlives the solver. Raises OST_INVALID_INPUT if the geometry is not

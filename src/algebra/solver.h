@@ -13,7 +13,16 @@ typedef struct OstSolverGeometry {
     const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
                              on what the supports leave free). The plain recipe takes NULL for three translations, the
                              direct one looks at nothing of this */
+    const struct OstCoarseSpace *coarse; /* METRIC: a coarser discretisation to correct by, or NULL */
 } OstSolverGeometry;
+
+/* A coarser discretisation of the same body on the same ranks: linear tets under quadratic ones (p-multigrid). A fine
+ * row takes the mean of its two parents, projected on what the fine row's supports leave free. */
+typedef struct OstCoarseSpace {
+    const OstBlockMatrix *matrix;      /* assembled on its own; unscaled */
+    const OstSolverGeometry *geometry; /* of its rows */
+    const OstLocal *parents; /* fine rows × 2: columns of the coarse matrix (owned or ghost), -1: held, so zero */
+} OstCoarseSpace;
 
 typedef struct OstSolver OstSolver;
 

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_BATCH_H
 #define ORTHOSTAT_ASSEMBLY_BATCH_H
 
-#include "element/elasticity.h"
+#include "element/element.h"
 #include "orthostat/mesh.h"
 
 /* As many tets as there are lanes, with what the kernels read of them. Where fewer are left, the last one fills the
@@ -43,8 +43,12 @@ static inline void ost_order_nodes(int count, const OstLocal *nodes, OstLocal *o
 }
 
 /* Local. Takes up `count` tets (1 to OST_LANES): nodes, coordinates, elasticity. */
-void ost_batch_gather(OstBatch *batch, const OstMesh *mesh, const OstMaterialField *field, int count,
-                      const OstLocal *tets);
+void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh *mesh, const OstMaterialField *field,
+                      int count, const OstLocal *tets);
+
+/* Local. The tets from `first` on, as many as there are lanes, up to `end`. */
+void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,
+                           const OstMaterialField *field, OstLocal first, OstLocal end);
 
 /* Local. Three numbers of each node, into lanes. */
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstLanes *lanes);

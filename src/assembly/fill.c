@@ -90,14 +90,10 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field)
     double numbers[BLOCK_NUMBERS * OST_LANES];
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
-        const OstLocal left = mesh->tet_count - first;
-        OstLocal tets[OST_LANES];
-        for (int lane = 0; lane < OST_LANES; lane++)
-            tets[lane] = first + lane;
         fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_LANES, mesh->tet_count),
                     pairs * (size_t)least(first + 2 * OST_LANES, mesh->tet_count), system->matrix->value);
-        ost_batch_gather(&batch, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
-        element->stiffness(batch.x, batch.elasticity.c, blocks);
+        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
+        element->stiffness(batch.x, &batch.elasticity, blocks);
         const int width = blocks_by_tet(blocks, count, numbers);
         scatter(&batch, element->nodes, system->block_of_tet, numbers, width, system->matrix->value);
     }

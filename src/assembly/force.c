@@ -14,7 +14,7 @@ void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel
     OstLanes displacement[3 * OST_MAX_TET_NODES];
     OstLanes of_tets[3 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(batch, nodes, u, displacement);
-    kernel(batch->x, batch->elasticity.c, displacement, of_tets);
+    kernel(batch->x, &batch->elasticity, displacement, of_tets);
     for (int lane = 0; lane < batch->count; lane++)
         for (int a = 0; a < nodes; a++) {
             const OstLocal node = batch->node[lane][a];
@@ -32,17 +32,14 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
     OstBatch batch;
     if (!element)
-        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "quadratic tets are not available in this version");
+        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
+                         mesh->nodes_per_tet);
     memset(force, 0, bytes);
     if (magnitude)
         memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
-        const OstLocal left = mesh->tet_count - first;
-        OstLocal tets[OST_LANES];
-        for (int lane = 0; lane < OST_LANES; lane++)
-            tets[lane] = first + lane;
-        ost_batch_gather(&batch, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
+        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         ost_batch_add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
         if (magnitude)
             ost_batch_add_force(&batch, element->nodes, element->magnitude, u, 1.0, mesh->owned_nodes, magnitude);
@@ -88,7 +85,7 @@ static void subtract_moved(const OstSystem *system, const OstMaterialField *fiel
         if (touches_moved(mesh, system->supports, tet))
             tets[count++] = tet;
         if (count == OST_LANES || (count > 0 && tet == mesh->tet_count - 1)) {
-            ost_batch_gather(&batch, mesh, field, count, tets);
+            ost_batch_gather(&batch, element, mesh, field, count, tets);
             ost_batch_add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
             count = 0;
         }

@@ -5,7 +5,7 @@
 #include "assembly/batch.h"
 
 /* OstElement.force or OstElement.magnitude. */
-typedef void (*OstForceKernel)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force);
+typedef void (*OstForceKernel)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force);
 
 /* Local. Adds scale × the kernel's forces of the tets of a batch to `force`, 3 numbers for each of the first `owned`
  * local nodes. */

@@ -53,7 +53,8 @@ static OstStatus find_element(const OstMesh *mesh, int nodes_per_face, const Ost
 {
     *element = ost_element_of(mesh->nodes_per_tet);
     if (!*element)
-        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "quadratic tets are not available in this version");
+        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
+                         mesh->nodes_per_tet);
     if (nodes_per_face != 0 && nodes_per_face != (*element)->nodes_per_face)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "faces of %d nodes are loaded, on tets whose faces have %d",
                          nodes_per_face, (*element)->nodes_per_face);

@@ -13,7 +13,8 @@
 OstStatus ost_load_point_force(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const double force_each[3],
                                double *force);
 
-/* Collective. `total` shared equally by the selected nodes of all ranks (each node counted by its owner).
+/* Collective. `total` shared equally by the selected nodes of all ranks (each node counted by its owner); on quadratic
+ * tets vertices and mid-edge nodes alike, so that a force is shared finer, not consistently with a traction.
  * OST_EFFECT_POINT_FORCE. */
 OstStatus ost_load_shared_force(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const double total[3],
                                 double *force);

@@ -208,3 +208,25 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
         }
     return held;
 }
+
+OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
+                                   OstSupports **supports)
+{
+    OstSupports *made = NULL;
+    *supports = NULL;
+    OST_TRY(ost_supports_create(linear, &made));
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal vertex = 0; vertex < linear->node_count && status == OST_SUCCESS; vertex++) {
+        const OstLocal index = quadratic->index[node_of_vertex[vertex]];
+        OstSupport *support = NULL;
+        if (index < 0)
+            continue;
+        status = support_of(made, vertex, &support);
+        if (status == OST_SUCCESS)
+            *support = quadratic->support[index];
+    }
+    if (status != OST_SUCCESS)
+        ost_supports_destroy(&made);
+    *supports = made;
+    return status;
+}

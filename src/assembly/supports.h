@@ -33,6 +33,11 @@ OstStatus ost_supports_hold(OstSupports *supports, OstLocal node, const double d
  * is held anywhere. */
 OstStatus ost_supports_complete(OstSupports *supports);
 
+/* Local. The same supports on the linear mesh of a quadratic one's vertices; node_of_vertex as ost_mesh_linear gives
+ * it. */
+OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
+                                   OstSupports **supports);
+
 /* Local. P (9 numbers) and g of a node; returns the number of directions held (0: P is the identity). */
 int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double given[3]);
 

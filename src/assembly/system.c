@@ -76,11 +76,8 @@ OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, Os
     OstSystem *made = NULL;
     *system = NULL;
     if (!ost_element_of(mesh->nodes_per_tet))
-        return OST_RAISE(
-            ctx, OST_INVALID_INPUT,
-            "the mesh has tets of %d nodes; quadratic tets are not available in this version: give tets of "
-            "4 nodes",
-            mesh->nodes_per_tet);
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes; 4 or 10 are expected",
+                         mesh->nodes_per_tet);
     ost_ledger_enter(ctx, OST_LEDGER_PATTERN);
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS)

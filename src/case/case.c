@@ -66,7 +66,21 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
 
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
-    enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, EFFECTS, ACCURACY, SOLVER, OUTPUT, SECTIONS };
+    enum {
+        TITLE,
+        MESH,
+        ELEMENT,
+        MATERIALS,
+        CONSTRAINTS,
+        LOADS,
+        EFFECTS,
+        ACCURACY,
+        SOLVER,
+        OUTPUT,
+        WATCH,
+        VERIFY,
+        SECTIONS
+    };
     OstYamlKey keys[SECTIONS] = {
         [TITLE] = {"title", OST_OPTIONAL, NULL},
         [MESH] = {"mesh", OST_NEEDED, NULL},
@@ -78,11 +92,14 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [ACCURACY] = {"accuracy", OST_OPTIONAL, NULL},
         [SOLVER] = {"solver", OST_OPTIONAL, NULL},
         [OUTPUT] = {"output", OST_OPTIONAL, NULL},
+        [WATCH] = {"watch", OST_OPTIONAL, NULL},
+        [VERIFY] = {"verify", OST_OPTIONAL, NULL},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
         [MESH] = ost_read_mesh,         [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
         [LOADS] = ost_read_loads,       [CONSTRAINTS] = ost_read_constraints, [EFFECTS] = ost_read_effects,
         [ACCURACY] = ost_read_accuracy, [SOLVER] = ost_read_solver,           [OUTPUT] = ost_read_output,
+        [WATCH] = ost_read_watches,     [VERIFY] = ost_read_verify,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
     if (keys[TITLE].value)
@@ -139,6 +156,8 @@ static OstStatus read_vertex_files(OstCase *c)
         OST_TRY(read_vertex_file(c, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
+    for (int i = 0; i < c->watch_count; i++)
+        OST_TRY(read_vertex_file(c, &c->watches[i].on));
     return OST_SUCCESS;
 }
 
@@ -146,7 +165,6 @@ static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
 {
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
-    (*c)->order = 1;
     (*c)->solver = ost_solver_default_options();
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     return ost_copy_string(ctx, path, &(*c)->path);
@@ -188,6 +206,12 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
     }
+    for (int i = 0; i < (*c)->watch_count; i++) {
+        OST_FREE((*c)->watches[i].name);
+        ost_selection_release(&(*c)->watches[i].on);
+    }
+    OST_FREE((*c)->watches);
+    ost_verify_release(&(*c)->verify);
     OST_FREE((*c)->materials);
     OST_FREE((*c)->constraints);
     OST_FREE((*c)->loads);

@@ -46,7 +46,8 @@ static void plan_constraints(const OstCase *c, OstPlan *plan)
         const OstConstraint *constraint = &c->constraints[i];
         const double *u = constraint->displacement;
         slides += constraint->kind == OST_CONSTRAIN_SLIDE;
-        moved += constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+        const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
+        moved += constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
     }
     if (moved > 0)
         set(plan, OST_PLAN_GIVEN_DISPLACEMENT, 1, "%d of %d constraints give a displacement other than zero", moved,
@@ -149,14 +150,30 @@ void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstF
 
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
 {
+    /* A refinement doubles a shape's divisions, and so does, for the nodes, a node on every edge. */
+    const OstGlobal fine = (OstGlobal)1 << c->refinement;
+    const OstGlobal nodal = c->order == 2 ? 2 * fine : fine;
     const OstTubeShape *tube = &c->tube;
+    const OstSectorShape *sector = &c->sector;
     const OstLocal *n = c->block.divisions;
     *nodes = *tets = 0;
     if (c->mesh_kind == OST_MESH_TUBE) {
-        *nodes = ((OstGlobal)tube->axial + 1) * tube->around * ((OstGlobal)tube->radial + 1);
-        *tets = (OstGlobal)6 * tube->axial * tube->around * tube->radial;
+        *nodes = (nodal * tube->axial + 1) * nodal * tube->around * (nodal * tube->radial + 1);
+        *tets = 6 * fine * fine * fine * tube->axial * tube->around * tube->radial;
+    } else if (c->mesh_kind == OST_MESH_SECTOR) {
+        *nodes = ((OstGlobal)sector->axial + 1) * (sector->around + 1) * ((OstGlobal)sector->radial + 1);
+        *tets = (OstGlobal)6 * sector->axial * sector->around * sector->radial;
+    } else if (c->mesh_kind == OST_MESH_OCTANT) {
+        const OstGlobal around = c->octant.around;
+        *nodes = (3 * around * (around + 1) + 1) * ((OstGlobal)c->octant.radial + 1);
+        *tets = 18 * around * around * c->octant.radial;
     } else if (c->mesh_kind == OST_MESH_BLOCK) {
-        *nodes = ((OstGlobal)n[0] + 1) * ((OstGlobal)n[1] + 1) * ((OstGlobal)n[2] + 1);
-        *tets = (OstGlobal)6 * n[0] * n[1] * n[2];
+        *nodes = (nodal * n[0] + 1) * (nodal * n[1] + 1) * (nodal * n[2] + 1);
+        *tets = 6 * fine * fine * fine * n[0] * n[1] * n[2];
     }
+}
+
+int ost_plan_acts(const OstCase *c, const OstPlan *plan)
+{
+    return c->load_count > 0 || plan->effect[OST_PLAN_GIVEN_DISPLACEMENT].on;
 }

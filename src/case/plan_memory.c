@@ -13,7 +13,7 @@ static const double scatter_bytes = 16.0 * 4.0;              /* where the 16 blo
 static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
 
 /* Times the matrix: level 0 in float blocks, the smoother's factors, and a hierarchy of half the matrix' size. */
-static const double metric_copies = 5.0;
+static const double metric_copies = 2.8;
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
 /* MUMPS on tubes: 505 MB at 74,340 unknowns, 6.8 GB at 556,920; in between a power law. */
@@ -56,7 +56,8 @@ static int has_field(const OstCase *c, OstOutputFieldBit field)
 /* Points, cells and fields as the file holds them. */
 static double output_bytes(const OstCase *c, const OstPlan *plan)
 {
-    const double node = 24.0 + 24.0 * has_field(c, OST_FIELD_DISPLACEMENT) + 24.0 * has_field(c, OST_FIELD_REACTION);
+    const double node = 24.0 + 24.0 * has_field(c, OST_FIELD_DISPLACEMENT) + 24.0 * has_field(c, OST_FIELD_REACTION) +
+                        48.0 * has_field(c, OST_FIELD_NODE_STRESS);
     const double tet = 32.0 + 8.0 + 1.0 + 48.0 * has_field(c, OST_FIELD_STRESS) +
                        48.0 * has_field(c, OST_FIELD_STRAIN) + 8.0 * has_field(c, OST_FIELD_ENERGY) +
                        72.0 * has_field(c, OST_FIELD_AXES) + 4.0 * has_field(c, OST_FIELD_REGION) +

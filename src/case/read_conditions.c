@@ -6,11 +6,24 @@
 
 #include <string.h>
 
-/* Three components, each a number or the word free. */
+/* The word that stands for what the case's formula says (orthostat/exact.h). */
+static int is_exact(const OstYaml *yaml, const OstYamlNode *node)
+{
+    const char *text = "";
+    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
+           strcmp(text, "exact") == 0;
+}
+
+/* Three components, each a number or the word free or exact; or the one word exact. */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
 {
     static const char expected[] = "a list of three, each a number or the word free";
     int count;
+    if (is_exact(yaml, node)) {
+        for (int i = 0; i < 3; i++)
+            constraint->held[i] = constraint->exact[i] = 1;
+        return OST_SUCCESS;
+    }
     OST_TRY(ost_yaml_list(yaml, node, expected, &count));
     if (count != 3)
         return ost_yaml_raise_type(yaml, node, expected, "");
@@ -20,7 +33,8 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
         if (ost_yaml_is(yaml, item, OST_YAML_SCALAR))
             OST_TRY(ost_yaml_text(yaml, item, &text));
         constraint->held[i] = strcmp(text, "free") != 0;
-        if (constraint->held[i])
+        constraint->exact[i] = is_exact(yaml, item);
+        if (constraint->held[i] && !constraint->exact[i])
             OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
     }
     if (!constraint->held[0] && !constraint->held[1] && !constraint->held[2])
@@ -46,9 +60,20 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
                                                    : read_displacement(yaml, keys[kind].value, constraint);
 }
 
+/* The word free_body instead of a list. */
+static int is_free_body(const OstYaml *yaml, const OstYamlNode *node)
+{
+    const char *text = "";
+    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
+           strcmp(text, "free_body") == 0;
+}
+
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     int count;
+    c->free_body = is_free_body(yaml, node);
+    if (c->free_body)
+        return OST_SUCCESS;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of constraints (- {on: ..., displacement: ...})", &count));
     OST_TRY(OST_NEW(yaml->ctx, &c->constraints, count));
     c->constraint_count = count;
@@ -119,7 +144,8 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         OST_FREE(load->region);
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
-    return ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
+    load->exact = (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && is_exact(yaml, keys[kind].value);
+    return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
 }
 
 OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)

@@ -5,6 +5,9 @@
 /* 6 × this³ tets still have 64-bit numbers. */
 static const int64_t most_divisions = 1000000;
 
+/* 8 to this power is already 16 million times the tets. */
+static const int64_t most_refinements = 8;
+
 static OstStatus read_divisions(const OstYaml *yaml, const OstYamlNode *node, int64_t least, OstLocal *divisions)
 {
     int64_t number;
@@ -13,7 +16,8 @@ static OstStatus read_divisions(const OstYaml *yaml, const OstYamlNode *node, in
     return OST_SUCCESS;
 }
 
-static OstStatus read_tube_divisions(const OstYaml *yaml, const OstYamlNode *node, OstTubeShape *tube)
+static OstStatus read_tube_divisions(const OstYaml *yaml, const OstYamlNode *node, int64_t least_around,
+                                     OstLocal *around, OstLocal *radial, OstLocal *axial)
 {
     enum { AROUND, RADIAL, AXIAL };
     OstYamlKey keys[] = {
@@ -22,9 +26,18 @@ static OstStatus read_tube_divisions(const OstYaml *yaml, const OstYamlNode *nod
         [AXIAL] = {"axial", OST_NEEDED, NULL},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(read_divisions(yaml, keys[AROUND].value, 3, &tube->around));
-    OST_TRY(read_divisions(yaml, keys[RADIAL].value, 1, &tube->radial));
-    return read_divisions(yaml, keys[AXIAL].value, 1, &tube->axial);
+    OST_TRY(read_divisions(yaml, keys[AROUND].value, least_around, around));
+    OST_TRY(read_divisions(yaml, keys[RADIAL].value, 1, radial));
+    return read_divisions(yaml, keys[AXIAL].value, 1, axial);
+}
+
+static OstStatus read_radii(const OstYaml *yaml, const OstYamlNode *node, double radii[2])
+{
+    OST_TRY(ost_yaml_positives(yaml, node, 2, radii));
+    return radii[0] < radii[1]
+               ? OST_SUCCESS
+               : ost_yaml_raise(yaml, node, "found radii %g and %g, expected the inner one first and smaller", radii[0],
+                                radii[1]);
 }
 
 static OstStatus read_tube(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -40,14 +53,54 @@ static OstStatus read_tube(const OstYaml *yaml, const OstYamlNode *node, OstCase
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_word(yaml, keys[AXIS].value, "axis", axis_words, 3, &tube->axis));
     OST_TRY(ost_yaml_positive(yaml, keys[LENGTH].value, &tube->length));
-    OST_TRY(ost_yaml_positives(yaml, keys[RADII].value, 2, tube->radii));
-    if (!(tube->radii[0] < tube->radii[1]))
-        return ost_yaml_raise(yaml, keys[RADII].value,
-                              "found radii %g and %g, expected the inner one first and smaller", tube->radii[0],
-                              tube->radii[1]);
+    OST_TRY(read_radii(yaml, keys[RADII].value, tube->radii));
     if (keys[ORIGIN].value)
         OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, tube->origin));
-    return read_tube_divisions(yaml, keys[DIVISIONS].value, tube);
+    return read_tube_divisions(yaml, keys[DIVISIONS].value, 3, &tube->around, &tube->radial, &tube->axial);
+}
+
+/* A tube with an angle. */
+static OstStatus read_sector(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const axis_words[] = {"x", "y", "z"};
+    enum { AXIS, LENGTH, RADII, ANGLE, DIVISIONS, ORIGIN };
+    OstYamlKey keys[] = {
+        [AXIS] = {"axis", OST_NEEDED, NULL},           [LENGTH] = {"length", OST_NEEDED, NULL},
+        [RADII] = {"radii", OST_NEEDED, NULL},         [ANGLE] = {"angle", OST_NEEDED, NULL},
+        [DIVISIONS] = {"divisions", OST_NEEDED, NULL}, [ORIGIN] = {"origin", OST_OPTIONAL, NULL},
+    };
+    OstSectorShape *sector = &c->sector;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_word(yaml, keys[AXIS].value, "axis", axis_words, 3, &sector->axis));
+    OST_TRY(ost_yaml_positive(yaml, keys[LENGTH].value, &sector->length));
+    OST_TRY(read_radii(yaml, keys[RADII].value, sector->radii));
+    OST_TRY(ost_yaml_positive(yaml, keys[ANGLE].value, &sector->angle));
+    if (!(sector->angle < 360.0))
+        return ost_yaml_raise(yaml, keys[ANGLE].value,
+                              "found an angle of %g degrees, expected one below 360; all "
+                              "the way round is a tube",
+                              sector->angle);
+    if (keys[ORIGIN].value)
+        OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, sector->origin));
+    return read_tube_divisions(yaml, keys[DIVISIONS].value, 1, &sector->around, &sector->radial, &sector->axial);
+}
+
+static OstStatus read_octant(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    enum { RADII, DIVISIONS, CENTRE };
+    OstYamlKey keys[] = {
+        [RADII] = {"radii", OST_NEEDED, NULL},
+        [DIVISIONS] = {"divisions", OST_NEEDED, NULL},
+        [CENTRE] = {"centre", OST_OPTIONAL, NULL},
+    };
+    OstYamlKey divisions[] = {{"around", OST_NEEDED, NULL}, {"radial", OST_NEEDED, NULL}};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(read_radii(yaml, keys[RADII].value, c->octant.radii));
+    if (keys[CENTRE].value)
+        OST_TRY(ost_yaml_numbers(yaml, keys[CENTRE].value, 3, c->octant.centre));
+    OST_TRY(ost_yaml_mapping(yaml, keys[DIVISIONS].value, divisions, 2));
+    OST_TRY(read_divisions(yaml, divisions[0].value, 1, &c->octant.around));
+    return read_divisions(yaml, divisions[1].value, 1, &c->octant.radial);
 }
 
 static OstStatus read_block(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -86,18 +139,32 @@ static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstStatus (*const read[])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [OST_MESH_TUBE] = read_tube,
-        [OST_MESH_BLOCK] = read_block,
-        [OST_MESH_FILE] = read_file,
+        [OST_MESH_TUBE] = read_tube,     [OST_MESH_BLOCK] = read_block, [OST_MESH_SECTOR] = read_sector,
+        [OST_MESH_OCTANT] = read_octant, [OST_MESH_FILE] = read_file,
     };
+    enum { REFINE = OST_MESH_FILE + 1, KIND_COUNT = REFINE, MERGE };
     OstYamlKey keys[] = {
         [OST_MESH_TUBE] = {"tube", OST_OPTIONAL, NULL},
         [OST_MESH_BLOCK] = {"block", OST_OPTIONAL, NULL},
+        [OST_MESH_SECTOR] = {"sector", OST_OPTIONAL, NULL},
+        [OST_MESH_OCTANT] = {"octant", OST_OPTIONAL, NULL},
         [OST_MESH_FILE] = {"file", OST_OPTIONAL, NULL},
+        [REFINE] = {"refine", OST_OPTIONAL, NULL},
+        [MERGE] = {"merge", OST_OPTIONAL, NULL},
     };
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_one_of(yaml, node, keys, OST_COUNT_OF(keys), &kind));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, KIND_COUNT, &kind));
+    if (keys[REFINE].value) {
+        int64_t refinement;
+        OST_TRY(ost_yaml_integer(yaml, keys[REFINE].value, 0, most_refinements, &refinement));
+        c->refinement = (int)refinement;
+    }
+    if (keys[MERGE].value && kind != OST_MESH_FILE)
+        return ost_yaml_raise(yaml, keys[MERGE].value,
+                              "merge joins coincident vertices of a mesh file; shapes have none");
+    if (keys[MERGE].value)
+        OST_TRY(ost_yaml_positive(yaml, keys[MERGE].value, &c->merge));
     c->mesh_kind = (OstMeshKind)kind;
     return read[kind](yaml, keys[kind].value, c);
 }

@@ -3,8 +3,8 @@
 #include "case/yaml_message.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/sort.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static OstStatus read_all(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
@@ -111,16 +111,9 @@ static OstStatus read_cylinder(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 void ost_sort_labels(OstGlobal count, OstGlobal *labels)
 {
-    qsort(labels, (size_t)count, sizeof *labels, compare_labels);
+    ost_sort_numbers((size_t)count, labels);
 }
 
 static OstStatus read_vertices(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)

@@ -9,12 +9,10 @@
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstYamlKey keys[] = {{"order", OST_OPTIONAL, NULL}};
-    int64_t order = 1;
+    int64_t order = 0;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
     if (keys[0].value)
         OST_TRY(ost_yaml_integer(yaml, keys[0].value, 1, 2, &order));
-    if (order == 2)
-        return ost_yaml_raise(yaml, keys[0].value, "order 2 is not available in this version; 1 is");
     c->order = (int)order;
     return OST_SUCCESS;
 }
@@ -41,8 +39,8 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
     if (!keys[0].value)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, keys[0].value, &c->solver.relative_residual));
-    if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual < 1.0))
-        return ost_yaml_raise_type(yaml, keys[0].value, "a number from 1e-15 to below 1", "");
+    if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual <= 0.5))
+        return ost_yaml_raise_type(yaml, keys[0].value, "a number from 1e-15 to 0.5", "");
     return OST_SUCCESS;
 }
 

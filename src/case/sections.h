@@ -16,6 +16,8 @@ OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 
 /* Parts of sections. */
 OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
@@ -33,5 +35,7 @@ void ost_sort_labels(OstGlobal count, OstGlobal *labels);
 
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
+struct OstVerify;
+void ost_verify_release(struct OstVerify **verify);
 
 #endif

@@ -6,6 +6,7 @@
 #include "core/halo.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "core/sort.h"
 
 #include <float.h>
 #include <stdarg.h>
@@ -170,13 +171,6 @@ static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection
     return OST_SUCCESS;
 }
 
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static OstStatus check_all_found(const OstCase *c, const OstSelection *selection, const unsigned char *found)
 {
     OstGlobal missing = 0;
@@ -200,7 +194,8 @@ static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSel
     OstStatus status = OST_NEW(ctx, &found, count);
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstGlobal *at = bsearch(&mesh->node_label[n], selection->vertices, count, sizeof *at, compare_labels);
+        const OstGlobal *at =
+            bsearch(&mesh->node_label[n], selection->vertices, count, sizeof *at, ost_compare_numbers);
         if (!at)
             continue;
         flags[n] = 1;

@@ -97,6 +97,22 @@ static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
+/* Beside a boundary of faces, one of points or curves would add none, and not be missed. */
+static OstStatus check_all_of_faces(const OstCase *c, const OstSelection *selection, const OstMesh *mesh)
+{
+    static const char *const kind[] = {"points", "curves"};
+    OST_TRY(ost_select_check_names(c, mesh, selection));
+    for (int n = 0; n < selection->boundaries.count; n++) {
+        const OstBoundary *boundary = &mesh->boundaries[ost_mesh_find_boundary(mesh, selection->boundaries.name[n])];
+        if (boundary->dimension < 2)
+            return ost_select_raise(c, selection,
+                                    "boundary '%s' is one of %s, and others listed with it are of faces; name "
+                                    "boundaries of faces alone, or share the force over vertices (share: vertices)",
+                                    boundary->name, kind[boundary->dimension]);
+    }
+    return OST_SUCCESS;
+}
+
 /* Marks the surface's selected faces; the same decisions on every rank. */
 static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Faces *faces)
 {
@@ -108,7 +124,7 @@ static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Fac
     if (!of_faces)
         return flag_by_nodes(c, selection, faces);
     OST_TRY(ost_agree(ctx, fill_table(faces)));
-    OstStatus status = ost_select_check_names(c, mesh, selection);
+    OstStatus status = check_all_of_faces(c, selection, mesh);
     for (int b = 0; b < mesh->boundary_count && status == OST_SUCCESS; b++)
         if (mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name))
             status = flag_boundary(c, selection, &mesh->boundaries[b], faces);

@@ -1,33 +1,50 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "cli/destination.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/scene.h"
+#include "solve/boundary_conditions.h"
+#include "solve/freedom.h"
 
 #include <argp.h>
+#include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
+typedef struct Arguments {
+    const char *path;
+    int json;
+} Arguments;
+
+static const struct argp_option options[] = {
+    {"json", 'j', 0, 0, "Print what was found as JSON", 0},
+    {0},
+};
+
 static error_t parse_argument(int key, char *value, struct argp_state *state)
 {
-    const char **path = state->input;
+    Arguments *arguments = state->input;
     switch (key) {
+    case 'j':
+        arguments->json = 1;
+        return 0;
     case ARGP_KEY_ARG:
-        if (*path)
+        if (arguments->path)
             argp_error(state, "one case at a time; '%s' is a second one", value);
-        *path = value;
+        arguments->path = value;
         return 0;
     case ARGP_KEY_END:
-        if (!*path)
+        if (!arguments->path)
             argp_error(state, "which case? Name its file");
-        return *path ? 0 : EINVAL;
+        return arguments->path ? 0 : EINVAL;
     default:
         return ARGP_ERR_UNKNOWN;
     }
 }
 
 static const struct argp argp = {
-    NULL,
+    options,
     parse_argument,
     "CASE",
     "Read a case, make its mesh, materials, axes and selections, and say what is wrong with them. Nothing is solved.",
@@ -38,8 +55,14 @@ static const struct argp argp = {
 /* What the checks found beyond errors. */
 typedef struct Findings {
     OstGlobal held; /* vertices that constraints select, each constraint counted for itself */
-    int warnings;
+    char output[OST_LONGEST_PATH];
+    json_t *warnings; /* rank 0: every one given on the way */
 } Findings;
+
+static void hear_warning(void *findings, const char *text)
+{
+    json_array_append_new(((Findings *)findings)->warnings, json_string(text));
+}
 
 static OstStatus count_nodes(const OstScene *scene, const OstSelection *selection, OstGlobal *total)
 {
@@ -106,56 +129,120 @@ static OstStatus check_conditions(const OstScene *scene, Findings *findings)
     return OST_SUCCESS;
 }
 
-static void warn(OstContext *ctx, Findings *findings, const char *path, const char *text)
+/* What the word exact stands for is known to `verify` alone. */
+static int knows_supports(const OstCase *c)
 {
-    findings->warnings++;
-    ost_warn(ctx, "%s: %s", path, text);
+    for (int i = 0; i < c->constraint_count; i++)
+        for (int k = 0; k < 3; k++)
+            if (c->constraints[i].exact[k])
+                return 0;
+    return c->constraint_count > 0 || c->free_body;
 }
 
-static void look_for_oddities(const OstScene *scene, Findings *findings)
+static OstStatus check_freedom(const OstScene *scene)
 {
+    OstSupports *supports = NULL;
+    if (!knows_supports(scene->c))
+        return OST_SUCCESS;
+    OST_TRY(ost_scene_supports(scene, &supports));
+    const OstStatus status = ost_freedom_check(scene->mesh, supports, scene->c->path, scene->c->free_body);
+    ost_supports_destroy(&supports);
+    return status;
+}
+
+static void look_for_oddities(const OstScene *scene, const Findings *findings)
+{
+    OstContext *ctx = scene->ctx;
     const OstCase *c = scene->c;
-    if (c->constraint_count == 0)
-        warn(scene->ctx, findings, c->path, "there is no constraint; solve will refuse a body that nothing holds");
-    if (c->load_count == 0 && !scene->plan.effect[OST_PLAN_GIVEN_DISPLACEMENT].on)
-        warn(scene->ctx, findings, c->path, "there is no load and no given displacement; nothing will move");
-    if (!c->output_file)
-        warn(scene->ctx, findings, c->path, "no output file is named; solve needs --output to write one");
+    if (c->constraint_count == 0 && !c->free_body)
+        ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that nothing holds", c->path);
+    if (!ost_plan_acts(c, &scene->plan))
+        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
+    if (ost_check_destinations(c, findings->output, NULL) != OST_SUCCESS)
+        ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind != OST_AXES_NONE && !scene->plan.effect[OST_PLAN_ORTHOTROPY].on) {
-            warn(scene->ctx, findings, c->path, "axes are given, but every material is isotropic; they do nothing");
+            ost_warn(ctx, "%s: axes are given, but every material is isotropic; they do nothing", c->path);
             break;
         }
 }
 
-static OstStatus check_case(OstContext *ctx, const char *path)
+static const char *plural(OstGlobal count)
+{
+    return count == 1 ? "" : "s";
+}
+
+static void print_findings(const OstScene *scene, const Findings *findings)
+{
+    const OstCase *c = scene->c;
+    const OstMesh *mesh = scene->mesh;
+    printf("%s is fine: %lld vertices, %lld tet%s, %d region%s, %d constraint%s on %lld %s, %d load%s%s\n", c->path,
+           (long long)mesh->global_nodes, (long long)mesh->global_tets, plural(mesh->global_tets), mesh->regions.count,
+           plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count), (long long)findings->held,
+           findings->held == 1 ? "vertex" : "vertices", c->load_count, plural(c->load_count),
+           json_array_size(findings->warnings) > 0 ? "; see the warnings" : "");
+    printf("solve will write its fields to %s\n", findings->output);
+}
+
+static OstStatus print_json(const OstScene *scene, const Findings *findings)
+{
+    const OstMesh *mesh = scene->mesh;
+    json_t *regions = json_array();
+    json_t *boundaries = json_array();
+    for (int r = 0; r < mesh->regions.count; r++)
+        json_array_append_new(regions, json_string(mesh->regions.name[r]));
+    for (int b = 0; b < mesh->boundary_count; b++)
+        json_array_append_new(boundaries, json_string(mesh->boundaries[b].name));
+    json_t *root = json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:s, s:O}", "case", scene->c->path, "vertices",
+                             (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
+                             "boundaries", boundaries, "constraints", scene->c->constraint_count, "held_vertices",
+                             (json_int_t)findings->held, "loads", scene->c->load_count, "output", findings->output,
+                             "warnings", findings->warnings);
+    const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0 || puts("") < 0;
+    json_decref(root);
+    return failed ? OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
+                              "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path)
+                  : OST_SUCCESS;
+}
+
+static OstStatus look_at_case(OstContext *ctx, const Arguments *arguments, Findings *findings)
 {
     OstCase *c = NULL;
     OstScene *scene = NULL;
-    Findings findings = {0};
-    OstStatus status = ost_case_read(ctx, path, &c);
+    OstStatus status = ost_case_read(ctx, arguments->path, &c);
     if (status != OST_SUCCESS)
         goto done;
+    OST_TRY_DONE(ost_choose_output(c, NULL, findings->output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
-    OST_TRY_DONE(check_conditions(scene, &findings));
-    look_for_oddities(scene, &findings);
-    if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
-        printf("%s is fine: %lld vertices, %lld tets, %d region%s, %d constraint%s on %lld vertices, %d load%s%s\n",
-               path, (long long)scene->mesh->global_nodes, (long long)scene->mesh->global_tets,
-               scene->mesh->regions.count, scene->mesh->regions.count == 1 ? "" : "s", c->constraint_count,
-               c->constraint_count == 1 ? "" : "s", (long long)findings.held, c->load_count,
-               c->load_count == 1 ? "" : "s", findings.warnings > 0 ? "; see the warnings" : "");
+    OST_TRY_DONE(check_conditions(scene, findings));
+    OST_TRY_DONE(check_freedom(scene));
+    look_for_oddities(scene, findings);
+    if (ost_rank(ctx) == 0 && arguments->json)
+        status = print_json(scene, findings);
+    else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
+        print_findings(scene, findings);
+    status = ost_agree(ctx, status);
 done:
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
     return status;
 }
 
+static OstStatus check_case(OstContext *ctx, const Arguments *arguments)
+{
+    Findings findings = {.warnings = json_array()};
+    ost_warn_listen(ctx, hear_warning, &findings);
+    const OstStatus status = look_at_case(ctx, arguments, &findings);
+    ost_warn_listen(ctx, NULL, NULL);
+    json_decref(findings.warnings);
+    return status;
+}
+
 int ost_cli_check(OstContext *ctx, int argc, char **argv)
 {
-    const char *path = NULL;
+    Arguments arguments = {0};
     int exit_code;
-    if (!ost_cli_parse(ctx, &argp, argc, argv, &path, &exit_code))
+    if (!ost_cli_parse(ctx, &argp, argc, argv, &arguments, &exit_code))
         return exit_code;
-    return ost_cli_finish(ctx, check_case(ctx, path));
+    return ost_cli_finish(ctx, check_case(ctx, &arguments));
 }

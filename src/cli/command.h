@@ -15,6 +15,8 @@ typedef struct OstCommand {
 int ost_cli_solve(OstContext *ctx, int argc, char **argv);
 int ost_cli_check(OstContext *ctx, int argc, char **argv);
 int ost_cli_explain(OstContext *ctx, int argc, char **argv);
+int ost_cli_cost(OstContext *ctx, int argc, char **argv);
+int ost_cli_verify(OstContext *ctx, int argc, char **argv);
 int ost_cli_material(OstContext *ctx, int argc, char **argv);
 
 /* Prints "orthostat: error: text" once (rank 0, standard error) and returns the status's exit code; 0 for OST_SUCCESS.

@@ -4,6 +4,7 @@
 #include "orthostat/case.h"
 #include "orthostat/plan.h"
 #include "orthostat/solver.h"
+#include "output/summary.h"
 
 #include <argp.h>
 #include <jansson.h>
@@ -102,19 +103,10 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     print_bytes("output file", plan->bytes_output);
 }
 
-static json_t *effects_as_json(const OstPlan *plan)
-{
-    json_t *effects = json_array();
-    for (int e = 0; e < OST_PLAN_COUNT; e++)
-        json_array_append_new(effects, json_pack("{s:s, s:b, s:s}", "effect", plan->effect[e].label, "on",
-                                                 plan->effect[e].on, "reason", plan->effect[e].reason));
-    return effects;
-}
-
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
     json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:s, s:f}, s:I, s:I, s:I, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
-                             "case", c->path, "title", c->title, "effects", effects_as_json(plan), "solver", "recipe",
+                             "case", c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
                              ost_recipe_name(plan->recipe), "reason", plan->recipe_reason, "relative_residual",
                              c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets",
                              (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks,

@@ -9,6 +9,8 @@ static const OstCommand commands[] = {
     {"solve", "find the pose of a case and write it for ParaView", ost_cli_solve},
     {"check", "read a case and its mesh, and say what is wrong with them", ost_cli_check},
     {"explain", "say which effects a case calls for, and what it will cost", ost_cli_explain},
+    {"cost", "say what accuracy costs: errors, seconds and memory by order, refinement and tolerance", ost_cli_cost},
+    {"verify", "hold answers against closed forms", ost_cli_verify},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -20,7 +22,7 @@ static void print_help(FILE *stream)
           stream);
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fputs("\nEvery command takes --help, -q (print nothing but errors) and -v (say more).\n"
+    fputs("\nEvery command takes --help, -q (print nothing but errors) and -v (say more); -q and -v may come first.\n"
           "Exit status: 0 done, 1 not converged or a check failed, 2 wrong usage or input.\n",
           stream);
 }
@@ -48,8 +50,30 @@ static int run_command(OstContext *ctx, int argc, char **argv)
     return ost_status_exit_code(OST_INVALID_USAGE);
 }
 
+/* How much to say, as a word before the command; or -1. */
+static int level_of(const char *word)
+{
+    if (is_one_of(word, "-q", "--quiet"))
+        return OST_LOG_QUIET;
+    return is_one_of(word, "-v", "--verbose") ? OST_LOG_VERBOSE : -1;
+}
+
+/* Takes those words away; the last one counts. */
+static int take_level(int *argc, char ***argv)
+{
+    int level = -1;
+    while (*argc > 1 && level_of((*argv)[1]) >= 0) {
+        level = level_of((*argv)[1]);
+        (*argv)[1] = (*argv)[0];
+        (*argv)++;
+        (*argc)--;
+    }
+    return level < 0 ? OST_LOG_NORMAL : level;
+}
+
 int main(int argc, char **argv)
 {
+    const int level = take_level(&argc, &argv);
     if (argc == 2 && is_one_of(argv[1], "--version", "-V")) {
         puts("orthostat " ORTHOSTAT_VERSION);
         return 0;
@@ -68,10 +92,12 @@ int main(int argc, char **argv)
     }
     OstContext *ctx = NULL;
     int exit_code = 1;
-    if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS)
+    if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS) {
+        ost_log_set_level(ctx, (OstLogLevel)level);
         exit_code = run_command(ctx, argc, argv);
-    else
+    } else {
         fputs("orthostat: error: no memory for the first few bytes\n", stderr);
+    }
     fflush(stdout);
     ost_context_destroy(&ctx);
     MPI_Finalize();

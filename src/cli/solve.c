@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "cli/destination.h"
 
 #include "orthostat/scene.h"
 #include "output/summary.h"
@@ -8,8 +9,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { LONGEST_PATH = 4096 };
 
 typedef struct Arguments {
     const char *case_path;
@@ -55,21 +54,6 @@ static const struct argp solve_argp = {
     options, parse_option, "CASE", "Finds the pose of a case at rest and writes its fields for ParaView.",
     NULL,    NULL,         NULL};
 
-/* Where the fields go: --output, the case's output file, or the case's name with another ending, in the current folder.
- */
-static void choose_output(const Arguments *arguments, const OstCase *c, char *path, size_t size)
-{
-    if (arguments->output || c->output_file) {
-        snprintf(path, size, "%s", arguments->output ? arguments->output : c->output_file);
-        return;
-    }
-    const char *slash = strrchr(c->path, '/');
-    const char *name = slash ? slash + 1 : c->path;
-    const char *dot = strrchr(name, '.');
-    const int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
-    snprintf(path, size, "%.*s.vtkhdf", stem, name);
-}
-
 static OstStatus report(const OstScene *scene, const OstResult *result, const Arguments *arguments, const char *file)
 {
     OstLedgerSummary ledger;
@@ -92,11 +76,15 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
     OstScene *scene = NULL;
     OstResult *result = NULL;
     OstStatus status = ost_case_read(ctx, arguments->case_path, &c);
-    char file[LONGEST_PATH] = "";
-    if (status == OST_SUCCESS) {
-        choose_output(arguments, c, file, sizeof file);
+    char file[OST_LONGEST_PATH] = "";
+    if (status == OST_SUCCESS)
+        status = ost_choose_output(c, arguments->output, file);
+    if (status == OST_SUCCESS)
+        status = ost_check_destinations(c, file, arguments->json);
+    if (status == OST_SUCCESS)
         status = ost_scene_create(c, &scene);
-    }
+    if (status == OST_SUCCESS && !ost_plan_acts(c, &scene->plan))
+        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
     if (status == OST_SUCCESS)
         status = ost_scene_solve(scene, &result);
     if (status == OST_SUCCESS)

@@ -12,6 +12,8 @@ struct OstContext {
     int rank;
     int size;
     OstLogLevel level;
+    void (*hear)(void *listener, const char *text);
+    void *listener;
     int progress_shown;
     double progress_time;
     char error_text[OST_ERROR_TEXT_SIZE];

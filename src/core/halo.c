@@ -9,6 +9,22 @@
 
 enum { HALO_TAG = 7171 };
 
+/* The buffer for the largest entries; checks that every message fits MPI's int. */
+static OstStatus reserve_buffer(OstHalo *halo)
+{
+    const int n = halo->neighbour_count;
+    for (int k = 0; k < n; k++) {
+        const OstLocal sends = halo->send_start[k + 1] - halo->send_start[k];
+        const OstLocal receives = halo->receive_start[k + 1] - halo->receive_start[k];
+        const OstLocal most = sends > receives ? sends : receives;
+        if (most > INT_MAX / OST_LARGEST_ENTRY)
+            return OST_RAISE(halo->ctx, OST_LIMIT_EXCEEDED,
+                             "%d entries shared with rank %d make messages beyond MPI's 2^31 - 1 bytes; use more ranks",
+                             most, halo->neighbour[k]);
+    }
+    return ost_allocate(halo->ctx, (size_t)halo->send_start[n], OST_LARGEST_ENTRY, &halo->buffer);
+}
+
 void ost_halo_destroy(OstHalo **halo)
 {
     if (!*halo)
@@ -131,6 +147,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     OST_TRY_DONE(OST_MPI(ctx, MPI_Alltoall(receive_count, 1, MPI_INT, send_count, 1, MPI_INT, ost_comm(ctx))));
     OST_TRY_DONE(ost_agree(ctx, make_lists(made, send_count, receive_count)));
     OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
+    OST_TRY_DONE(ost_agree(ctx, reserve_buffer(made)));
 done:
     OST_FREE(first);
     OST_FREE(send_count);
@@ -176,6 +193,7 @@ OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo
     for (OstLocal i = 0; i < halo->owned; i++)
         made->owned += renumber[i] >= 0;
     made->ghosts = made->receive_start[n];
+    OST_TRY_DONE(reserve_buffer(made));
 done:
     if (status != OST_SUCCESS)
         ost_halo_destroy(&made);
@@ -183,24 +201,19 @@ done:
     return status;
 }
 
-static OstStatus reserve_buffer(OstHalo *halo, size_t bytes)
+/* Bytes of some entries; ost_halo_create has seen to it that they fit. */
+static int message_length(OstLocal entries, size_t size)
 {
-    if (halo->buffer_bytes >= bytes)
-        return OST_SUCCESS;
-    OST_FREE(halo->buffer);
-    halo->buffer_bytes = 0;
-    OST_TRY(ost_allocate(halo->ctx, bytes, 1, &halo->buffer));
-    halo->buffer_bytes = bytes;
-    return OST_SUCCESS;
+    return (int)((size_t)entries * size);
 }
 
-static OstStatus message_length(const OstHalo *halo, size_t entries, size_t size, int *length)
+/* Depends on `size` alone, which is the same on all ranks. */
+static OstStatus check_entry(const OstHalo *halo, size_t size)
 {
-    if (entries * size > INT_MAX)
-        return OST_RAISE(halo->ctx, OST_LIMIT_EXCEEDED,
-                         "a halo message of %zu bytes exceeds MPI's 2^31 - 1; use more ranks", entries * size);
-    *length = (int)(entries * size);
-    return OST_SUCCESS;
+    if (size <= OST_LARGEST_ENTRY)
+        return OST_SUCCESS;
+    return OST_RAISE(halo->ctx, OST_INVALID_INPUT, "a halo carries entries of at most %d bytes, not %zu",
+                     (int)OST_LARGEST_ENTRY, size);
 }
 
 OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
@@ -208,7 +221,7 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
     const int n = halo->neighbour_count;
     if (n == 0)
         return OST_SUCCESS;
-    OST_TRY(reserve_buffer(halo, (size_t)halo->send_start[n] * size));
+    OST_TRY(check_entry(halo, size));
     char *bytes = values;
     char *outgoing = halo->buffer;
     char *ghosts = bytes + (size_t)halo->owned * size;
@@ -217,7 +230,7 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
     int length = 0;
     for (int k = 0; k < n; k++) {
         const OstLocal first = halo->receive_start[k];
-        OST_TRY(message_length(halo, (size_t)(halo->receive_start[k + 1] - first), size, &length));
+        length = message_length(halo->receive_start[k + 1] - first, size);
         if (length > 0)
             OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(ghosts + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
                                                  HALO_TAG, comm, &halo->request[requests++])));
@@ -226,7 +239,7 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
         memcpy(outgoing + (size_t)i * size, bytes + (size_t)halo->send_index[i] * size, size);
     for (int k = 0; k < n; k++) {
         const OstLocal first = halo->send_start[k];
-        OST_TRY(message_length(halo, (size_t)(halo->send_start[k + 1] - first), size, &length));
+        length = message_length(halo->send_start[k + 1] - first, size);
         if (length > 0)
             OST_TRY(OST_MPI(halo->ctx, MPI_Isend(outgoing + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
                                                  HALO_TAG, comm, &halo->request[requests++])));
@@ -240,7 +253,7 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
     if (n == 0)
         return OST_SUCCESS;
     const size_t size = (size_t)width * sizeof(double);
-    OST_TRY(reserve_buffer(halo, (size_t)halo->send_start[n] * size));
+    OST_TRY(check_entry(halo, size));
     double *incoming = halo->buffer;
     double *ghosts = values + (size_t)halo->owned * (size_t)width;
     MPI_Comm comm = ost_comm(halo->ctx);
@@ -248,14 +261,14 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
     int length = 0;
     for (int k = 0; k < n; k++) {
         const OstLocal first = halo->send_start[k];
-        OST_TRY(message_length(halo, (size_t)(halo->send_start[k + 1] - first), size, &length));
+        length = message_length(halo->send_start[k + 1] - first, size);
         if (length > 0)
             OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(incoming + (size_t)first * (size_t)width, length, MPI_BYTE,
                                                  halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
     }
     for (int k = 0; k < n; k++) {
         const OstLocal first = halo->receive_start[k];
-        OST_TRY(message_length(halo, (size_t)(halo->receive_start[k + 1] - first), size, &length));
+        length = message_length(halo->receive_start[k + 1] - first, size);
         if (length > 0)
             OST_TRY(OST_MPI(halo->ctx, MPI_Isend(ghosts + (size_t)first * (size_t)width, length, MPI_BYTE,
                                                  halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));

@@ -4,6 +4,10 @@
 
 #include "orthostat/context.h"
 
+/* The largest entry that a halo carries, in bytes. Its messages are checked and its buffer is had when it is made, so
+ * that no exchange can fail on one rank alone and leave the others waiting. */
+enum { OST_LARGEST_ENTRY = 288 };
+
 /* Who needs which of my entries, and whose entries I hold copies of. A distributed array has `owned` entries followed
  * by `ghosts` copies, the copies grouped by the rank that owns them; an entry is `width` numbers. */
 typedef struct OstHalo {
@@ -15,8 +19,7 @@ typedef struct OstHalo {
     OstLocal *send_start;    /* neighbour_count + 1 */
     OstLocal *send_index;    /* owned entries that neighbour k holds copies of: send_index[send_start[k] .. ] */
     OstLocal *receive_start; /* neighbour_count + 1; copies from neighbour k: owned + receive_start[k] .. */
-    void *buffer;            /* both directions' messages */
-    size_t buffer_bytes;
+    void *buffer;            /* outgoing or incoming messages of the largest entries */
     MPI_Request *request;
 } OstHalo;
 

@@ -59,6 +59,13 @@ size_t ost_ledger_peak_bytes(const OstContext *ctx)
     return ctx->peak_bytes;
 }
 
+void ost_ledger_restart_peak(OstContext *ctx)
+{
+    for (int a = 0; a < OST_LEDGER_COUNT; a++)
+        ctx->ledger[a].peak_bytes = ctx->ledger[a].bytes;
+    ctx->peak_bytes = ctx->bytes;
+}
+
 void ost_ledger_book(OstContext *ctx, OstAccount account, size_t bytes, int freed)
 {
     OstLedgerEntry *entry = &ctx->ledger[account];

@@ -45,11 +45,24 @@ void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...)
     va_end(arguments);
 }
 
+void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener)
+{
+    ctx->hear = hear;
+    ctx->listener = listener;
+}
+
 void ost_warn(OstContext *ctx, const char *format, ...)
 {
+    va_list arguments;
+    if (ctx->rank == 0 && ctx->hear) {
+        char text[OST_ERROR_TEXT_SIZE];
+        va_start(arguments, format);
+        vsnprintf(text, sizeof text, format, arguments);
+        va_end(arguments);
+        ctx->hear(ctx->listener, text);
+    }
     if (ctx->rank != 0 || ctx->level == OST_LOG_QUIET)
         return;
-    va_list arguments;
     va_start(arguments, format);
     print_line(ctx, "orthostat: warning: ", format, arguments);
     va_end(arguments);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
 /* What strain e contributes along two directions: a'eb, or twice that for two different ones. */
 static inline void strain_along(const OstLanes a[3], OstLanes weight[6])
 {
@@ -45,18 +47,18 @@ static void rotate(const double *stiffness, const OstLanes axes[9], OstLanes *c)
                      shear[0][p] * shearing[0][q] + shear[1][p] * shearing[1][q] + shear[2][p] * shearing[2][q];
 }
 
-static void set_lane(OstElasticity *elasticity, int lane, const double stiffness[36])
+static void fill_lanes(const double stiffness[36], OstLanes *c)
 {
     for (int p = 0, n = 0; p < 6; p++)
-        for (int q = p; q < 6; q++)
-            elasticity->c[n++][lane] = stiffness[6 * p + q];
+        for (int q = p; q < 6; q++, n++)
+            for (int lane = 0; lane < OST_LANES; lane++)
+                c[n][lane] = stiffness[6 * p + q];
 }
 
-static void gather_varying(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
-                           const OstLocal tets[OST_LANES])
+/* Each tet's own axes. */
+static void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_LANES], OstLanes axes[9])
 {
     OstLanes rows[2][OST_LANES];
-    OstLanes axes[9];
     for (int lane = 0; lane < OST_LANES; lane++) {
         const double *of_tet = field->tet_axes + 9 * (size_t)tets[lane];
         memcpy(&rows[0][lane], of_tet, sizeof(OstLanes));
@@ -65,35 +67,116 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
     }
     ost_lanes_transpose(rows[0], axes);
     ost_lanes_transpose(rows[1], axes + 4);
-    rotate(field->material[region].stiffness, axes, elasticity->c);
 }
 
-static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES])
+/* Axes at a point of each tet. */
+static void evaluate_axes(const OstMaterialField *field, const OstLocal tets[OST_LANES], const OstLanes place[3],
+                          OstLanes axes[9])
 {
     for (int lane = 0; lane < OST_LANES; lane++) {
-        double stiffness[36];
-        ost_field_stiffness(field, tets[lane], stiffness);
-        set_lane(elasticity, lane, stiffness);
+        const double point[3] = {place[0][lane], place[1][lane], place[2][lane]};
+        double at_point[9];
+        ost_field_axes_at(field, tets[lane], point, at_point);
+        for (int i = 0; i < 9; i++)
+            axes[i][lane] = at_point[i];
     }
 }
 
-void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES])
+/* Takes the stiff mode out of C: m is its stress, given along the axes. */
+static void split(const double mode[3], const OstLanes axes[9], OstLanes *c, OstLanes m[6])
+{
+    memset(m, 0, 6 * sizeof *m);
+    for (int a = 0; a < 3; a++) {
+        OstLanes along[6];
+        strain_along(axes + 3 * a, along);
+        for (int p = 0; p < 6; p++)
+            m[p] += mode[a] * along[p];
+    }
+    for (int p = 0, n = 0; p < 6; p++)
+        for (int q = p; q < 6; q++)
+            c[n++] -= m[p] * m[q];
+}
+
+static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
+{
+    const double *of_region = field->region_axes ? field->region_axes + 9 * (size_t)region : world;
+    OstLanes axes[9];
+    elasticity->points = 1;
+    fill_lanes(field->region_stiffness + 36 * (size_t)region, elasticity->c[0]);
+    for (int i = 0; i < 9; i++)
+        for (int lane = 0; lane < OST_LANES; lane++)
+            axes[i][lane] = of_region[i];
+    if (elasticity->by_mean)
+        split(ost_field_stiff_mode(field, region), axes, elasticity->c[0], elasticity->m[0]);
+}
+
+static void gather_varying(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
+                           const OstLocal tets[OST_LANES], int points, const OstLanes *places)
+{
+    OstLanes axes[9];
+    elasticity->points = points > 0 && ost_field_has_formula(field, region) ? points : 1;
+    for (int point = 0; point < elasticity->points; point++) {
+        if (elasticity->points > 1)
+            evaluate_axes(field, tets, places + 3 * point, axes);
+        else
+            gather_axes(field, tets, axes);
+        rotate(field->material[region].stiffness, axes, elasticity->c[point]);
+        if (elasticity->by_mean)
+            split(ost_field_stiff_mode(field, region), axes, elasticity->c[point], elasticity->m[point]);
+    }
+}
+
+/* All lanes are of one region. */
+static void gather_region(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
+                          const OstLocal tets[OST_LANES], int points, const OstLanes *places)
+{
+    if (!field->region_varies[region] && elasticity->region == region)
+        return;
+    elasticity->region = field->region_varies[region] ? -1 : region;
+    elasticity->by_mean = points > 0 && ost_field_stiff_mode(field, region) != NULL;
+    if (field->region_varies[region])
+        gather_varying(elasticity, field, region, tets, points, places);
+    else
+        gather_uniform(elasticity, field, region);
+}
+
+static void copy_lane(const OstElasticity *from, int lane, OstElasticity *to)
+{
+    for (int point = 0; point < to->points; point++) {
+        const int at = ost_elasticity_at(from, point);
+        for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+            to->c[point][n][lane] = from->c[at][n][lane];
+        for (int p = 0; p < 6; p++)
+            to->m[point][p][lane] = from->by_mean ? from->m[at][p][lane] : 0.0;
+    }
+}
+
+/* Lanes of several regions, one after the other. */
+static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES],
+                         int points, const OstLanes *places)
+{
+    elasticity->region = -1;
+    elasticity->points = points > 0 ? points : 1;
+    elasticity->by_mean = 0;
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        const OstLocal same[OST_LANES] = {tets[lane], tets[lane], tets[lane], tets[lane]};
+        OstElasticity one;
+        ost_elasticity_clear(&one);
+        gather_region(&one, field, field->tet_region[tets[lane]], same, points, places);
+        elasticity->by_mean |= one.by_mean;
+        copy_lane(&one, lane, elasticity);
+    }
+}
+
+void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES],
+                           int points, const OstLanes *places)
 {
     const int32_t region = field->tet_region[tets[0]];
     int same = 1;
     for (int lane = 1; lane < OST_LANES; lane++)
         same &= field->tet_region[tets[lane]] == region;
-    if (same && !field->region_varies[region]) {
-        if (elasticity->region == region)
-            return;
-        for (int lane = 0; lane < OST_LANES; lane++)
-            set_lane(elasticity, lane, field->region_stiffness + 36 * (size_t)region);
-        elasticity->region = region;
-        return;
-    }
-    elasticity->region = -1;
     if (same)
-        gather_varying(elasticity, field, region, tets);
+        gather_region(elasticity, field, region, tets, points, places);
     else
-        gather_mixed(elasticity, field, tets);
+        gather_mixed(elasticity, field, tets, points, places);
 }

@@ -2,33 +2,47 @@
 #ifndef ORTHOSTAT_ELEMENT_ELEMENT_H
 #define ORTHOSTAT_ELEMENT_ELEMENT_H
 
-#include "element/lanes.h"
+#include "element/elasticity.h"
 
 /* What one kind of tet can do. Kinds are told apart by their number of nodes (OstMesh.nodes_per_tet); one more kind is
  * one more file and one more line in ost_element_of.
  *
- * Coordinates and displacements are 3 numbers a node, node by node, in the mesh's order of nodes. C in world axes comes
- * as its upper triangle, 21 numbers row by row (11 12 .. 16 22 .. 66), order of strains 11 22 33 12 23 31 with
- * engineering shear. Forces and stiffnesses do not depend on the tet's orientation. */
-enum { OST_MAX_TET_NODES = 10, OST_MAX_FACE_NODES = 6, OST_ELASTICITY_COUNT = 21 };
+ * Coordinates and displacements are 3 numbers a node, node by node, in the mesh's order of nodes. Strains are 11 22 33
+ * 12 23 31 with engineering shear. Forces and stiffnesses do not depend on the tet's orientation. */
+enum { OST_MAX_TET_NODES = 10, OST_MAX_FACE_NODES = 6 };
+
+/* Means over a tet. */
+typedef struct OstMeans {
+    OstLanes strain[6];
+    OstLanes stress[6];
+    OstLanes energy; /* strain energy density */
+    OstLanes stiff;  /* of m'strain, where C is split; else 0 */
+} OstMeans;
 
 typedef struct OstElement {
     int nodes;
     int nodes_per_face;
 
+    /* Quadrature points at which C is wanted if it varies within the tets (3 numbers a point). None if it is not. */
+    int points;
+    void (*places)(const OstLanes *x, OstLanes *places);
+
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
-    void (*stiffness)(const OstLanes *x, const OstLanes *elasticity, OstLanes *blocks);
+    void (*stiffness)(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks);
 
     /* Internal forces K u, without K: 3 numbers a node. */
-    void (*force)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force);
+    void (*force)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force);
 
     /* Bounds of the forces, against which rounding is measured: the absolute values |B'| |C| |B| |u|. */
-    void (*magnitude)(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *magnitude);
+    void (*magnitude)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *magnitude);
 
-    /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j), and mean strain. */
+    /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). */
+    void (*means)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means);
+    void (*nodal_strain)(const OstLanes *x, const OstLanes *u, OstLanes *strain);
+
+    /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j). */
     double (*volume)(const double *x);
     void (*gradient)(const double *x, const double *u, double gradient[9]);
-    void (*strain)(const double *x, const double *u, double strain[6]);
 
     /* One tet: for each pair of nodes a <= b, the integral of grad N_a · grad N_b. */
     void (*laplacian)(const double *x, double *pairs);
@@ -39,7 +53,7 @@ typedef struct OstElement {
     void (*node_areas)(const double *x, double *areas, double *area_vectors);
 } OstElement;
 
-/* Local. The kind of tet with this many nodes, or NULL if this version has none. */
+/* Local. The kind of tet with this many nodes, or NULL if there is none. */
 const OstElement *ost_element_of(int nodes_per_tet);
 
 /* Number of node pairs a <= b of an element. */

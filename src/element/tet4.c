@@ -2,10 +2,7 @@
 #include "element/tet4.h"
 
 #include "core/small.h"
-
-/* Where C_pq is in the upper triangle. */
-static const int upper[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 10},    {2, 7, 11, 12, 13, 14},
-                                {3, 8, 12, 15, 16, 17}, {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
+#include "element/strain_lanes.h"
 
 /* The first row of pair (a, b), a <= b, among the ten blocks. */
 static const int pair[4][4] = {{0, 9, 18, 27}, {0, 36, 45, 54}, {0, 0, 63, 72}, {0, 0, 0, 81}};
@@ -28,20 +25,6 @@ double ost_tet4_gradients(const double x[12], double gradients[12])
     return determinant / 6.0;
 }
 
-static inline void cross_lanes(const OstLanes a[3], const OstLanes b[3], OstLanes c[3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/* a = |a|. (Lanes go by pointer: by value, their passing would depend on the processor.) */
-static inline void make_absolute(OstLanes *a)
-{
-    for (int lane = 0; lane < OST_LANES; lane++)
-        (*a)[lane] = fabs((*a)[lane]);
-}
-
 /* Gradients of the shape functions of nodes 1 to 3 times the determinant d; node 0's is minus their sum. `factor` is
  * the volume |d|/6 times the 1/d of each of the two gradients in a product. */
 static inline void scaled_gradients(const OstLanes *x, OstLanes gradient[3][3], OstLanes *factor)
@@ -50,33 +33,12 @@ static inline void scaled_gradients(const OstLanes *x, OstLanes gradient[3][3], 
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 3; i++)
             edge[a][i] = x[3 * (a + 1) + i] - x[i];
-    cross_lanes(edge[1], edge[2], gradient[0]);
-    cross_lanes(edge[2], edge[0], gradient[1]);
-    cross_lanes(edge[0], edge[1], gradient[2]);
+    ost_lanes_cross(edge[1], edge[2], gradient[0]);
+    ost_lanes_cross(edge[2], edge[0], gradient[1]);
+    ost_lanes_cross(edge[0], edge[1], gradient[2]);
     OstLanes determinant = edge[0][0] * gradient[0][0] + edge[0][1] * gradient[0][1] + edge[0][2] * gradient[0][2];
-    make_absolute(&determinant);
+    ost_lanes_absolute(&determinant);
     *factor = 1.0 / (6.0 * determinant);
-}
-
-/* Stress (6) for each displacement component (3) of a node with gradient g: C times the node's columns of B. */
-static inline void stress_columns(const OstLanes *c, const OstLanes g[3], OstLanes stress[6][3])
-{
-    for (int p = 0; p < 6; p++) {
-        const int *row = upper[p];
-        stress[p][0] = c[row[0]] * g[0] + c[row[3]] * g[1] + c[row[5]] * g[2];
-        stress[p][1] = c[row[3]] * g[0] + c[row[1]] * g[1] + c[row[4]] * g[2];
-        stress[p][2] = c[row[5]] * g[0] + c[row[4]] * g[1] + c[row[2]] * g[2];
-    }
-}
-
-/* Transposed columns of B times stresses. */
-static inline void block_of(const OstLanes g[3], OstLanes stress[6][3], OstLanes *block)
-{
-    for (int j = 0; j < 3; j++) {
-        block[j] = g[0] * stress[0][j] + g[1] * stress[3][j] + g[2] * stress[5][j];
-        block[3 + j] = g[0] * stress[3][j] + g[1] * stress[1][j] + g[2] * stress[4][j];
-        block[6 + j] = g[0] * stress[5][j] + g[1] * stress[4][j] + g[2] * stress[2][j];
-    }
 }
 
 /* Rigid translations are free of force, so node 0's blocks are minus sums of the others'. */
@@ -97,7 +59,7 @@ static inline void complete_by_translations(OstLanes *k)
         }
 }
 
-static void tet4_stiffness(const OstLanes *x, const OstLanes *elasticity, OstLanes *blocks)
+void ost_tet4_blocks(const OstLanes *x, const OstLanes *c, OstLanes *blocks)
 {
     OstLanes gradient[3][3];
     OstLanes factor;
@@ -105,84 +67,93 @@ static void tet4_stiffness(const OstLanes *x, const OstLanes *elasticity, OstLan
     for (int b = 0; b < 3; b++) {
         OstLanes stress[6][3];
         const OstLanes scaled[3] = {factor * gradient[b][0], factor * gradient[b][1], factor * gradient[b][2]};
-        stress_columns(elasticity, scaled, stress);
+        ost_stress_columns(c, scaled, stress);
         for (int a = 0; a <= b; a++)
-            block_of(gradient[a], stress, blocks + pair[a + 1][b + 1]);
+            ost_block_of_stress(gradient[a], stress, blocks + pair[a + 1][b + 1]);
     }
     complete_by_translations(blocks);
 }
 
-static inline void strain_lanes(OstLanes gradient[3][3], const OstLanes *u, OstLanes strain[6])
+static void tet4_stiffness(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
 {
-    OstLanes slope[3][3]; /* du_i / dx_j */
+    ost_tet4_blocks(x, elasticity->c[0], blocks);
+}
+
+/* Strain times the determinant d. */
+static inline void scaled_strain(OstLanes gradient[3][3], const OstLanes *u, OstLanes strain[6])
+{
+    OstLanes slope[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             slope[i][j] = (u[3 + i] - u[i]) * gradient[0][j] + (u[6 + i] - u[i]) * gradient[1][j] +
                           (u[9 + i] - u[i]) * gradient[2][j];
-    for (int i = 0; i < 3; i++) {
-        const int next = (i + 1) % 3;
-        strain[i] = slope[i][i];
-        strain[3 + i] = slope[i][next] + slope[next][i];
-    }
+    ost_strain_of_slope(slope, strain);
 }
 
-/* A node's three columns of B, transposed, times a stress. */
-static inline void force_of(const OstLanes g[3], const OstLanes stress[6], OstLanes force[3])
-{
-    force[0] = g[0] * stress[0] + g[1] * stress[3] + g[2] * stress[5];
-    force[1] = g[0] * stress[3] + g[1] * stress[1] + g[2] * stress[4];
-    force[2] = g[0] * stress[5] + g[1] * stress[4] + g[2] * stress[2];
-}
-
-static void tet4_force(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *force)
+static void tet4_force(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force)
 {
     OstLanes gradient[3][3];
     OstLanes strain[6];
     OstLanes stress[6];
     OstLanes factor;
     scaled_gradients(x, gradient, &factor);
-    strain_lanes(gradient, u, strain);
-    for (int p = 0; p < 6; p++) {
-        stress[p] = elasticity[upper[p][0]] * strain[0];
-        for (int q = 1; q < 6; q++)
-            stress[p] += elasticity[upper[p][q]] * strain[q];
+    scaled_strain(gradient, u, strain);
+    ost_lanes_stress(elasticity->c[0], strain, stress);
+    for (int p = 0; p < 6; p++)
         stress[p] *= factor;
-    }
     for (int a = 1; a < 4; a++)
-        force_of(gradient[a - 1], stress, force + 3 * a);
+        ost_force_of_stress(gradient[a - 1], stress, force + 3 * a);
     for (int i = 0; i < 3; i++)
         force[i] = -(force[3 + i] + force[6 + i] + force[9 + i]);
 }
 
-static void tet4_magnitude(const OstLanes *x, const OstLanes *elasticity, const OstLanes *u, OstLanes *magnitude)
+static void tet4_magnitude(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *magnitude)
 {
     OstLanes g[4][3];
     OstLanes strain[6] = {{0}};
-    OstLanes stress[6] = {{0}};
+    OstLanes stress[6];
     OstLanes factor;
     scaled_gradients(x, g + 1, &factor);
     for (int i = 0; i < 3; i++)
         g[0][i] = g[1][i] + g[2][i] + g[3][i];
     for (int a = 0; a < 4; a++) {
-        OstLanes size[3] = {u[3 * a], u[3 * a + 1], u[3 * a + 2]};
-        for (int i = 0; i < 3; i++) {
-            make_absolute(&g[a][i]);
-            make_absolute(&size[i]);
-        }
-        for (int i = 0; i < 3; i++) {
-            const int next = (i + 1) % 3;
-            strain[i] += g[a][i] * size[i];
-            strain[3 + i] += g[a][next] * size[i] + g[a][i] * size[next];
-        }
+        for (int i = 0; i < 3; i++)
+            ost_lanes_absolute(&g[a][i]);
+        ost_add_strain_size(g[a], u + 3 * a, strain);
     }
+    ost_lanes_stress_size(elasticity->c[0], strain, stress);
     for (int p = 0; p < 6; p++)
-        for (int q = 0; q < 6; q++) {
-            OstLanes c = elasticity[upper[p][q]];
-            make_absolute(&c);
-            stress[p] += factor * c * strain[q];
-        }
+        stress[p] *= factor;
     for (int a = 0; a < 4; a++)
-        force_of(g[a], stress, magnitude + 3 * a);
+        ost_force_of_stress(g[a], stress, magnitude + 3 * a);
+}
+
+static void tet4_strain(const OstLanes *x, const OstLanes *u, OstLanes strain[6])
+{
+    OstLanes gradient[3][3];
+    OstLanes factor;
+    scaled_gradients(x, gradient, &factor);
+    const OstLanes determinant =
+        (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
+    scaled_strain(gradient, u, strain);
+    for (int p = 0; p < 6; p++)
+        strain[p] /= determinant;
+}
+
+static void tet4_means(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means)
+{
+    tet4_strain(x, u, means->strain);
+    ost_lanes_stress(elasticity->c[0], means->strain, means->stress);
+    means->energy = means->stiff = (OstLanes){0};
+    for (int p = 0; p < 6; p++)
+        means->energy += 0.5 * means->stress[p] * means->strain[p];
+}
+
+static void tet4_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *strain)
+{
+    tet4_strain(x, u, strain);
+    for (int n = 6; n < 24; n++)
+        strain[n] = strain[n - 6];
 }
 
 static double tet4_volume(const double *x)
@@ -201,17 +172,6 @@ static void tet4_gradient(const double *x, const double *u, double gradient[9])
             for (int a = 1; a < 4; a++)
                 gradient[3 * i + j] += (u[3 * a + i] - u[i]) * gradients[3 * a + j];
         }
-}
-
-static void tet4_strain(const double *x, const double *u, double strain[6])
-{
-    double gradient[9];
-    tet4_gradient(x, u, gradient);
-    for (int i = 0; i < 3; i++) {
-        const int next = (i + 1) % 3;
-        strain[i] = gradient[4 * i];
-        strain[3 + i] = gradient[3 * i + next] + gradient[3 * next + i];
-    }
 }
 
 static void tet4_laplacian(const double *x, double *pairs)
@@ -252,9 +212,10 @@ const OstElement ost_tet4 = {
     .stiffness = tet4_stiffness,
     .force = tet4_force,
     .magnitude = tet4_magnitude,
+    .means = tet4_means,
+    .nodal_strain = tet4_nodal_strain,
     .volume = tet4_volume,
     .gradient = tet4_gradient,
-    .strain = tet4_strain,
     .laplacian = tet4_laplacian,
     .node_volumes = tet4_node_volumes,
     .node_areas = tet4_node_areas,

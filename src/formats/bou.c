@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/sort.h"
 #include "formats/line_reader.h"
 #include "orthostat/mesh_file.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 
 /* A range of a few characters can name any number of vertices. */
 static const OstGlobal most_labels = (OstGlobal)1 << 24;
@@ -47,16 +47,10 @@ static OstStatus read_line(OstLineReader *reader, LabelList *list)
     return OST_SUCCESS;
 }
 
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a, y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static void sort_labels(LabelList *list)
 {
     OstGlobal kept = 0;
-    qsort(list->label, (size_t)list->count, sizeof *list->label, compare_labels);
+    ost_sort_numbers((size_t)list->count, list->label);
     for (OstGlobal i = 0; i < list->count; i++)
         if (kept == 0 || list->label[i] != list->label[kept - 1])
             list->label[kept++] = list->label[i];

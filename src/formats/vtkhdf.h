@@ -17,6 +17,10 @@ typedef struct OstOutputArray {
     const void *values;
 } OstOutputArray;
 
+/* Letters of a path to write. Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does
+ * not look whether they fit. */
+enum { OST_VTKHDF_LONGEST_PATH = 192 };
+
 /* Collective. Writes a VTKHDF 1.0 UnstructuredGrid, one piece per rank (its owned tets and their nodes), in parallel.
  * The file appears under its name only when complete: it is written beside it and renamed; on failure what was there
  * stays. Labels, region names and boundaries go along, so that the file can be read back as a mesh. Every array's

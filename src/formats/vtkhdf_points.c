@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/sort.h"
 #include "formats/vtkhdf_match.h"
 
 #include <stdlib.h>
@@ -210,12 +211,6 @@ static int is_mine(const OstPoints *points, OstGlobal point)
     return point >= points->first && point < points->first + points->count;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal left = *(const OstGlobal *)a, right = *(const OstGlobal *)b;
-    return (left > right) - (left < right);
-}
-
 /* The points of others among `point`, sorted, each once. */
 static OstStatus list_others(OstContext *ctx, const OstPoints *points, size_t count, const OstGlobal *point,
                              OstLocal *others, OstGlobal **list)
@@ -228,7 +223,7 @@ static OstStatus list_others(OstContext *ctx, const OstPoints *points, size_t co
     for (size_t i = 0; i < count; i++)
         if (!is_mine(points, point[i]))
             (*list)[n++] = point[i];
-    qsort(*list, n, sizeof **list, compare_numbers);
+    ost_sort_numbers(n, *list);
     for (size_t i = 0; i < n; i++)
         if (i == 0 || (*list)[i] != (*list)[i - 1])
             (*list)[unique++] = (*list)[i];
@@ -269,7 +264,7 @@ OstStatus ost_points_to_nodes(OstContext *ctx, const OstPoints *points, size_t c
         if (is_mine(points, point[i])) {
             point[i] = points->node[point[i] - points->first];
         } else {
-            const OstGlobal *at = bsearch(&point[i], list, (size_t)others, sizeof *list, compare_numbers);
+            const OstGlobal *at = bsearch(&point[i], list, (size_t)others, sizeof *list, ost_compare_numbers);
             point[i] = node[at - list];
         }
     }

@@ -158,6 +158,9 @@ static OstStatus finish_file(OstContext *ctx, const char *partial, const char *p
 static OstStatus name_partial(OstContext *ctx, const char *path, char **partial)
 {
     const size_t size = strlen(path) + sizeof ".partial";
+    if (strlen(path) > OST_VTKHDF_LONGEST_PATH)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path '%.60s...' has %zu letters; MPI takes %d of a file of fields",
+                         path, strlen(path), OST_VTKHDF_LONGEST_PATH);
     OST_TRY(OST_NEW(ctx, partial, size));
     snprintf(*partial, size, "%s.partial", path);
     return OST_SUCCESS;

@@ -3,7 +3,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "material/curve.h"
+#include "core/small.h"
+#include "material/axes_formula.h"
+#include "material/definite.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,6 +29,20 @@ void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
     else if (field->region_axes)
         source = field->region_axes + 9 * (size_t)field->tet_region[tet];
     memcpy(axes, source, sizeof world);
+}
+
+int ost_field_has_formula(const OstMaterialField *field, int32_t region)
+{
+    return field->region_formula && field->region_formula[region];
+}
+
+void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double point[3], double axes[9])
+{
+    const int32_t region = field->tet_region[tet];
+    if (ost_field_has_formula(field, region) &&
+        ost_axes_formula_at(field->region_formula[region], point, axes) == OST_SUCCESS)
+        return;
+    ost_field_axes(field, tet, axes);
 }
 
 double ost_field_density(const OstMaterialField *field, OstLocal tet)
@@ -84,23 +100,19 @@ static OstStatus fill_fixed_region(OstMaterialField *field, int region, const Os
     return OST_SUCCESS;
 }
 
-static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const OstAxesSpec *spec, const Tets *tets,
-                                    const OstCurve *curve)
+static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const Tets *tets)
 {
-    const int given = spec->kind == OST_AXES_CELLS || spec->kind == OST_AXES_GRADIENT;
+    const OstAxesFormula *formula = field->region_formula ? field->region_formula[region] : NULL;
     for (OstLocal t = 0; t < tets->count; t++) {
         if (tets->region[t] != region)
             continue;
         double *axes = field->tet_axes + 9 * (size_t)t;
-        const double *centroid = tets->centroids + 3 * (size_t)t;
         OstStatus status = OST_SUCCESS;
-        if (given) {
+        if (formula) {
+            status = ost_axes_formula_at(formula, tets->centroids + 3 * (size_t)t, axes);
+        } else {
             memcpy(axes, tets->given_axes + 9 * (size_t)t, sizeof world);
             status = ost_axes_check(field->ctx, "given axes", axes);
-        } else if (curve) {
-            status = ost_curve_axes(curve, centroid, axes);
-        } else {
-            status = ost_axes_at(field->ctx, spec, centroid, axes);
         }
         if (status != OST_SUCCESS)
             return raise_for_tet(field->ctx, status, &field->material[region], tets->label[t]);
@@ -110,18 +122,17 @@ static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const O
 
 static OstStatus fill_varying_region(OstMaterialField *field, int region, const OstAxesSpec *spec, const Tets *tets)
 {
-    const int given = spec->kind == OST_AXES_CELLS || spec->kind == OST_AXES_GRADIENT;
-    if (given && !tets->given_axes && tets->count > 0)
+    if (!ost_axes_have_formula(spec) && !tets->given_axes && tets->count > 0)
         return OST_RAISE(field->ctx, OST_INVALID_INPUT,
                          "material '%s' takes its axes tet by tet, but none came with the mesh; name a file of them "
                          "(nine numbers a line), or give axes by a formula",
                          field->material[region].name);
-    OstCurve *curve = NULL;
-    if (spec->kind == OST_AXES_CURVE)
-        OST_TRY(ost_curve_create(field->ctx, spec, &curve));
-    const OstStatus status = tet_axes_of_region(field, region, spec, tets, curve);
-    ost_curve_destroy(&curve);
-    return status;
+    if (ost_axes_have_formula(spec)) {
+        if (!field->region_formula)
+            OST_TRY(OST_NEW(field->ctx, &field->region_formula, field->region_count));
+        OST_TRY(ost_axes_formula_create(field->ctx, spec, &field->region_formula[region]));
+    }
+    return tet_axes_of_region(field, region, tets);
 }
 
 static void copy_region_axes(OstMaterialField *field, const Tets *tets)
@@ -196,10 +207,63 @@ done:
     return status;
 }
 
+/* The part m of a material's one stiff mode beyond `limit`, or zeros. */
+static OstStatus find_stiff_mode(OstContext *ctx, const OstOrthotropic *constants, double limit, double mode[3],
+                                 int *found)
+{
+    double ratios[3], block[9], eigenvalues[3], vectors[9];
+    ost_orthotropic_normalised_ratios(constants, ratios);
+    ost_normalised_block(ratios, block);
+    OST_TRY(ost_symmetric_eigen(ctx, 3, block, eigenvalues, vectors));
+    *found = eigenvalues[0] < limit && eigenvalues[1] >= limit;
+    const double excess = *found ? 1.0 / eigenvalues[0] - 1.0 / limit : 0.0;
+    for (int a = 0; a < 3; a++)
+        mode[a] = vectors[a] * sqrt(constants->youngs_modulus[a] * excess);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions)
+{
+    double *modes = NULL;
+    *regions = 0;
+    OST_TRY(OST_NEW(field->ctx, &modes, 3 * field->region_count));
+    for (int r = 0; r < field->region_count; r++) {
+        int found = 0;
+        const OstStatus status = find_stiff_mode(field->ctx, &field->material[r].constants, 1.0 - 2.0 * nu_limit,
+                                                 modes + 3 * (size_t)r, &found);
+        if (status != OST_SUCCESS) {
+            OST_FREE(modes);
+            return status;
+        }
+        *regions += found;
+    }
+    OST_FREE(field->region_stiff_mode);
+    if (*regions > 0)
+        field->region_stiff_mode = modes;
+    else
+        OST_FREE(modes);
+    return OST_SUCCESS;
+}
+
+const double *ost_field_stiff_mode(const OstMaterialField *field, int32_t region)
+{
+    const double *mode = field->region_stiff_mode ? field->region_stiff_mode + 3 * (size_t)region : NULL;
+    return mode && (mode[0] != 0.0 || mode[1] != 0.0 || mode[2] != 0.0) ? mode : NULL;
+}
+
+static void destroy_formulas(OstMaterialField *field)
+{
+    for (int r = 0; field->region_formula && r < field->region_count; r++)
+        ost_axes_formula_destroy(&field->region_formula[r]);
+    OST_FREE(field->region_formula);
+}
+
 void ost_field_destroy(OstMaterialField **field)
 {
     if (!*field)
         return;
+    destroy_formulas(*field);
+    OST_FREE((*field)->region_stiff_mode);
     OST_FREE((*field)->material);
     OST_FREE((*field)->region_stiffness);
     OST_FREE((*field)->region_axes);

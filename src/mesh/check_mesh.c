@@ -2,13 +2,13 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/incidence.h"
 #include "mesh/tet.h"
 
 #include <float.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LABELS_SHOWN = 8 };
@@ -66,13 +66,6 @@ static OstStatus check_volumes(const OstMesh *mesh)
     return ost_agree(mesh->ctx, status);
 }
 
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 /* The lowest labels of a sorted list in words: "17, 23, 99 and 4 more". */
 static void list_labels(const OstGlobal *label, OstGlobal count, char *text, size_t size)
 {
@@ -88,7 +81,7 @@ static OstStatus raise_unused(const OstMesh *mesh, OstGlobal count, OstGlobal *l
 {
     OST_TRY(OST_MPI(mesh->ctx, MPI_Allgather(lowest, LABELS_SHOWN, MPI_INT64_T, all, LABELS_SHOWN, MPI_INT64_T,
                                              ost_comm(mesh->ctx))));
-    qsort(all, (size_t)ost_size(mesh->ctx) * LABELS_SHOWN, sizeof *all, compare_labels);
+    ost_sort_numbers((size_t)ost_size(mesh->ctx) * LABELS_SHOWN, all);
     char text[32 * (LABELS_SHOWN + 1)] = "";
     list_labels(all, count, text, sizeof text);
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "%lld %s used by no tet: %s; remove %s", (long long)count,

@@ -3,17 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "mesh/tet.h"
-
-#include <limits.h>
-
-enum { TETS_PER_CELL = 6, CORNERS = 8 };
-
-/* The paths from corner 000 to corner 111 along the edges of a cell: one tet for each order of the three directions.
- * Corner numbers are bits, 1 for a step in the first direction, 2 in the second, 4 in the third. Odd orders have their
- * last two vertices swapped, so that every tet is positively oriented. */
-static const int kuhn_corner[TETS_PER_CELL][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
-                                                  {0, 1, 7, 5}, {0, 4, 7, 6}, {0, 2, 7, 3}};
+#include "mesh/kuhn.h"
 
 static OstGlobal nodes_along(const Grid *grid, int direction)
 {
@@ -28,11 +18,11 @@ static void unfold(OstGlobal number, OstGlobal second, OstGlobal third, OstGloba
     index[0] = number / third / second;
 }
 
-static void cell_corners(const Grid *grid, const OstGlobal cell[3], OstGlobal corner[CORNERS])
+static void cell_corners(const Grid *grid, const OstGlobal cell[3], OstGlobal corner[KUHN_CORNERS])
 {
     const OstGlobal second = nodes_along(grid, 1);
     const OstGlobal third = nodes_along(grid, 2);
-    for (int c = 0; c < CORNERS; c++) {
+    for (int c = 0; c < KUHN_CORNERS; c++) {
         OstGlobal index[3];
         for (int d = 0; d < 3; d++) {
             index[d] = cell[d] + (c >> d & 1);
@@ -43,30 +33,13 @@ static void cell_corners(const Grid *grid, const OstGlobal cell[3], OstGlobal co
     }
 }
 
-/* This rank's share of `total` items: contiguous, and equal to within one. */
-static OstStatus share(OstContext *ctx, const Grid *grid, const char *what, OstGlobal total, OstGlobal *first,
-                       OstLocal *count)
-{
-    const int size = ost_size(ctx);
-    const OstGlobal each = total / size;
-    const OstGlobal rest = total % size;
-    const OstGlobal rank = ost_rank(ctx);
-    if (each >= INT32_MAX / TETS_PER_CELL)
-        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "%s: %lld %s on %d ranks are more than the %d that one rank can number; use more ranks",
-                         grid->name, (long long)total, what, size, INT32_MAX / TETS_PER_CELL);
-    *first = rank * each + (rank < rest ? rank : rest);
-    *count = (OstLocal)(each + (rank < rest ? 1 : 0));
-    return OST_SUCCESS;
-}
-
 /* The product of three counts below 2^32 fits 64 bits only if it is checked first. */
 static OstStatus check_size(OstContext *ctx, const Grid *grid)
 {
     double nodes = 1.0;
     for (int d = 0; d < 3; d++)
         nodes *= (double)grid->cells[d] + 1.0;
-    if (nodes > (double)(INT64_MAX / CORNERS))
+    if (nodes > (double)(INT64_MAX / KUHN_CORNERS))
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%s: %d x %d x %d cells are more than 64-bit numbers can count",
                          grid->name, grid->cells[0], grid->cells[1], grid->cells[2]);
     return OST_SUCCESS;
@@ -90,12 +63,10 @@ static OstStatus make_tets(const Grid *grid, OstGlobal first_cell, OstLocal cell
     OstGlobal *node = chunk->tet_nodes;
     for (OstLocal i = 0; i < cell_count; i++) {
         OstGlobal cell[3];
-        OstGlobal corner[CORNERS];
+        OstGlobal corner[KUHN_CORNERS];
         unfold(first_cell + i, grid->cells[1], grid->cells[2], cell);
         cell_corners(grid, cell, corner);
-        for (int t = 0; t < TETS_PER_CELL; t++)
-            for (int v = 0; v < 4; v++)
-                *node++ = corner[kuhn_corner[t][v]];
+        node = ost_kuhn_tets(corner, node);
     }
     return OST_SUCCESS;
 }
@@ -107,25 +78,6 @@ static int ends_touched(const Grid *grid, const GridSide *side, const OstGlobal 
     const int low = index == 0 ? GRID_LOW : 0;
     const int high = index == grid->cells[side->direction] - 1 ? GRID_HIGH : 0;
     return side->ends & (low | high);
-}
-
-/* The two faces of a cell's tets that lie at one end of a direction. */
-static OstGlobal *cell_faces(const OstGlobal corner[CORNERS], int direction, int high, OstGlobal *node)
-{
-    for (int t = 0; t < TETS_PER_CELL; t++) {
-        int away = 0;
-        int opposite = -1;
-        for (int v = 0; v < 4; v++) {
-            if ((kuhn_corner[t][v] >> direction & 1) != high) {
-                away++;
-                opposite = v;
-            }
-        }
-        if (away == 1)
-            for (int v = 0; v < 3; v++)
-                *node++ = corner[kuhn_corner[t][ost_tet_face[opposite][v]]];
-    }
-    return node;
 }
 
 static OstStatus make_boundary(const Grid *grid, const GridSide *side, OstGlobal first_cell, OstLocal cell_count,
@@ -148,12 +100,12 @@ static OstStatus make_boundary(const Grid *grid, const GridSide *side, OstGlobal
         const int ends = ends_touched(grid, side, cell);
         if (ends == 0)
             continue;
-        OstGlobal corner[CORNERS];
+        OstGlobal corner[KUHN_CORNERS];
         cell_corners(grid, cell, corner);
         if (ends & GRID_LOW)
-            node = cell_faces(corner, side->direction, 0, node);
+            node = ost_kuhn_faces(corner, side->direction, 0, node);
         if (ends & GRID_HIGH)
-            node = cell_faces(corner, side->direction, 1, node);
+            node = ost_kuhn_faces(corner, side->direction, 1, node);
     }
     return OST_SUCCESS;
 }
@@ -173,13 +125,13 @@ static OstStatus fill_chunk(const Grid *grid, int side_count, const GridSide *si
     const OstGlobal cells = (OstGlobal)grid->cells[0] * grid->cells[1] * grid->cells[2];
     chunk->nodes_per_tet = 4;
     chunk->global_nodes = nodes_along(grid, 0) * nodes_along(grid, 1) * nodes_along(grid, 2);
-    chunk->global_tets = cells * TETS_PER_CELL;
+    chunk->global_tets = cells * KUHN_TETS;
     OstGlobal first_cell = 0;
     OstLocal cell_count = 0;
-    OST_TRY(share(ctx, grid, "cells", cells, &first_cell, &cell_count));
-    OST_TRY(share(ctx, grid, "nodes", chunk->global_nodes, &chunk->first_node, &chunk->node_count));
-    chunk->first_tet = first_cell * TETS_PER_CELL;
-    chunk->tet_count = cell_count * TETS_PER_CELL;
+    OST_TRY(ost_kuhn_share(ctx, grid->name, "cells", cells, &first_cell, &cell_count));
+    OST_TRY(ost_kuhn_share(ctx, grid->name, "nodes", chunk->global_nodes, &chunk->first_node, &chunk->node_count));
+    chunk->first_tet = first_cell * KUHN_TETS;
+    chunk->tet_count = cell_count * KUHN_TETS;
     OST_TRY(make_nodes(grid, chunk));
     OST_TRY(make_tets(grid, first_cell, cell_count, chunk));
     OST_TRY(make_names(grid, side_count, chunk));

@@ -3,22 +3,14 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-
-#include <stdlib.h>
-
-static int compare(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
+#include "core/sort.h"
 
 /* Numbers are mentioned many times over: sorting when the array is full keeps it near the size of the set. */
 static void remove_repetitions(NumberSet *set)
 {
     if (set->count == 0)
         return;
-    qsort(set->number, set->count, sizeof *set->number, compare);
+    ost_sort_numbers(set->count, set->number);
     size_t kept = 1;
     for (size_t i = 1; i < set->count; i++)
         if (set->number[i] != set->number[kept - 1])

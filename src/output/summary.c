@@ -3,6 +3,11 @@
 
 #include <stdio.h>
 
+static const char *plural(OstGlobal count)
+{
+    return count == 1 ? "" : "s";
+}
+
 static void print_levels(const OstSolveReport *report)
 {
     if (report->levels < 2)
@@ -16,8 +21,8 @@ static void print_levels(const OstSolveReport *report)
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
-    printf("  solver           %s, %d iterations, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
-           report->iterations, report->setup_seconds, report->solve_seconds);
+    printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
+           report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
     if (report->condition_estimate > 0.0)
@@ -37,8 +42,8 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     const OstMesh *mesh = result->mesh;
     const double *at = result->largest_at;
     printf("%s\n", scene->c->title ? scene->c->title : scene->c->path);
-    printf("  mesh             %lld vertices, %lld tets, %d rank%s\n", (long long)mesh->global_nodes,
-           (long long)mesh->global_tets, ost_size(scene->ctx), ost_size(scene->ctx) == 1 ? "" : "s");
+    printf("  mesh             %lld vertices, %lld tet%s, %d rank%s\n", (long long)mesh->global_nodes,
+           (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
     print_checks(&result->checks);

@@ -28,4 +28,8 @@ void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
                                  const char *file, const char *path);
 
+/* Local. The plan's effects as a list of {effect, on, reason}; the caller's reference, NULL if jansson fails. */
+struct json_t;
+struct json_t *ost_effects_json(const OstPlan *plan);
+
 #endif

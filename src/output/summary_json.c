@@ -50,7 +50,7 @@ static json_t *ledger_json(const OstLedgerSummary *summary)
                      "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes);
 }
 
-static json_t *effects_json(const OstPlan *plan)
+json_t *ost_effects_json(const OstPlan *plan)
 {
     json_t *effects = json_array();
     for (int e = 0; e < OST_PLAN_COUNT; e++)
@@ -68,7 +68,7 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                      (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
                      (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
                      checks_json(&result->checks), "largest_displacement", result->largest_displacement, "largest_at",
-                     vector_json(result->largest_at), "effects", effects_json(&scene->plan), "ledger",
+                     vector_json(result->largest_at), "effects", ost_effects_json(&scene->plan), "ledger",
                      ledger_json(summary), "output", file);
 }
 

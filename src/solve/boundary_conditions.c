@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/boundary_conditions.h"
 
+#include "assembly/field_loads.h"
 #include "assembly/loads.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "solve/free_body.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,15 +20,42 @@ static OstStatus at_line(const OstCase *c, int line, OstStatus status)
     return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, line, text);
 }
 
-static OstStatus hold_node(const OstConstraint *constraint, OstLocal node, OstSupports *supports)
+/* The word exact needs someone who knows what it stands for. */
+static OstStatus check_exact(const OstScene *scene)
 {
+    if (scene->exact)
+        return OST_SUCCESS;
+    return OST_RAISE(
+        scene->ctx, OST_INVALID_INPUT,
+        "'exact' stands for the formula of the case's verify section, which `orthostat verify` knows; give "
+        "numbers, or run the case by that command");
+}
+
+/* What a constraint gives at a node: its own numbers, or the formula's. */
+static OstStatus find_given(const OstScene *scene, const OstConstraint *constraint, OstLocal node, double given[3])
+{
+    memcpy(given, constraint->displacement, sizeof constraint->displacement);
+    if (!constraint->exact[0] && !constraint->exact[1] && !constraint->exact[2])
+        return OST_SUCCESS;
+    double u[3];
+    OST_TRY(check_exact(scene));
+    OST_TRY(scene->exact->displacement(scene->exact->data, scene->mesh->coordinates + 3 * (size_t)node, u));
+    for (int i = 0; i < 3; i++)
+        given[i] = constraint->exact[i] ? u[i] : given[i];
+    return OST_SUCCESS;
+}
+
+static OstStatus hold_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node, OstSupports *supports)
+{
+    double given[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
         return ost_supports_hold(supports, node, constraint->normal, 0.0);
+    OST_TRY(find_given(scene, constraint, node, given));
     for (int component = 0; component < 3; component++) {
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->held[component])
-            OST_TRY(ost_supports_hold(supports, node, direction, constraint->displacement[component]));
+            OST_TRY(ost_supports_hold(supports, node, direction, given[component]));
     }
     return OST_SUCCESS;
 }
@@ -41,7 +70,7 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = hold_node(constraint, nodes[i], supports);
+            status = hold_node(scene, constraint, nodes[i], supports);
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
@@ -50,6 +79,8 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
 
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
 {
+    if (scene->c->free_body)
+        return ost_free_body_supports(scene->mesh, supports);
     OstStatus status = ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports));
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
         status = add_constraint(scene, &scene->c->constraints[i], *supports);
@@ -87,6 +118,10 @@ static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, doubl
 {
     int region = -1;
     OST_TRY(find_load_region(scene, load, &region));
+    if (load->exact) {
+        OST_TRY(check_exact(scene));
+        return ost_load_exact_body_force(scene->mesh, region, scene->exact, force);
+    }
     if (load->kind == OST_LOAD_BODY_FORCE)
         return ost_load_body_force(scene->mesh, region, load->vector, force);
     OST_TRY(check_density(scene, region));
@@ -111,6 +146,10 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
                                const OstLocal *faces, double area, double *force)
 {
     const OstMesh *mesh = scene->mesh;
+    if (load->exact) {
+        OST_TRY(check_exact(scene));
+        return ost_agree(scene->ctx, ost_load_exact_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
+    }
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));
     double traction[3];

@@ -5,6 +5,7 @@
 #include "assembly/laplacian.h"
 #include "assembly/supports.h"
 #include "assembly/system.h"
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -16,6 +17,8 @@ static const double potential_residual = 1e-10;
 /* The two potentials are components 0 and 1. Component 2 repeats the first: a third right-hand side costs less than a
  * matrix of another shape. */
 static const int potential_of_component[3] = {0, 1, 0};
+
+static const OstGlobal none_shared = INT64_MAX;
 
 static OstStatus hold_boundary(const OstScene *scene, const char *name, int potential, double value,
                                OstSupports *supports)
@@ -37,6 +40,53 @@ static OstStatus hold_boundary(const OstScene *scene, const char *name, int pote
     }
     OST_FREE(nodes);
     return ost_agree(scene->ctx, status);
+}
+
+/* Specs borrow their names from the case. */
+static int line_of(const OstCase *c, const OstAxesSpec *spec)
+{
+    for (int i = 0; i < c->material_count; i++)
+        if (c->materials[i].axes.from[0] == spec->from[0])
+            return c->materials[i].line;
+    return 0;
+}
+
+/* The lowest label of the vertices that both boundaries hold, or none_shared. */
+static OstStatus find_shared(const OstScene *scene, const OstAxesSpec *spec, int potential, OstGlobal *shared)
+{
+    const OstMesh *mesh = scene->mesh;
+    unsigned char *flags[2] = {NULL, NULL};
+    *shared = none_shared;
+    OstStatus status = OST_SUCCESS;
+    for (int side = 0; side < 2; side++) {
+        char *names[1] = {side == 0 ? spec->from[potential] : spec->to[potential]};
+        const OstSelection boundary = {
+            .kind = OST_SELECT_BOUNDARY, .line = line_of(scene->c, spec), .boundaries = {1, names}, .tolerance = -1.0};
+        OST_TRY_DONE(ost_select_flags(scene->c, mesh, &boundary, &flags[side]));
+    }
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        if (flags[0][n] && flags[1][n] && mesh->node_label[n] < *shared)
+            *shared = mesh->node_label[n];
+    status = OST_MPI(scene->ctx, MPI_Allreduce(MPI_IN_PLACE, shared, 1, MPI_INT64_T, MPI_MIN, ost_comm(scene->ctx)));
+done:
+    OST_FREE(flags[0]);
+    OST_FREE(flags[1]);
+    return status;
+}
+
+static OstStatus check_apart(const OstScene *scene, int region, const OstAxesSpec *spec)
+{
+    for (int potential = 0; potential < 2; potential++) {
+        OstGlobal shared;
+        OST_TRY(find_shared(scene, spec, potential, &shared));
+        if (shared != none_shared)
+            return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                             "%s:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "
+                             "%lld; a potential needs them apart",
+                             scene->c->path, line_of(scene->c, spec), scene->mesh->regions.name[region], potential + 1,
+                             spec->from[potential], spec->to[potential], (long long)shared);
+    }
+    return OST_SUCCESS;
 }
 
 static OstStatus hold_potentials(const OstScene *scene, const OstAxesSpec *spec, OstSupports **supports)
@@ -70,7 +120,7 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
         status = ost_system_fill_laplacian(system, rhs);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_system_geometry(system, NULL, coordinates, NULL, modes));
-    const OstSolverGeometry geometry = {coordinates, NULL, modes};
+    const OstSolverGeometry geometry = {.coordinates = coordinates, .modes = modes};
     OST_TRY_DONE(ost_solver_create(ctx, system->matrix, &geometry, &options, &solver));
     OST_TRY_DONE(ost_solver_solve(solver, rhs, v, &report));
     OST_TRY_DONE(ost_system_displacement(system, v, u));
@@ -108,9 +158,10 @@ OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAx
     OstSupports *supports = NULL;
     OstSystem *system = NULL;
     double *u = NULL;
-    OstStatus status = hold_potentials(scene, spec, &supports);
+    OstStatus status = check_apart(scene, region, spec);
     if (status != OST_SUCCESS)
         goto done;
+    OST_TRY_DONE(hold_potentials(scene, spec, &supports));
     OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &u, 3 * (size_t)scene->mesh->node_count)));
     OST_TRY_DONE(solve_potentials(scene, system, u));

@@ -7,6 +7,9 @@
 #include "orthostat/scene.h"
 #include "solve/boundary_conditions.h"
 #include "solve/checks.h"
+#include "solve/coarse_space.h"
+#include "solve/free_body.h"
+#include "solve/freedom.h"
 #include "solve/recovery.h"
 
 #include <string.h>
@@ -15,6 +18,7 @@
 typedef struct Work {
     OstSupports *supports;
     OstSystem *system;
+    OstLinearSpace *linear; /* under quadratic tets */
     OstSolver *solver;
     double *rhs, *v;                      /* 3 × rows */
     double *coordinates, *metric, *modes; /* what multigrid sees */
@@ -23,6 +27,7 @@ typedef struct Work {
 static void release_system(Work *work)
 {
     ost_solver_destroy(&work->solver);
+    ost_linear_space_destroy(&work->linear);
     ost_system_destroy(&work->system);
     OST_FREE(work->rhs);
     OST_FREE(work->v);
@@ -54,6 +59,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->strain);
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
+    OST_FREE((*result)->node_stress);
     OST_FREE(*result);
 }
 
@@ -97,7 +103,10 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     const OstStatus status = fill_geometry(scene, work);
     ost_ledger_leave(ctx);
     OST_TRY(status);
-    const OstSolverGeometry geometry = {work->coordinates, work->metric, work->modes};
+    if (options.recipe == OST_RECIPE_METRIC)
+        OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
+    const OstSolverGeometry geometry = {work->coordinates, work->metric, work->modes,
+                                        work->linear ? &work->linear->space : NULL};
     OST_TRY(ost_solver_create(ctx, work->system->matrix, &geometry, &options, &work->solver));
     const OstStatus solved = ost_solver_solve(work->solver, work->rhs, work->v, &result->solve);
     OST_TRY(ost_system_displacement(work->system, work->v, result->displacement));
@@ -149,12 +158,17 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_scene_supports(scene, &work.supports));
+    OST_TRY_DONE(ost_freedom_check(scene->mesh, work.supports, scene->c->path, scene->c->free_body));
     OST_TRY_DONE(ost_scene_loads(scene, result->force));
+    if (scene->c->free_body)
+        OST_TRY_DONE(ost_free_body_check_loads(scene->mesh, result->force, scene->c->path));
     OST_TRY_DONE(assemble(scene, result, &work));
     result->unknowns = 3 * work.system->matrix->global_rows;
     OST_TRY_DONE(solve_system(scene, result, &work));
     OST_TRY_DONE(norm_of_rhs(&work, &rhs_norm));
     release_system(&work);
+    if (scene->c->free_body)
+        OST_TRY_DONE(ost_free_body_centre(scene->mesh, result->displacement));
     OST_TRY_DONE(ost_result_check(result, work.supports, scene->c->solver.relative_residual, rhs_norm));
     OST_TRY_DONE(find_largest_displacement(result));
     OST_TRY_DONE(ost_agree(ctx, ost_result_recover(result, scene->c->output_fields)));

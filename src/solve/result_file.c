@@ -46,6 +46,9 @@ static OstStatus describe_field(const OstResult *result, OstOutputFieldBit field
     case OST_FIELD_STRESS:
         array->values = result->stress;
         return OST_SUCCESS;
+    case OST_FIELD_NODE_STRESS:
+        *array = (OstOutputArray){field_word[field], OST_ON_NODES, OST_VALUES_DOUBLE, 6, result->node_stress};
+        return OST_SUCCESS;
     case OST_FIELD_STRAIN:
         array->values = result->strain;
         return OST_SUCCESS;

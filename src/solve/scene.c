@@ -4,24 +4,12 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/mesh_file.h"
+#include "orthostat/refine.h"
 #include "solve/gradient_axes.h"
 #include "solve/scene_materials.h"
+#include "solve/scene_mesh.h"
 
 #include <string.h>
-
-static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMaterials **materials)
-{
-    *materials = NULL;
-    switch (c->mesh_kind) {
-    case OST_MESH_TUBE:
-        return ost_chunk_create_tube(c->ctx, &c->tube, chunk);
-    case OST_MESH_BLOCK:
-        return ost_chunk_create_block(c->ctx, &c->block, chunk);
-    case OST_MESH_FILE:
-        return ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials);
-    }
-    return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
-}
 
 static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kind)
 {
@@ -49,17 +37,32 @@ static OstStatus check_mesh_axes(const OstMesh *mesh, const OstSceneMaterials *m
     return OST_SUCCESS;
 }
 
-/* Axes from gradients, laid over those the mesh came with. */
-static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
 {
     const OstMesh *mesh = scene->mesh;
-    ost_ledger_enter(scene->ctx, OST_EFFECT_GRADIENT_AXES);
-    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)mesh->tet_count));
-    if (status == OST_SUCCESS && mesh->tet_axes)
-        memcpy(*axes, mesh->tet_axes, 9 * sizeof **axes * (size_t)mesh->tet_count);
-    for (int r = 0; r < mesh->regions.count && status == OST_SUCCESS; r++)
+    if (mesh->tet_axes)
+        memcpy(axes, mesh->tet_axes, 9 * sizeof *axes * (size_t)mesh->tet_count);
+    for (int r = 0; r < mesh->regions.count; r++)
         if (wants(materials, r, OST_AXES_GRADIENT))
-            status = ost_scene_gradient_axes(scene, r, &materials->axes[r], *axes);
+            OST_TRY(ost_scene_gradient_axes(scene, r, &materials->axes[r], axes));
+    return OST_SUCCESS;
+}
+
+/* Axes from gradients, laid over those the mesh came with. One frame a tet is wanted, which potentials on linear tets
+ * give: a quadratic mesh lends its vertices. */
+static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+{
+    OstScene on_vertices = *scene;
+    OstMesh *linear = NULL;
+    ost_ledger_enter(scene->ctx, OST_EFFECT_GRADIENT_AXES);
+    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)scene->mesh->tet_count));
+    if (status == OST_SUCCESS && scene->mesh->nodes_per_tet != 4) {
+        status = ost_mesh_linear(scene->mesh, &linear, NULL);
+        on_vertices.mesh = linear;
+    }
+    if (status == OST_SUCCESS)
+        status = fill_gradient_axes(&on_vertices, materials, *axes);
+    ost_mesh_destroy(&linear);
     ost_ledger_leave(scene->ctx);
     return status;
 }
@@ -97,10 +100,31 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return ost_agree(ctx, status);
 }
 
+/* Linear tets cannot keep their volume and bend: near incompressibility they lock, and say so here. Quadratic ones see
+ * the mean of the dilatation alone, which frees them. */
+static OstStatus treat_nearly_incompressible(OstScene *scene)
+{
+    int regions = 0;
+    const int quadratic = scene->mesh->nodes_per_tet == 10;
+    OST_TRY(ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions));
+    if (regions == 0)
+        return OST_SUCCESS;
+    if (quadratic) {
+        ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet sees its mean dilatation",
+                OST_NEARLY_INCOMPRESSIBLE);
+        return OST_SUCCESS;
+    }
+    ost_warn(
+        scene->ctx,
+        "nu is above %g in %d region%s: linear tets lock there and move too little; element: {order: 2} does not, and "
+        "`orthostat cost` says by how much they differ",
+        OST_NEARLY_INCOMPRESSIBLE, regions, regions == 1 ? "" : "s");
+    return ost_field_mean_dilatation(scene->field, 0.5, &regions); /* linear tets have no use for it */
+}
+
 OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
 {
     OstContext *ctx = c->ctx;
-    OstMeshChunk *chunk = NULL;
     OstFileMaterials *from_file = NULL;
     OstSceneMaterials materials = {0};
     OstScene *made = NULL;
@@ -110,14 +134,12 @@ OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
         goto done;
     made->ctx = ctx;
     made->c = c;
-    OST_TRY_DONE(make_chunk(c, &chunk, &from_file));
-    OST_TRY_DONE(ost_scene_read_cell_axes(c, chunk));
-    ost_plan_make(c, chunk->global_nodes, chunk->global_tets, from_file, ost_size(ctx), &made->plan);
-    OST_TRY_DONE(ost_mesh_distribute(ctx, &chunk, &made->mesh));
+    OST_TRY_DONE(ost_scene_mesh(c, &made->mesh, &from_file));
+    ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
     OST_TRY_DONE(ost_scene_materials(c, made->mesh, from_file, &materials));
     OST_TRY_DONE(make_field(made, &materials));
+    OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
-    ost_chunk_destroy(&chunk);
     ost_file_materials_destroy(&from_file);
     ost_scene_materials_release(&materials);
     if (status != OST_SUCCESS)

@@ -41,22 +41,23 @@ static void tear_down(Setup *s)
     elastic_destroy(&s->problem);
 }
 
-static double *new_vector(size_t count)
+/* Room for whatever any level's columns are. */
+static double *new_vector(void)
 {
     double *vector = NULL;
-    assert_success(OST_NEW(ctx, &vector, count));
+    assert_success(ost_level_vector_create(ctx, 6, 5000, &vector));
     return vector;
 }
 
-static size_t owned(const OstMetricOperator *matrix)
+static size_t owned(const OstLevelMatrix *matrix)
 {
-    return (size_t)(matrix->height * matrix->rows);
+    return ost_level_unknowns(matrix);
 }
 
-/* A vector over a level's columns that looks like noise, the same on any number of ranks only in kind. */
-static double *noise(const OstMetricOperator *matrix, unsigned seed)
+/* A level vector that looks like noise, the same on any number of ranks only in kind. */
+static double *noise(const OstLevelMatrix *matrix, unsigned seed)
 {
-    double *x = new_vector((size_t)(matrix->height * matrix->columns) + 4096);
+    double *x = new_vector();
     for (size_t i = 0; i < owned(matrix); i++)
         x[i] = sin(12.9898 * (double)(i + 1) * (seed + 1 + (unsigned)ost_rank(ctx)));
     return x;
@@ -81,12 +82,11 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
     Setup s;
     set_up(&held_block, &s);
     for (int l = 0; l + 1 < s.levels.count; l++) {
-        OstMetricOperator *fine = s.levels.matrix[l], *coarse = s.levels.matrix[l + 1], *p = s.levels.prolongator[l];
-        double *x = noise(coarse, 1), *px = new_vector((size_t)(fine->height * fine->columns));
-        double *ax = new_vector(owned(coarse)), *apx = new_vector(owned(fine));
-        assert_success(ost_metric_operator_add(p, 1.0, x, px));
-        assert_success(ost_metric_operator_add(fine, 1.0, px, apx));
-        assert_success(ost_metric_operator_add(coarse, 1.0, x, ax));
+        OstLevelMatrix *fine = s.levels.matrix[l], *coarse = s.levels.matrix[l + 1];
+        double *x = noise(coarse, 1), *px = new_vector(), *ax = new_vector(), *apx = new_vector();
+        assert_success(ost_prolongator_add(s.levels.prolongator[l], x, px));
+        assert_success(ost_level_matrix_add(fine, 1.0, px, apx));
+        assert_success(ost_level_matrix_add(coarse, 1.0, x, ax));
         const double energy = global_dot(owned(coarse), x, ax);
         assert_true(energy > 0.0);
         assert_close(global_dot(owned(fine), px, apx) / energy, 1.0, 1e-5); /* single precision */
@@ -99,22 +99,20 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
 }
 
 /* c minimises ||P c - m||, by conjugate gradients on the normal equations; returns ||P c - m|| / ||m||. */
-static double fit(const OstMetricOperator *p, size_t coarse_owned, const double *m, double *c)
+static double fit(const OstProlongator *p, size_t coarse_owned, const double *m, double *c)
 {
-    const size_t n = owned(p);
-    const size_t room = (size_t)(p->width * p->columns);
-    double *residual = new_vector(n), *gradient = new_vector(room), *direction = new_vector(room);
-    double *image = new_vector(n);
+    const size_t n = (size_t)(p->height * p->rows);
+    double *residual = new_vector(), *gradient = new_vector(), *direction = new_vector(), *image = new_vector();
     memcpy(residual, m, n * sizeof *m);
     double square = 0.0;
     for (int k = 0; k < 60; k++) {
-        assert_success(ost_metric_operator_apply_transposed(p, residual, gradient));
+        assert_success(ost_prolongator_restrict(p, residual, gradient));
         const double next = global_dot(coarse_owned, gradient, gradient);
         for (size_t i = 0; i < coarse_owned; i++)
             direction[i] = gradient[i] + (k > 0 ? next / square : 0.0) * direction[i];
         square = next;
         memset(image, 0, n * sizeof *image);
-        assert_success(ost_metric_operator_add(p, 1.0, direction, image));
+        assert_success(ost_prolongator_add(p, direction, image));
         const double step = square / global_dot(n, image, image);
         for (size_t i = 0; i < coarse_owned; i++)
             c[i] += step * direction[i];
@@ -135,14 +133,13 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
     Setup s;
     set_up(&free_block, &s);
     for (size_t mode = 0; mode < 6; mode++) {
-        double *m = new_vector(owned(s.levels.matrix[0]));
+        double *m = new_vector();
         memcpy(m, s.modes + mode * owned(s.levels.matrix[0]), owned(s.levels.matrix[0]) * sizeof *m);
         for (int l = 0; l + 1 < s.levels.count; l++) {
-            OstMetricOperator *coarse = s.levels.matrix[l + 1];
-            double *c = new_vector((size_t)(coarse->height * coarse->columns) + 4096);
-            double *ac = new_vector(owned(coarse));
+            OstLevelMatrix *coarse = s.levels.matrix[l + 1];
+            double *c = new_vector(), *ac = new_vector();
             assert_true(fit(s.levels.prolongator[l], owned(coarse), m, c) < 1e-5); /* single precision */
-            assert_success(ost_metric_operator_add(coarse, 1.0, c, ac));
+            assert_success(ost_level_matrix_add(coarse, 1.0, c, ac));
             const double force = sqrt(global_dot(owned(coarse), ac, ac) / global_dot(owned(coarse), c, c));
             assert_true(force < 1e-5); /* the scaled matrix' largest eigenvalues are about 3 */
             OST_FREE(m);
@@ -160,7 +157,7 @@ static void the_smoother_is_symmetric_and_positive(void **state)
     Setup s;
     set_up(&held_block, &s);
     for (int l = 0; l < 2; l++) {
-        const OstMetricOperator *a = s.levels.matrix[l];
+        const OstLevelMatrix *a = s.levels.matrix[l];
         OstSmoother *smoother = NULL;
         assert_success(ost_smoother_create(a, s.levels.graph[l], &s.options, &smoother));
         assert_true(smoother->largest > 1.0 && smoother->largest < 10.0);
@@ -187,7 +184,7 @@ static void the_v_cycle_is_symmetric_and_positive(void **state)
     OstCycle *cycle = NULL;
     assert_success(ost_cycle_create(ctx, &s.levels, &s.options, &cycle));
     assert_int_equal(s.levels.count, 0);
-    const OstMetricOperator *a = cycle->level[0].matrix;
+    const OstLevelMatrix *a = cycle->level[0].matrix;
     double *x = noise(a, 1), *y = noise(a, 2), *mx = noise(a, 3), *my = noise(a, 4);
     cycle->inner_steps = 1;
     assert_success(ost_cycle_apply(cycle, x, mx));
@@ -208,13 +205,13 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     (void)state;
     Setup s;
     set_up(&held_block, &s);
-    const OstMetricOperator *a = s.levels.matrix[s.levels.count - 1];
+    const OstLevelMatrix *a = s.levels.matrix[s.levels.count - 1];
     OstCoarsest *coarsest = NULL;
-    assert_success(ost_coarsest_create(a, &coarsest));
+    assert_success(ost_coarsest_create(s.levels.coarsest, &coarsest));
     double *b = noise(a, 1), *x = noise(a, 2);
     assert_success(ost_coarsest_solve(coarsest, b, x));
     const double size = global_dot(owned(a), b, b);
-    assert_success(ost_metric_operator_add(a, -1.0, x, b));
+    assert_success(ost_level_matrix_add(a, -1.0, x, b));
     assert_true(sqrt(global_dot(owned(a), b, b) / size) < 1e-4); /* the product is in single precision */
     OST_FREE(b);
     OST_FREE(x);

@@ -136,6 +136,63 @@ static void a_matrix_of_one_row_is_solved(void **state)
     ost_halo_destroy(&matrix.halo);
 }
 
+/* `parts` springs of two nodes each on every rank, held at one end; and, if there is one, a long chain on rank 0. */
+static OstBlockMatrix *springs(OstLocal parts, OstLocal chain, double *coordinates)
+{
+    OstBlockMatrix *matrix = NULL;
+    const OstLocal rows = 2 * parts + (ost_rank(ctx) == 0 ? chain : 0);
+    const OstGlobal mine = rows;
+    assert_success(OST_NEW(ctx, &matrix, 1));
+    assert_success(OST_NEW(ctx, &matrix->row_start, rows + 1));
+    assert_success(OST_NEW(ctx, &matrix->column, 3 * rows));
+    assert_success(OST_NEW(ctx, &matrix->diagonal, rows));
+    assert_success(OST_NEW(ctx, &matrix->value, 27 * rows));
+    OstLocal k = 0;
+    for (OstLocal i = 0; i < rows; i++) {
+        const int paired = i < 2 * parts;
+        for (OstLocal j = i - 1; j <= i + 1; j++) {
+            const int coupled = paired ? j / 2 == i / 2 : j >= 2 * parts;
+            if (j < 0 || j >= rows || !coupled)
+                continue;
+            if (i == j)
+                matrix->diagonal[i] = k;
+            for (int c = 0; c < 3; c++)
+                matrix->value[9 * k + 4 * c] = i == j ? 2.1 : -1.0;
+            matrix->column[k++] = j;
+        }
+        matrix->row_start[i + 1] = k;
+        coordinates[3 * i] = i;
+    }
+    matrix->ctx = ctx;
+    matrix->rows = matrix->columns = rows;
+    MPI_Scan(&mine, &matrix->first_row, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx));
+    matrix->first_row -= rows;
+    MPI_Allreduce(&mine, &matrix->global_rows, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx));
+    assert_success(ost_halo_create(ctx, rows, matrix->first_row, 0, NULL, &matrix->halo));
+    return matrix;
+}
+
+static void parts_too_small_to_aggregate_are_solved_by_the_smoother(void **state)
+{
+    (void)state;
+    for (int chain = 0; chain <= 600; chain += 600) {
+        double coordinates[3 * 3600] = {0}, force[3 * 3600], u[3 * 3600], modes[18 * 3600];
+        const double about[3] = {0, 0, 0};
+        OstBlockMatrix *matrix = springs(1500, chain, coordinates);
+        OstSolveReport report;
+        ost_rigid_body_modes(matrix->rows, coordinates, about, modes);
+        for (OstLocal i = 0; i < 3 * matrix->rows; i++)
+            force[i] = 1.0 + i % 7;
+        const ElasticProblem problem = {
+            .matrix = matrix, .force = force, .geometry = {.coordinates = coordinates, .modes = modes}};
+        assert_success(solve(ctx, &problem, 1e-10, u, &report));
+        assert_true(report.relative_residual <= 1e-10);
+        assert_int_equal(report.levels == 1, chain == 0);
+        assert_in_range(report.iterations, 1, 30);
+        ost_block_matrix_destroy(&matrix);
+    }
+}
+
 static void a_bad_metric_is_refused_on_all_ranks(void **state)
 {
     (void)state;
@@ -162,6 +219,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_rank_without_rows_does_no_harm),
     cmocka_unit_test(a_matrix_below_the_coarsest_size_is_solved_directly),
     cmocka_unit_test(a_matrix_of_one_row_is_solved),
+    cmocka_unit_test(parts_too_small_to_aggregate_are_solved_by_the_smoother),
     cmocka_unit_test(a_bad_metric_is_refused_on_all_ranks),
 };
 

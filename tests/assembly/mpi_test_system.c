@@ -405,16 +405,15 @@ static void modes_stay_clear_of_held_directions(void **state)
     destroy(&held);
 }
 
-static void quadratic_tets_are_refused_for_now(void **state)
+static void tets_of_other_orders_are_refused(void **state)
 {
     (void)state;
     OstMesh *mesh = make_body(ctx);
     OstSupports *none = NULL;
     OstSystem *system = NULL;
     assert_success(ost_supports_create(mesh, &none));
-    mesh->nodes_per_tet = 10;
-    assert_failure(ost_system_create(mesh, none, &system), OST_INVALID_INPUT,
-                   "quadratic tets are not available in this version");
+    mesh->nodes_per_tet = 20;
+    assert_failure(ost_system_create(mesh, none, &system), OST_INVALID_INPUT, "tets of 20 nodes; 4 or 10 are expected");
     assert_null(system);
     mesh->nodes_per_tet = 4;
     ost_supports_destroy(&none);
@@ -448,7 +447,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(multigrid_is_told_the_rigid_motions),
     cmocka_unit_test(the_metric_of_one_orientation_is_its_own_mean),
     cmocka_unit_test(modes_stay_clear_of_held_directions),
-    cmocka_unit_test(quadratic_tets_are_refused_for_now),
+    cmocka_unit_test(tets_of_other_orders_are_refused),
     cmocka_unit_test(a_body_without_a_free_vertex_is_refused),
 };
 

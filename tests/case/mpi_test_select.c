@@ -244,11 +244,33 @@ static void faces_inside_the_body_are_refused(void **state)
     drop_scene(&scene);
 }
 
+/* A curve listed with faces would be left out in silence; by its vertices alone it may be selected. */
+static void a_curve_among_faces_is_refused(void **state)
+{
+    (void)state;
+    Scene scene = make_scene(block, "boundary: [xmin, zmax]");
+    OstBoundary *curve = &scene.mesh->boundaries[ost_mesh_find_boundary(scene.mesh, "zmax")];
+    OstLocal count;
+    int n;
+    OstLocal *faces = NULL;
+    curve->dimension = 1;
+    assert_failure(ost_select_faces(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &n, &faces),
+                   OST_INVALID_INPUT,
+                   ".yaml:4: boundary 'zmax' is one of curves, and others listed with it are of "
+                   "faces; name boundaries of faces alone");
+    assert_null(faces);
+    assert_success(ost_select_nodes(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &faces));
+    OST_FREE(faces);
+    drop_scene(&scene);
+}
+
 static void ranks_read_the_same_case_and_fail_together(void **state)
 {
     (void)state;
     OstCase *c = NULL;
-    assert_refused("mesh: 1\n", "1:7: mesh: found '1', expected a mapping with the keys tube, block, file");
+    assert_refused(
+        "mesh: 1\n",
+        "1:7: mesh: found '1', expected a mapping with the keys tube, block, sector, octant, file, refine, merge");
     assert_failure(ost_case_read(ctx, "/nowhere/no.yaml", &c), OST_FILE_FAILED, "cannot be opened");
 }
 
@@ -262,6 +284,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(faces_point_outwards),
     cmocka_unit_test(faces_follow_from_their_vertices),
     cmocka_unit_test(faces_inside_the_body_are_refused),
+    cmocka_unit_test(a_curve_among_faces_is_refused),
     cmocka_unit_test(ranks_read_the_same_case_and_fail_together),
 };
 

@@ -31,7 +31,8 @@ static void the_smallest_case_has_the_defaults(void **state)
     const OstSolverOptions defaults = ost_solver_default_options();
     assert_string_equal(c->title, "untitled");
     assert_int_equal(c->mesh_kind, OST_MESH_BLOCK);
-    assert_int_equal(c->order, 1);
+    assert_int_equal(c->order, 0);
+    assert_int_equal(c->refinement, 0);
     assert_int_equal(c->constraint_count + c->load_count, 0);
     assert_null(c->output_file);
     assert_int_equal(c->output_fields, (1U << OST_FIELD_COUNT) - 1);

@@ -28,6 +28,30 @@ TET
 0 CORNERS
 """
 
+MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 3 "rim"
+2 2 "lid"
+3 1 "body"
+$EndPhysicalNames
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+$EndNodes
+$Elements
+3
+1 1 2 3 1 1 3
+2 2 2 2 1 1 3 2
+3 4 2 1 1 1 2 3 4
+$EndElements
+"""
+
 
 def veg(nodes="4", extra="", tet="0 1 2 3"):
     return VEG.replace("COUNT", nodes).replace("EXTRA\n", extra).replace("CORNERS", tet)
@@ -59,6 +83,13 @@ MISTAKES = [
     ("coordinate not finite", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 0 0 nan")}, ["m.veg"]),
     ("cubic elements", with_mesh("m.veg"), {"m.veg": veg().replace("TET\n", "CUBIC\n")}, ["CUBIC"]),
     ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
+    ("a curve among faces", with_mesh("m.msh").replace("nearest: [1, 0, 0]", "boundary: [lid, rim]"), {"m.msh": MSH},
+     ["case.yaml:8:", "'rim' is one of curves"]),
+    ("potentials that meet", GOOD.replace("1000,", "[1000, 10, 10],").replace(
+        "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmin, to: ymin}}}}"), {},
+     ["case.yaml:4: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
+      "needs them apart"]),
+    ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
     ("quadratic elements", GOOD + "element: {order: 3}\n", {}, ["order"]),
 ]
 

@@ -26,6 +26,7 @@ def main():
 
     helped = run("--help")
     check(helped.exit_code == 0 and "solve" in helped.output and not helped.errors, "orthostat --help")
+    helped_text = helped.output
     helped = run("solve", "--help", ranks=2)
     check(helped.exit_code == 0 and helped.output.count("Usage:") == 1, f"solve --help: {helped.output}{helped.errors}")
     check(run("--version").output.startswith("orthostat "), "--version")
@@ -40,6 +41,13 @@ def main():
     quiet = run("solve", "-q", "bar.yaml", folder=folder)
     check(quiet.exit_code == 0 and not quiet.output and not quiet.errors, f"-q: {quiet.output}{quiet.errors}")
     check(os.path.exists(os.path.join(folder, "bar.vtkhdf")), "no output key: the case's name with .vtkhdf")
+
+    quiet = run("-q", "solve", "bar.yaml", folder=folder, ranks=2)
+    check(quiet.exit_code == 0 and not quiet.output and not quiet.errors, f"-q first: {quiet.output}{quiet.errors}")
+    spoken = run("-q", "--verbose", "solve", "bar.yaml", folder=folder)
+    check(spoken.exit_code == 0 and "vertices" in spoken.output, f"the last word counts: {spoken.output}{spoken.errors}")
+    check(run("-v").exit_code == 2, "-v and no command")
+    check(run("-q", "--help").output == helped_text, "-q --help")
 
     spoken = run("solve", "bar.yaml", "--json", "-", folder=folder)
     report = json.loads(spoken.output)

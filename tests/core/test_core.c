@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "core/sort.h"
 #include "support.h"
 
 static void memory_is_booked_and_released(void **state)
@@ -86,6 +87,38 @@ static void inverse_times_matrix_is_identity(void **state)
         assert_close(c[i], i % 4 == 0 ? 1.0 : 0.0, 1e-15);
 }
 
+static void numbers_are_sorted_and_found(void **state)
+{
+    (void)state;
+    OstGlobal numbers[6] = {INT64_MAX, -1, 7, INT64_MIN, 7, 0};
+    const OstGlobal expected[6] = {INT64_MIN, -1, 0, 7, 7, INT64_MAX};
+    const OstGlobal wanted = INT64_MAX, missing = 6;
+    ost_sort_numbers(0, NULL);
+    ost_sort_numbers(6, numbers);
+    assert_memory_equal(numbers, expected, sizeof numbers);
+    assert_ptr_equal(bsearch(&wanted, numbers, 6, sizeof wanted, ost_compare_numbers), &numbers[5]);
+    assert_null(bsearch(&missing, numbers, 6, sizeof missing, ost_compare_numbers));
+}
+
+static void hear(void *listener, const char *text)
+{
+    snprintf(listener, 64, "%s", text);
+}
+
+static void warnings_are_heard_even_when_quiet(void **state)
+{
+    (void)state;
+    char heard[64] = "";
+    const OstLogLevel before = ost_log_level(ctx);
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    ost_warn_listen(ctx, hear, heard);
+    ost_warn(ctx, "%d of %d", 2, 3);
+    ost_warn_listen(ctx, NULL, NULL);
+    ost_warn(ctx, "unheard");
+    ost_log_set_level(ctx, before);
+    assert_string_equal(heard, "2 of 3");
+}
+
 static void every_status_has_its_exit_code(void **state)
 {
     (void)state;
@@ -97,10 +130,11 @@ static void every_status_has_its_exit_code(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(memory_is_booked_and_released),  cmocka_unit_test(impossible_sizes_are_refused),
-    cmocka_unit_test(accounts_nest_and_add_up),       cmocka_unit_test(eigenvalues_of_a_known_matrix),
-    cmocka_unit_test(cholesky_finds_the_bad_pivot),   cmocka_unit_test(inverse_times_matrix_is_identity),
-    cmocka_unit_test(every_status_has_its_exit_code),
+    cmocka_unit_test(memory_is_booked_and_released),      cmocka_unit_test(impossible_sizes_are_refused),
+    cmocka_unit_test(accounts_nest_and_add_up),           cmocka_unit_test(eigenvalues_of_a_known_matrix),
+    cmocka_unit_test(cholesky_finds_the_bad_pivot),       cmocka_unit_test(inverse_times_matrix_is_identity),
+    cmocka_unit_test(every_status_has_its_exit_code),     cmocka_unit_test(numbers_are_sorted_and_found),
+    cmocka_unit_test(warnings_are_heard_even_when_quiet),
 };
 
 OST_TEST_MAIN(tests)

@@ -46,7 +46,7 @@ static void assert_gathered(const OstMaterialField *field)
         OstLocal tets[OST_LANES];
         for (int lane = 0; lane < OST_LANES; lane++)
             tets[lane] = first + lane;
-        ost_elasticity_gather(&elasticity, field, tets);
+        ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
         for (int lane = 0; lane < OST_LANES; lane++) {
             double c[36];
             double size = 0.0;
@@ -55,7 +55,7 @@ static void assert_gathered(const OstMaterialField *field)
                 size = fmax(size, fabs(c[i]));
             for (int p = 0, n = 0; p < 6; p++)
                 for (int q = p; q < 6; q++)
-                    assert_close(elasticity.c[n++][lane] / size, c[6 * p + q] / size, 1e-15);
+                    assert_close(elasticity.c[0][n++][lane] / size, c[6 * p + q] / size, 1e-15);
         }
     }
 }
@@ -87,22 +87,93 @@ static void a_uniform_region_is_gathered_once(void **state)
     OstMaterialField *field = make_field(0, region);
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, same);
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
     assert_int_equal(elasticity.region, 0);
-    elasticity.c[0][0] = -1.0; /* would be overwritten */
-    ost_elasticity_gather(&elasticity, field, same);
-    assert_close(elasticity.c[0][0], -1.0, 0.0);
-    ost_elasticity_gather(&elasticity, field, vary);
+    elasticity.c[0][0][0] = -1.0; /* would be overwritten */
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
+    assert_close(elasticity.c[0][0][0], -1.0, 0.0);
+    ost_elasticity_gather(&elasticity, field, vary, 0, NULL);
     assert_int_equal(elasticity.region, -1);
-    ost_elasticity_gather(&elasticity, field, same);
-    assert_true(elasticity.c[0][0] > 0.0);
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
+    assert_true(elasticity.c[0][0][0] > 0.0);
     ost_field_destroy(&field);
+}
+
+/* Three points in each of the tets 2 to 5 or 8 to 11. */
+static void some_places(OstLanes places[9])
+{
+    for (int n = 0; n < 9; n++)
+        for (int lane = 0; lane < OST_LANES; lane++)
+            places[n][lane] = cos(1.0 + n + 9 * lane);
+}
+
+static void assert_at_points(const OstMaterialField *field, const OstLocal tets[OST_LANES])
+{
+    OstElasticity elasticity;
+    OstLanes places[9];
+    some_places(places);
+    ost_elasticity_clear(&elasticity);
+    ost_elasticity_gather(&elasticity, field, tets, 3, places);
+    assert_int_equal(elasticity.points, 3);
+    for (int point = 0; point < 3; point++)
+        for (int lane = 0; lane < OST_LANES; lane++) {
+            const int32_t region = field->tet_region[tets[lane]];
+            const double place[3] = {places[3 * point][lane], places[3 * point + 1][lane], places[3 * point + 2][lane]};
+            const double *mode = elasticity.by_mean ? ost_field_stiff_mode(field, region) : NULL;
+            double axes[9], turned[36], size = 0.0;
+            ost_field_axes_at(field, tets[lane], place, axes);
+            ost_material_rotate_stiffness(field->material[region].stiffness, axes, turned);
+            for (int p = 0; p < 36; p++)
+                size = fmax(size, fabs(turned[p]));
+            for (int p = 0, n = 0; p < 6; p++)
+                for (int q = p; q < 6; q++, n++) {
+                    double c = elasticity.c[point][n][lane];
+                    if (elasticity.by_mean)
+                        c += elasticity.m[point][p][lane] * elasticity.m[point][q][lane];
+                    assert_close(c / size, turned[6 * p + q] / size, 1e-14);
+                }
+            for (int p = 0; p < 6 && elasticity.by_mean; p++) {
+                double m = 0.0; /* the mode's stress in world axes */
+                for (int a = 0; a < 3 && mode; a++)
+                    m += mode[a] * axes[3 * a + p % 3] * axes[3 * a + (p < 3 ? p : (p + 1) % 3)];
+                assert_close(elasticity.m[point][p][lane] / sqrt(size), m / sqrt(size), 1e-14);
+            }
+        }
+}
+
+static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
+{
+    (void)state;
+    int32_t region[TETS];
+    const OstLocal vary[OST_LANES] = {8, 9, 10, 11};
+    const OstLocal mixed_tets[OST_LANES] = {2, 3, 4, 5};
+    const OstLocal same[OST_LANES] = {4, 5, 6, 7};
+    for (int mixed = 0; mixed < 2; mixed++) {
+        int regions = 0;
+        OstElasticity elasticity;
+        OstLanes places[9];
+        OstMaterialField *field = make_field(mixed, region);
+        assert_at_points(field, mixed ? mixed_tets : vary);
+        assert_success(ost_field_mean_dilatation(field, 0.2, &regions));
+        assert_true(regions >= 2);
+        assert_at_points(field, mixed ? mixed_tets : vary);
+        some_places(places);
+        ost_elasticity_clear(&elasticity);
+        ost_elasticity_gather(&elasticity, field, same, 3, places);
+        assert_int_equal(elasticity.points, mixed ? 3 : 1); /* fixed axes */
+        ost_elasticity_clear(&elasticity);
+        ost_elasticity_gather(&elasticity, field, vary, 0, NULL); /* a linear tet: at the centroid, and whole */
+        assert_int_equal(elasticity.points, 1);
+        assert_int_equal(elasticity.by_mean, 0);
+        ost_field_destroy(&field);
+    }
 }
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(lanes_hold_each_tets_elasticity),
     cmocka_unit_test(lanes_of_several_regions_hold_theirs),
     cmocka_unit_test(a_uniform_region_is_gathered_once),
+    cmocka_unit_test(a_formula_is_evaluated_at_the_points_of_each_tet),
 };
 
 OST_TEST_MAIN(tests)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
+#include "material/axes_formula.h"
 #include "material/random.h"
 #include "orthostat/field.h"
 
@@ -44,6 +45,9 @@ static Booked booked(void)
     const OstLedgerEntry b = ost_ledger_entry(ctx, OST_EFFECT_VARYING_AXES);
     return (Booked){a.bytes, b.bytes, a.entries, b.entries};
 }
+
+/* What a formula takes, beyond its curve. */
+static const size_t formula_bytes = sizeof(OstAxesFormula *) + sizeof(OstAxesFormula);
 
 static void assert_tet_is(const OstMaterialField *field, OstLocal tet, const OstMaterial *material,
                           const double axes[9])
@@ -109,7 +113,7 @@ static void varying_axes_are_kept_by_tet(void **state)
     assert_success(
         ost_field_create(ctx, 1, &material, &cylindrical, TETS, one_region, labels, centroids, NULL, &field));
     assert_int_equal(booked().orthotropy, 9 * sizeof(double));
-    assert_int_equal(booked().varying, 9 * TETS * sizeof(double));
+    assert_int_equal(booked().varying, 9 * TETS * sizeof(double) + formula_bytes);
     for (OstLocal t = 0; t < TETS; t++) {
         double axes[9];
         assert_success(ost_axes_at(ctx, &cylindrical, centroids + 3 * t, axes));
@@ -143,15 +147,20 @@ static void a_curve_is_followed(void **state)
 {
     (void)state;
     double points[9] = {0, 0, -1, 0, 0, 3, 1, 0, 9};
+    double same[9] = {0, 0, -1, 0, 0, 3, 1, 0, 9};
     const OstAxesSpec spec = {
         .kind = OST_AXES_CURVE, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}, .point_count = 3, .points = points};
+    OstAxesSpec unchanged = spec;
+    unchanged.points = same;
     const OstMaterial material = orthotropic();
     OstMaterialField *field = NULL;
     assert_success(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field));
-    assert_int_equal(booked().varying, 9 * TETS * sizeof(double)); /* the curve's frames are gone again */
+    const size_t curve_bytes = sizeof(OstCurve) + 3 * 9 * sizeof(double); /* points, tangents, normals */
+    assert_int_equal(booked().varying, 9 * TETS * sizeof(double) + formula_bytes + curve_bytes);
+    memset(points, 0, sizeof points); /* the field has its own */
     for (OstLocal t = 0; t < TETS; t++) {
         double axes[9];
-        assert_success(ost_axes_at(ctx, &spec, centroids + 3 * t, axes));
+        assert_success(ost_axes_at(ctx, &unchanged, centroids + 3 * t, axes));
         assert_tet_is(field, t, &material, axes);
     }
     ost_field_destroy(&field);
@@ -212,6 +221,94 @@ static void a_rank_without_tets_has_a_field_too(void **state)
     ost_field_destroy(&field);
 }
 
+static void a_formula_gives_axes_at_any_point(void **state)
+{
+    (void)state;
+    const OstMaterial materials[2] = {orthotropic(), orthotropic()};
+    const OstAxesSpec specs[2] = {cylindrical, fixed};
+    const double point[3] = {0.3, -0.4, 2.0};
+    const double on_axis[3] = {0.0, 0.0, 1.0};
+    double axes[9], expected[9];
+    OstMaterialField *field = NULL;
+    assert_success(ost_field_create(ctx, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
+    assert_true(ost_field_has_formula(field, 0));
+    assert_false(ost_field_has_formula(field, 1));
+    assert_success(ost_axes_at(ctx, &cylindrical, point, expected));
+    ost_field_axes_at(field, 0, point, axes);
+    assert_axes(axes, expected, 1e-15);
+    ost_field_axes_at(field, 1, point, axes);
+    assert_axes(axes, fixed.fixed, 1e-15);
+    ost_field_axes_at(field, 0, on_axis, axes); /* not defined there: the tet's own */
+    assert_success(ost_axes_at(ctx, &cylindrical, centroids, expected));
+    assert_axes(axes, expected, 1e-15);
+    ost_field_destroy(&field);
+}
+
+/* C - m m' resists the mode's strain as a material with the limit's Poisson's ratio does. */
+static void assert_splits(const OstMaterial *material, const double m[3], double nu, double limit)
+{
+    const double *modulus = material->constants.youngs_modulus;
+    const double w = 1.0 / sqrt(3.0);
+    for (int p = 0; p < 3; p++) {
+        double rest = 0.0, whole = 0.0;
+        for (int q = 0; q < 3; q++) {
+            const double strain = w / sqrt(modulus[q]);
+            whole += material->stiffness[6 * p + q] * strain;
+            rest += (material->stiffness[6 * p + q] - m[p] * m[q]) * strain;
+        }
+        assert_close(whole * (1.0 - 2.0 * nu) / (w * sqrt(modulus[p])), 1.0, 1e-11);
+        assert_close(rest * (1.0 - 2.0 * limit) / (w * sqrt(modulus[p])), 1.0, 1e-9);
+    }
+}
+
+static void the_stiff_mode_of_nearly_incompressible_regions_is_found(void **state)
+{
+    (void)state;
+    const double e[3] = {1, 10, 100};
+    const double nu[3] = {0.3, 0.4999, 0.47};
+    OstMaterial materials[3];
+    OstMaterialField *field = NULL;
+    int regions = 0;
+    for (int r = 0; r < 3; r++) {
+        const OstOrthotropic constants =
+            r == 2 ? ost_orthotropic_isotropic(5.0, nu[r]) : ost_orthotropic_family(e, nu[r], OST_SHEAR_GEOMETRIC);
+        assert_success(ost_material_create(ctx, "rubber", &constants, 0.0, &materials[r]));
+    }
+    const size_t before = ost_ledger_bytes(ctx);
+    assert_success(ost_field_create(ctx, 3, materials, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    const size_t plain = ost_ledger_bytes(ctx);
+    assert_success(ost_field_mean_dilatation(field, 0.49995, &regions));
+    assert_int_equal(regions, 0);
+    assert_int_equal(ost_ledger_bytes(ctx), plain);
+    assert_success(ost_field_mean_dilatation(field, 0.45, &regions));
+    assert_int_equal(regions, 2);
+    assert_null(ost_field_stiff_mode(field, 0));
+    assert_splits(&materials[1], ost_field_stiff_mode(field, 1), nu[1], 0.45);
+    assert_splits(&materials[2], ost_field_stiff_mode(field, 2), nu[2], 0.45);
+    /* isotropic: the bulk modulus E / (3 (1 - 2 nu)), less that of the limit */
+    for (int a = 0; a < 3; a++)
+        assert_close(pow(ost_field_stiff_mode(field, 2)[a], 2.0), 5.0 / 3.0 * (1.0 / 0.06 - 1.0 / 0.1), 1e-12);
+    assert_success(ost_field_mean_dilatation(field, 0.5, &regions)); /* none again */
+    assert_int_equal(regions, 0);
+    assert_null(ost_field_stiff_mode(field, 1));
+    ost_field_destroy(&field);
+    assert_int_equal(ost_ledger_bytes(ctx), before);
+}
+
+static void two_stiff_modes_are_left_alone(void **state)
+{
+    (void)state;
+    const OstOrthotropic constants = ost_orthotropic_isotropic(5.0, -0.97); /* 1 + nu twice */
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    int regions = 1;
+    assert_success(ost_material_create(ctx, "foam", &constants, 0.0, &material));
+    assert_success(ost_field_create(ctx, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
+    assert_int_equal(regions, 0);
+    ost_field_destroy(&field);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_isotropic_body_carries_no_axes),
     cmocka_unit_test(fixed_axes_cost_nothing_per_tet),
@@ -220,6 +317,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_curve_is_followed),
     cmocka_unit_test(given_axes_are_taken_and_bad_ones_refused_by_tet),
     cmocka_unit_test(bad_axes_regions_and_points_are_refused),
+    cmocka_unit_test(a_formula_gives_axes_at_any_point),
+    cmocka_unit_test(the_stiff_mode_of_nearly_incompressible_regions_is_found),
+    cmocka_unit_test(two_stiff_modes_are_left_alone),
     cmocka_unit_test(a_rank_without_tets_has_a_field_too),
 };
 

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_METRIC_GALERKIN_H
+#define ORTHOSTAT_ALGEBRA_METRIC_GALERKIN_H
+
+#include "algebra/metric_exact.h"
+#include "algebra/metric_prolongator.h"
+
+/* Collective. Pᵀ A P, of the prolongator as it is kept, in single precision, but summed in double precision: positive
+ * semidefinite to rounding. `first_coarse` is the global number of this rank's first coarse node. */
+OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstProlongator *prolongator, OstGlobal first_coarse,
+                              OstExactMatrix **coarse);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_METRIC_LEVELS_H
+#define ORTHOSTAT_ALGEBRA_METRIC_LEVELS_H
+
+#include "algebra/metric_graph.h"
+#include "algebra/metric_matrix.h"
+#include "algebra/metric_prolongator.h"
+
+/* What smoothed aggregation makes of a matrix: matrices of all levels, prolongators between them, graphs of the levels'
+ * nodes. Level 0 is the finest. */
+typedef struct OstMetricLevels {
+    int count;
+    OstLevelMatrix *matrix[OST_MAX_LEVELS];
+    OstProlongator *prolongator[OST_MAX_LEVELS]; /* [l]: from level l + 1 to level l */
+    OstMetricGraph *graph[OST_MAX_LEVELS];
+    OstExactMatrix *coarsest; /* the last of the matrices in double precision */
+} OstMetricLevels;
+
+/* Collective. `modes` are the near-null space of `matrix` (6 columns of 3 × rows). A matrix no larger than
+ * options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate; `coarsest` is then a
+ * view of it. */
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *modes, OstMetricGraph **finest_graph,
+                                   const OstSolverOptions *options, OstMetricLevels *levels);
+void ost_metric_levels_clear(OstMetricLevels *levels);
+
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/sections.h"
+#include "case/yaml_message.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+static OstStatus read_component(const OstYaml *yaml, const OstYamlKey *key, OstWatch *watch)
+{
+    static const char *const words[] = {"x", "y", "z", [OST_WATCH_LENGTH] = "length"};
+    return key->value ? ost_yaml_word(yaml, key->value, "component", words, OST_COUNT_OF(words), &watch->component)
+                      : OST_SUCCESS;
+}
+
+/* Only a vertex is the same in every refinement of a mesh; of what lies between them the mean would not be. */
+static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
+{
+    OST_TRY(ost_read_selection(yaml, node, &watch->on));
+    return watch->on.kind == OST_SELECT_NEAREST
+               ? OST_SUCCESS
+               : ost_yaml_raise(yaml, node,
+                                "the displacement of a place is watched, as in {nearest: [1, 0, 0]}; found another "
+                                "selection");
+}
+
+/* The short form: a word. */
+static OstStatus read_word(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
+{
+    const char *word;
+    OST_TRY(ost_yaml_text(yaml, node, &word));
+    if (strcmp(word, "strain_energy") != 0)
+        return ost_yaml_raise_type(
+            yaml, node, "strain_energy, {displacement: {nearest: [x, y, z]}} or {reaction: {boundary: name}}", "");
+    watch->kind = OST_WATCH_STRAIN_ENERGY;
+    return OST_SUCCESS;
+}
+
+static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
+{
+    enum { FORMS = OST_WATCH_REACTION + 1, COMPONENT = FORMS };
+    OstYamlKey keys[] = {
+        [OST_WATCH_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
+        [OST_WATCH_REACTION] = {"reaction", OST_OPTIONAL, NULL},
+        [COMPONENT] = {"component", OST_OPTIONAL, NULL},
+    };
+    int form;
+    watch->line = ost_yaml_line(node);
+    watch->component = OST_WATCH_LENGTH;
+    if (ost_yaml_is(yaml, node, OST_YAML_SCALAR))
+        return read_word(yaml, node, watch);
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
+    OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
+    watch->kind = (OstWatchKind)form;
+    return form == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)
+                                          : ost_read_selection(yaml, keys[form].value, &watch->on);
+}
+
+static OstStatus check_new_name(const OstYaml *yaml, const OstYamlNode *key, const OstCase *c, const char *name)
+{
+    for (int w = 0; w < c->watch_count; w++)
+        if (c->watches[w].name && strcmp(c->watches[w].name, name) == 0)
+            return ost_yaml_raise(yaml, key, "'%.80s' is watched twice, the first time in line %d; keep one", name,
+                                  c->watches[w].line);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
+        return ost_yaml_raise_type(yaml, node,
+                                   "a name for each quantity, as in tip: {displacement: {nearest: [1, 0, 0]}}", "");
+    const int count = (int)ost_yaml_follow(yaml, node)->value;
+    if (count > OST_MOST_WATCHES)
+        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);
+    OST_TRY(OST_NEW(yaml->ctx, &c->watches, count));
+    const OstYamlNode *key = ost_yaml_first(yaml, node);
+    for (int w = 0; w < count; w++) {
+        const OstYamlNode *value = ost_yaml_next(yaml, key);
+        OstWatch *watch = &c->watches[w];
+        const char *name;
+        OST_TRY(ost_yaml_text(yaml, key, &name));
+        OST_TRY(check_new_name(yaml, key, c, name));
+        c->watch_count = w + 1;
+        OST_TRY(ost_copy_string(yaml->ctx, name, &watch->name));
+        OST_TRY(read_watch(yaml, value, watch));
+        key = ost_yaml_next(yaml, value);
+    }
+    return OST_SUCCESS;
+}

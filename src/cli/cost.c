@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/command.h"
+
+#include "cli/cost_picture.h"
+#include "study/cost.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Arguments {
+    const char *case_path;
+    const char *csv, *json, *picture;
+    OstCostLadder ladder;
+} Arguments;
+
+enum { MAX_TIME = 't', CSV = 'c', JSON = 'j', PICTURE = 'p', ORDERS = 256, REFINEMENTS, TOLERANCES };
+
+static const struct argp_option options[] = {
+    {"max-time", MAX_TIME, "SECONDS", 0, "Skip runs that would not end within this time in all (default: 600)", 0},
+    {"orders", ORDERS, "LIST", 0, "Orders of the elements (default: 1,2)", 0},
+    {"refinements", REFINEMENTS, "LIST", 0, "Uniform refinements of the mesh (default: 0,1,2)", 0},
+    {"tolerances", TOLERANCES, "LIST", 0, "Relative residuals to solve to (default: 1e-2,1e-4,1e-8)", 0},
+    {"csv", CSV, "FILE", 0, "Write the list as CSV here; - for standard output", 0},
+    {"json", JSON, "FILE", 0, "Write everything as JSON here; - for standard output", 0},
+    {"picture", PICTURE, "FILE", 0, "Draw error against seconds here (.png, .svg or .pdf)", 0},
+    {0},
+};
+
+/* Reads "1,2,3" by `number`, which returns where it stopped. Returns 0, or EINVAL after saying what is wrong. */
+static error_t read_list(struct argp_state *state, const char *name, const char *text, void *ladder, int *count,
+                         int (*number)(const char *, char **, OstCostLadder *, int))
+{
+    const char *at = text;
+    for (*count = 0; *count < OST_COST_MOST_RUNGS;) {
+        char *end = NULL;
+        if (!number(at, &end, ladder, *count) || end == at || (*end != ',' && *end != 0))
+            break;
+        ++*count;
+        if (*end == 0)
+            return 0;
+        at = end + 1;
+    }
+    argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_COST_MOST_RUNGS,
+               text);
+    return EINVAL;
+}
+
+static int small_integer(const char *text, char **end, int *number)
+{
+    const long found = strtol(text, end, 10);
+    *number = (int)found;
+    return found >= 0 && found <= 1000;
+}
+
+static int read_order(const char *text, char **end, OstCostLadder *ladder, int i)
+{
+    return small_integer(text, end, &ladder->order[i]);
+}
+
+static int read_refinement(const char *text, char **end, OstCostLadder *ladder, int i)
+{
+    return small_integer(text, end, &ladder->refinement[i]);
+}
+
+static int read_tolerance(const char *text, char **end, OstCostLadder *ladder, int i)
+{
+    ladder->tolerance[i] = strtod(text, end);
+    return 1;
+}
+
+static error_t read_max_time(struct argp_state *state, const char *text, OstCostLadder *ladder)
+{
+    char *end = NULL;
+    ladder->max_seconds = strtod(text, &end);
+    if (end != text && *end == 0 && ladder->max_seconds > 0.0)
+        return 0;
+    argp_error(state, "--max-time takes a number of seconds above 0, found '%s'", text);
+    return EINVAL;
+}
+
+static error_t take_case(struct argp_state *state, char *value, Arguments *arguments)
+{
+    if (arguments->case_path) {
+        argp_error(state, "one case at a time: '%s' came after '%s'", value, arguments->case_path);
+        return EINVAL;
+    }
+    arguments->case_path = value;
+    return 0;
+}
+
+static error_t parse_option(int key, char *value, struct argp_state *state)
+{
+    Arguments *arguments = state->input;
+    OstCostLadder *ladder = &arguments->ladder;
+    switch (key) {
+    case MAX_TIME:
+        return read_max_time(state, value, ladder);
+    case ORDERS:
+        return read_list(state, "orders", value, ladder, &ladder->order_count, read_order);
+    case REFINEMENTS:
+        return read_list(state, "refinements", value, ladder, &ladder->refinement_count, read_refinement);
+    case TOLERANCES:
+        return read_list(state, "tolerances", value, ladder, &ladder->tolerance_count, read_tolerance);
+    case CSV:
+        arguments->csv = value;
+        return 0;
+    case JSON:
+        arguments->json = value;
+        return 0;
+    case PICTURE:
+        arguments->picture = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        return take_case(state, value, arguments);
+    case ARGP_KEY_END:
+        if (!arguments->case_path)
+            argp_error(state, "which case? Give the path of its YAML file");
+        return arguments->case_path ? 0 : EINVAL;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp cost_argp = {
+    options,
+    parse_option,
+    "CASE",
+    "Says what accuracy costs: runs a case over a ladder of element order, refinement and solver tolerance, and lists "
+    "each run's error (of the strain energy and of what the case watches), seconds and memory, and the cheapest way to "
+    "10, 3, 1 and 0.3 %.",
+    NULL,
+    NULL,
+    NULL};
+
+static int is_stdout(const char *path)
+{
+    return path && strcmp(path, "-") == 0;
+}
+
+static OstStatus report(const OstCost *cost, const Arguments *arguments)
+{
+    OstStatus status = OST_SUCCESS;
+    if (ost_log_level(cost->ctx) != OST_LOG_QUIET && !is_stdout(arguments->csv) && !is_stdout(arguments->json))
+        ost_cost_print(cost);
+    if (arguments->csv)
+        status = ost_cost_write_csv(cost, arguments->csv);
+    if (status == OST_SUCCESS && arguments->json)
+        status = ost_cost_write_json(cost, arguments->json);
+    if (status == OST_SUCCESS && arguments->picture)
+        status = ost_cli_draw_cost(cost, arguments->picture);
+    return ost_agree(cost->ctx, status);
+}
+
+static OstStatus price(OstContext *ctx, Arguments *arguments)
+{
+    OstCase *c = NULL;
+    OstCost *cost = NULL;
+    OstStatus status = ost_cost_machine_bytes(ctx, &arguments->ladder.max_bytes);
+    if (status == OST_SUCCESS)
+        status = ost_case_read(ctx, arguments->case_path, &c);
+    if (status == OST_SUCCESS)
+        status = ost_cost_create(c, &arguments->ladder, &cost);
+    if (status == OST_SUCCESS)
+        status = ost_cost_run(cost);
+    if (status == OST_SUCCESS)
+        status = report(cost, arguments);
+    ost_cost_destroy(&cost);
+    ost_case_destroy(&c);
+    return status;
+}
+
+int ost_cli_cost(OstContext *ctx, int argc, char **argv)
+{
+    Arguments arguments = {.ladder = ost_cost_default_ladder()};
+    int exit_code = 0;
+    if (!ost_cli_parse(ctx, &cost_argp, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    return ost_cli_finish(ctx, price(ctx, &arguments));
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/destination.h"
+
+#include "case/sections.h"
+#include "core/error.h"
+#include "formats/vtkhdf.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Files are written aside under this ending, then renamed. */
+static const char partial[] = ".partial";
+
+static const char *name_in_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static OstStatus check_length(OstContext *ctx, const char *path, size_t longest)
+{
+    if (strlen(path) > longest)
+        return OST_RAISE(ctx, OST_INVALID_USAGE,
+                         "the path '%.60s...' has %zu letters, more than the %zu possible; name a shorter one", path,
+                         strlen(path), longest);
+    const char *name = name_in_folder(path);
+    if (strlen(name) + sizeof partial > NAME_MAX + 1)
+        return OST_RAISE(ctx, OST_INVALID_USAGE, "the file name '%.60s...' has %zu letters, more than the %zu possible",
+                         name, strlen(name), NAME_MAX + 1 - sizeof partial);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_LONGEST_PATH])
+{
+    const char *name = asked ? asked : c->output_file ? c->output_file : name_in_folder(c->path);
+    OST_TRY(check_length(c->ctx, name, OST_VTKHDF_LONGEST_PATH));
+    if (!asked && !c->output_file) {
+        const char *dot = strrchr(name, '.');
+        const int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+        snprintf(path, OST_LONGEST_PATH, "%.*s.vtkhdf", stem, name);
+        return check_length(c->ctx, path, OST_VTKHDF_LONGEST_PATH);
+    }
+    if (!ost_has_ending(name, ".vtkhdf"))
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' does not end with .vtkhdf, which the file of fields must",
+                         name);
+    snprintf(path, OST_LONGEST_PATH, "%s", name);
+    return OST_SUCCESS;
+}
+
+/* The folder a file lies in; the path is known not to be too long. */
+static void folder_of(const char *path, char folder[OST_LONGEST_PATH])
+{
+    int length = (int)(name_in_folder(path) - path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    snprintf(folder, OST_LONGEST_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
+}
+
+static int same_inode(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+static int is_same_existing_file(const char *path, const char *other)
+{
+    struct stat a, b;
+    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && same_inode(&a, &b);
+}
+
+/* The same file, or the same name in the same folder where there is none yet. */
+static int is_same_place(const char *path, const char *other)
+{
+    char one[OST_LONGEST_PATH], two[OST_LONGEST_PATH];
+    struct stat a, b;
+    if (is_same_existing_file(path, other))
+        return 1;
+    folder_of(path, one);
+    folder_of(other, two);
+    return strcmp(name_in_folder(path), name_in_folder(other)) == 0 && stat(one, &a) == 0 && stat(two, &b) == 0 &&
+           same_inode(&a, &b);
+}
+
+/* What the case reads that lies here, in words; or NULL. */
+static const char *input_at(const OstCase *c, const char *path)
+{
+    if (is_same_existing_file(path, c->path))
+        return "the case itself";
+    if (is_same_existing_file(path, c->mesh_file))
+        return "the mesh that the case reads";
+    for (int i = 0; i < c->constraint_count; i++)
+        if (is_same_existing_file(path, c->constraints[i].on.vertices_file))
+            return "a list of vertices that the case reads";
+    for (int i = 0; i < c->load_count; i++)
+        if (is_same_existing_file(path, c->loads[i].on.vertices_file))
+            return "a list of vertices that the case reads";
+    for (int i = 0; i < c->material_count; i++)
+        if (is_same_existing_file(path, c->materials[i].axes.cells_file))
+            return "axes that the case reads";
+    return NULL;
+}
+
+static OstStatus check_folder(OstContext *ctx, const char *path)
+{
+    char folder[OST_LONGEST_PATH];
+    struct stat there;
+    folder_of(path, folder);
+    if (stat(folder, &there) != 0)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "'%s' cannot be written: folder '%s': %s", path, folder,
+                         strerror(errno));
+    if (!S_ISDIR(there.st_mode))
+        return OST_RAISE(ctx, OST_FILE_FAILED, "'%s' cannot be written: '%s' is not a folder", path, folder);
+    if (access(folder, W_OK | X_OK) != 0)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "'%s' cannot be written: folder '%s' is closed to writing: %s", path,
+                         folder, strerror(errno));
+    return OST_SUCCESS;
+}
+
+static OstStatus check_file(const OstCase *c, const char *path)
+{
+    struct stat there;
+    OST_TRY(check_length(c->ctx, path, OST_LONGEST_PATH - sizeof partial));
+    if (*name_in_folder(path) == '\0')
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' names no file to write", path);
+    const char *input = input_at(c, path);
+    if (input)
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", path, input);
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' is there already and is not a regular file; name another%s",
+                         path, S_ISDIR(there.st_mode) ? ", or one in it" : "");
+    return check_folder(c->ctx, path);
+}
+
+static OstStatus check_destinations(const OstCase *c, const char *output, const char *json)
+{
+    OST_TRY(check_file(c, output));
+    if (!json || strcmp(json, "-") == 0)
+        return OST_SUCCESS;
+    OST_TRY(check_file(c, json));
+    if (is_same_place(output, json))
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "the fields and the summary cannot both go to '%s'", json);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_check_destinations(const OstCase *c, const char *output, const char *json)
+{
+    return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_destinations(c, output, json) : OST_SUCCESS);
+}

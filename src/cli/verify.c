@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/verify.h"
+
+#include "cli/command.h"
+#include "cli/script.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <argp.h>
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { LONGEST_PATH = 4096, MOST_CASES = 256 };
+
+typedef struct Arguments {
+    int quick;
+    const char *json;
+    const char *picture;
+    int name_count;
+    const char *name[MOST_CASES];
+} Arguments;
+
+static const struct argp_option options[] = {
+    {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
+    {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
+    {"picture", 'p', "FOLDER", 0, "Draw error against element size here, as verify.png (and write verify.json)", 0},
+    {0},
+};
+
+static error_t parse_option(int key, char *value, struct argp_state *state)
+{
+    Arguments *arguments = state->input;
+    switch (key) {
+    case 'Q':
+        arguments->quick = 1;
+        return 0;
+    case 'j':
+        arguments->json = value;
+        return 0;
+    case 'p':
+        arguments->picture = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->name_count == MOST_CASES) {
+            argp_error(state, "at most %d cases at a time", MOST_CASES);
+            return EINVAL;
+        }
+        arguments->name[arguments->name_count++] = value;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp verify_argp = {
+    options,
+    parse_option,
+    "[NAME...]",
+    "Holds answers against closed forms: runs the cases of cases/verify, or those named (a name without ending, or the "
+    "path of a case with a verify section), on ever finer meshes.\vThe folder of cases is that of the environment's "
+    "ORTHOSTAT_CASES, else the installed one, else ./cases. Exit status 1 if any case fails.",
+    NULL,
+    NULL,
+    NULL};
+
+/* --- which cases --- */
+
+typedef struct CaseList {
+    int count;
+    char (*path)[LONGEST_PATH];
+} CaseList;
+
+static int is_case(const struct dirent *entry)
+{
+    const size_t length = strlen(entry->d_name);
+    return length > 5 && strcmp(entry->d_name + length - 5, ".yaml") == 0;
+}
+
+static OstStatus list_folder(OstContext *ctx, const char *folder, CaseList *list)
+{
+    struct dirent **entries = NULL;
+    const int count = scandir(folder, &entries, is_case, alphasort);
+    if (count < 0)
+        return OST_RAISE(ctx, OST_FILE_FAILED,
+                         "cannot read the folder '%s': %s; say where the cases are: ORTHOSTAT_CASES=/path/to/cases",
+                         folder, strerror(errno));
+    OstStatus status = OST_SUCCESS;
+    if (count == 0 || count > MOST_CASES)
+        status = OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
+    for (int i = 0; i < count; i++) {
+        if (status == OST_SUCCESS)
+            snprintf(list->path[list->count++], LONGEST_PATH, "%.3000s/%.1000s", folder, entries[i]->d_name);
+        free(entries[i]);
+    }
+    free(entries);
+    return status;
+}
+
+static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
+{
+    char folder[LONGEST_PATH];
+    char cases[LONGEST_PATH - 16];
+    ost_cli_cases_folder(cases, sizeof cases);
+    snprintf(folder, sizeof folder, "%s/verify", cases);
+    if (arguments->name_count == 0)
+        return list_folder(ctx, folder, list);
+    for (int i = 0; i < arguments->name_count; i++) {
+        const char *name = arguments->name[i];
+        const int is_path = strchr(name, '/') != NULL || strstr(name, ".yaml") != NULL;
+        char *path = list->path[list->count++];
+        if (is_path)
+            snprintf(path, LONGEST_PATH, "%s", name);
+        else
+            snprintf(path, LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
+    }
+    return OST_SUCCESS;
+}
+
+/* Rank 0 looks, all are told. */
+static OstStatus find_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
+{
+    OstStatus status = OST_NEW(ctx, &list->path, MOST_CASES);
+    if (status == OST_SUCCESS && ost_rank(ctx) == 0)
+        status = list_cases(ctx, arguments, list);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(OST_MPI(ctx, MPI_Bcast(&list->count, 1, MPI_INT, 0, ost_comm(ctx))));
+    return OST_MPI(ctx, MPI_Bcast(list->path, list->count * LONGEST_PATH, MPI_CHAR, 0, ost_comm(ctx)));
+}
+
+/* --- what becomes of them --- */
+
+static OstStatus draw(OstContext *ctx, int count, OstVerifyReport *const *reports, const Arguments *arguments)
+{
+    char readings[LONGEST_PATH];
+    const int length = snprintf(readings, sizeof readings, "%s/verify.json", arguments->picture);
+    if (ost_rank(ctx) != 0)
+        return OST_SUCCESS;
+    if (length < 0 || (size_t)length >= sizeof readings)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", arguments->picture);
+    if (mkdir(arguments->picture, 0777) != 0 && errno != EEXIST)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", arguments->picture, strerror(errno));
+    OST_TRY(ost_verify_write_json(ctx, count, reports, arguments->quick, readings));
+    return ost_cli_run_script(ctx, "plot-verify", readings, arguments->picture);
+}
+
+static OstStatus run_all(OstContext *ctx, const Arguments *arguments, const CaseList *list, OstVerifyReport **reports)
+{
+    const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !(arguments->json && strcmp(arguments->json, "-") == 0);
+    for (int i = 0; i < list->count; i++) {
+        OST_TRY(ost_verify_case(ctx, list->path[i], arguments->quick, &reports[i]));
+        if (prints)
+            ost_verify_print(reports[i], ost_log_level(ctx) == OST_LOG_VERBOSE);
+    }
+    if (prints)
+        ost_verify_print_summary(list->count, reports);
+    if (arguments->json)
+        OST_TRY(ost_agree(ctx, ost_verify_write_json(ctx, list->count, reports, arguments->quick, arguments->json)));
+    return arguments->picture ? ost_agree(ctx, draw(ctx, list->count, reports, arguments)) : OST_SUCCESS;
+}
+
+static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_passed)
+{
+    CaseList list = {0, NULL};
+    OstVerifyReport **reports = NULL;
+    OstStatus status = find_cases(ctx, arguments, &list);
+    if (status == OST_SUCCESS)
+        status = ost_agree(ctx, OST_NEW(ctx, &reports, list.count));
+    if (status == OST_SUCCESS)
+        status = run_all(ctx, arguments, &list, reports);
+    *all_passed = status == OST_SUCCESS;
+    for (int i = 0; reports && i < list.count; i++) {
+        *all_passed &= reports[i] != NULL && reports[i]->passed;
+        ost_verify_report_destroy(&reports[i]);
+    }
+    OST_FREE(reports);
+    OST_FREE(list.path);
+    return status;
+}
+
+int ost_cli_verify(OstContext *ctx, int argc, char **argv)
+{
+    Arguments arguments = {0};
+    int exit_code = 0, all_passed = 0;
+    if (!ost_cli_parse(ctx, &verify_argp, argc, argv, &arguments, &exit_code))
+        return exit_code;
+    exit_code = ost_cli_finish(ctx, verify(ctx, &arguments, &all_passed));
+    return exit_code == 0 && !all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
+}

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/coincident.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "mesh/route.h"
+#include "mesh/tet.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+/* Space is cut into cubes this many tolerances wide; a point is sent to each cube within one tolerance of it. */
+static const double cube_width = 8.0;
+enum { CUBES = 8 };
+
+/* Of the shortest edge: vertices that close can belong to no tet together. */
+static const double close_share = 0.01;
+
+typedef struct Visitor {
+    int64_t cube[3];
+    OstGlobal number;
+    double x[3];
+} Visitor;
+
+typedef struct Answer {
+    OstGlobal number, lowest;
+} Answer;
+
+int ost_coincident_holder(const OstGlobal *end, int size, OstGlobal number)
+{
+    int low = 0;
+    int high = size - 1;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (number < end[middle])
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+OstStatus ost_coincident_ends(const OstPoints *points, OstGlobal *end)
+{
+    const OstGlobal my_end = points->first + points->count;
+    return OST_MPI(points->ctx, MPI_Allgather(&my_end, 1, MPI_INT64_T, end, 1, MPI_INT64_T, ost_comm(points->ctx)));
+}
+
+static OstStatus find_corner(const OstPoints *points, double corner[3])
+{
+    for (int d = 0; d < 3; d++) {
+        corner[d] = DBL_MAX;
+        for (OstLocal i = 0; i < points->count; i++)
+            corner[d] = fmin(corner[d], points->coordinates[3 * (size_t)i + (size_t)d]);
+    }
+    return OST_MPI(points->ctx, MPI_Allreduce(MPI_IN_PLACE, corner, 3, MPI_DOUBLE, MPI_MIN, ost_comm(points->ctx)));
+}
+
+static int rank_of_cube(const int64_t cube[3], int size)
+{
+    uint64_t hash = 0;
+    for (int d = 0; d < 3; d++) {
+        hash = (hash ^ (uint64_t)cube[d]) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 29;
+    }
+    return (int)(hash % (uint64_t)size);
+}
+
+/* The cubes within one tolerance of a point: one to eight. */
+static int list_cubes(const double x[3], const double corner[3], double tolerance, int64_t cube[CUBES][3])
+{
+    int64_t range[3][2];
+    int count = 0;
+    for (int d = 0; d < 3; d++)
+        for (int side = 0; side < 2; side++)
+            range[d][side] =
+                (int64_t)floor((x[d] - corner[d] + (side ? tolerance : -tolerance)) / (cube_width * tolerance));
+    for (int c = 0; c < CUBES; c++) {
+        int repeated = 0;
+        for (int d = 0; d < 3; d++)
+            repeated |= (c >> d & 1) && range[d][0] == range[d][1];
+        for (int d = 0; d < 3 && !repeated; d++)
+            cube[count][d] = range[d][c >> d & 1];
+        count += !repeated;
+    }
+    return count;
+}
+
+static OstStatus list_visitors(const OstPoints *points, const double corner[3], double tolerance, OstLocal *count,
+                               Visitor **visitor, int **to)
+{
+    OstContext *ctx = points->ctx;
+    OstGlobal total = 0;
+    int64_t cube[CUBES][3];
+    for (OstLocal i = 0; i < points->count; i++)
+        total += list_cubes(points->coordinates + 3 * (size_t)i, corner, tolerance, cube);
+    if (total > INT32_MAX)
+        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "one rank has too many vertices to compare; use more ranks");
+    OST_TRY(OST_NEW(ctx, visitor, total));
+    OST_TRY(OST_NEW(ctx, to, total));
+    *count = 0;
+    for (OstLocal i = 0; i < points->count; i++) {
+        const double *x = points->coordinates + 3 * (size_t)i;
+        const int cubes = list_cubes(x, corner, tolerance, cube);
+        for (int c = 0; c < cubes; c++, (*count)++) {
+            (*visitor)[*count] = (Visitor){{cube[c][0], cube[c][1], cube[c][2]}, points->first + i, {x[0], x[1], x[2]}};
+            (*to)[*count] = rank_of_cube(cube[c], ost_size(ctx));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+static int compare_cubes(const Visitor *x, const Visitor *y)
+{
+    for (int d = 0; d < 3; d++)
+        if (x->cube[d] != y->cube[d])
+            return x->cube[d] < y->cube[d] ? -1 : 1;
+    return 0;
+}
+
+static int compare_visitors(const void *a, const void *b)
+{
+    const Visitor *x = a;
+    const Visitor *y = b;
+    const int by_cube = compare_cubes(x, y);
+    return by_cube ? by_cube : (x->number > y->number) - (x->number < y->number);
+}
+
+static int are_close(const Visitor *a, const Visitor *b, double tolerance)
+{
+    const double d[3] = {a->x[0] - b->x[0], a->x[1] - b->x[1], a->x[2] - b->x[2]};
+    return ost_norm3(d) <= tolerance;
+}
+
+/* Within each cube, the first that each point is close to. */
+static OstStatus compare_within_cubes(OstContext *ctx, OstLocal count, Visitor *visitor, double tolerance,
+                                      OstLocal *answers, Answer **answer)
+{
+    OST_TRY(OST_NEW(ctx, answer, count));
+    if (count > 0)
+        qsort(visitor, (size_t)count, sizeof *visitor, compare_visitors);
+    OstLocal start = 0;
+    for (OstLocal i = 0; i < count; i++) {
+        if (compare_cubes(&visitor[start], &visitor[i]) != 0)
+            start = i;
+        OstLocal j = start;
+        while (j < i && !are_close(&visitor[j], &visitor[i], tolerance))
+            j++;
+        if (j < i)
+            (*answer)[(*answers)++] = (Answer){visitor[i].number, visitor[j].number};
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus take_answers(const OstPoints *points, OstLocal answers, const Answer *answer, OstGlobal *lowest)
+{
+    OstContext *ctx = points->ctx;
+    OstGlobal *end = NULL;
+    int *to = NULL;
+    Route *route = NULL;
+    Answer *arrived = NULL;
+    OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &to, answers);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_coincident_ends(points, end));
+    for (OstLocal i = 0; i < answers; i++)
+        to[i] = ost_coincident_holder(end, ost_size(ctx), answer[i].number);
+    OST_TRY_DONE(ost_route_create(ctx, answers, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof *answer, answer, (void **)&arrived));
+    for (OstLocal i = 0; i < route->receives; i++) {
+        OstGlobal *mine = &lowest[arrived[i].number - points->first];
+        *mine = arrived[i].lowest < *mine ? arrived[i].lowest : *mine;
+    }
+done:
+    OST_FREE(end);
+    OST_FREE(to);
+    OST_FREE(arrived);
+    ost_route_destroy(&route);
+    return status;
+}
+
+OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlobal *lowest)
+{
+    OstContext *ctx = points->ctx;
+    double corner[3];
+    OstLocal count = 0, answers = 0;
+    Visitor *visitor = NULL, *arrived = NULL;
+    Answer *answer = NULL;
+    int *to = NULL;
+    Route *route = NULL;
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal i = 0; i < points->count; i++)
+        lowest[i] = points->first + i;
+    OST_TRY_DONE(find_corner(points, corner));
+    OST_TRY_DONE(ost_agree(ctx, list_visitors(points, corner, tolerance, &count, &visitor, &to)));
+    OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof *visitor, visitor, (void **)&arrived));
+    OST_FREE(visitor);
+    OST_TRY_DONE(ost_agree(ctx, compare_within_cubes(ctx, route->receives, arrived, tolerance, &answers, &answer)));
+    OST_TRY_DONE(take_answers(points, answers, answer, lowest));
+done:
+    OST_FREE(visitor);
+    OST_FREE(arrived);
+    OST_FREE(answer);
+    OST_FREE(to);
+    ost_route_destroy(&route);
+    return status;
+}
+
+static OstStatus find_shortest_edge(const OstMesh *mesh, double *shortest)
+{
+    *shortest = DBL_MAX;
+    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
+        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        for (int e = 0; e < 6; e++) {
+            const double *a = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][0]];
+            const double *b = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][1]];
+            const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+            *shortest = fmin(*shortest, ost_norm3(d));
+        }
+    }
+    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(mesh->ctx)));
+}
+
+OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance)
+{
+    OstContext *ctx = mesh->ctx;
+    const OstPoints points = {ctx, mesh->first_node, mesh->owned_nodes, mesh->coordinates};
+    double shortest = 0.0;
+    OstGlobal *lowest = NULL;
+    *count = 0;
+    OST_TRY(find_shortest_edge(mesh, &shortest));
+    const double digit = pow(10.0, floor(log10(close_share * shortest)));
+    *tolerance = digit * floor(close_share * shortest / digit * (1.0 + 4.0 * DBL_EPSILON));
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &lowest, mesh->owned_nodes));
+    if (status == OST_SUCCESS)
+        status = ost_coincident_find(&points, *tolerance, lowest);
+    for (OstLocal i = 0; i < mesh->owned_nodes && status == OST_SUCCESS; i++)
+        *count += lowest[i] != mesh->first_node + i;
+    OST_FREE(lowest);
+    OST_TRY(status);
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+}

@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/merge.h"
+
+#include "core/error.h"
+#include "core/halo.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "core/sort.h"
+#include "mesh/check.h"
+#include "mesh/coincident.h"
+#include "mesh/route.h"
+#include "mesh/slab.h"
+#include "mesh/tet.h"
+
+#include <float.h>
+#include <string.h>
+
+/* A vertex that goes, the one that stands for it, and that one's new number (-1: it goes, too). */
+typedef struct Request {
+    OstGlobal from, to, number;
+} Request;
+
+typedef struct Merge {
+    OstMeshChunk *chunk;
+    OstPoints points;
+    Slab *slab;
+    OstGlobal *end;    /* per rank: where its vertices end */
+    OstGlobal *lowest; /* of this rank's vertices */
+    OstGlobal *number; /* new numbers, of the slab's nodes and ghosts */
+    OstGlobal new_first, new_count;
+} Merge;
+
+/* The shortest edge, and the lowest label of a tet with it. */
+static OstStatus find_shortest_edge(const Merge *merge, double *shortest, OstGlobal *label)
+{
+    const OstMeshChunk *chunk = merge->chunk;
+    const Slab *slab = merge->slab;
+    OstContext *ctx = chunk->ctx;
+    double *x = NULL;
+    double mine = DBL_MAX;
+    OstGlobal at = INT64_MAX;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &x, 3 * ((size_t)slab->node_count + (size_t)slab->ghost_count)));
+    if (status != OST_SUCCESS)
+        goto done;
+    if (chunk->node_count > 0)
+        memcpy(x, chunk->coordinates, 3 * (size_t)chunk->node_count * sizeof *x);
+    OST_TRY_DONE(ost_agree(ctx, ost_halo_import(slab->halo, 3 * sizeof *x, x)));
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const OstLocal *nodes = slab->tet_nodes + (size_t)t * (size_t)chunk->nodes_per_tet;
+        for (int e = 0; e < 6; e++) {
+            const double *a = x + 3 * (size_t)nodes[ost_tet_edge[e][0]];
+            const double *b = x + 3 * (size_t)nodes[ost_tet_edge[e][1]];
+            const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+            if (ost_norm3(d) >= mine)
+                continue;
+            mine = ost_norm3(d);
+            at = chunk->tet_label ? chunk->tet_label[t] : chunk->first_tet + t + 1;
+        }
+    }
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&mine, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
+    if (mine > *shortest)
+        at = INT64_MAX;
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&at, label, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+done:
+    OST_FREE(x);
+    return status;
+}
+
+static OstStatus check_tolerance(const Merge *merge, double tolerance)
+{
+    double shortest = 0.0;
+    OstGlobal label = 0;
+    OST_TRY(find_shortest_edge(merge, &shortest, &label));
+    if (tolerance < shortest)
+        return OST_SUCCESS;
+    return OST_RAISE(
+        merge->chunk->ctx, OST_INVALID_INPUT,
+        "merge: %g would join vertices of tet %lld, which has an edge of length %g; give a smaller distance", tolerance,
+        (long long)label, shortest);
+}
+
+/* Vertices that stay get new numbers, contiguous over ranks. */
+static OstStatus number_kept(Merge *merge)
+{
+    OstContext *ctx = merge->chunk->ctx;
+    OstGlobal before = 0;
+    for (OstLocal i = 0; i < merge->points.count; i++)
+        merge->new_count += merge->lowest[i] == merge->points.first + i;
+    OST_TRY(OST_MPI(ctx, MPI_Exscan(&merge->new_count, &before, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    merge->new_first = ost_rank(ctx) == 0 ? 0 : before;
+    OstGlobal next = merge->new_first;
+    for (OstLocal i = 0; i < merge->points.count; i++)
+        merge->number[i] = merge->lowest[i] == merge->points.first + i ? next++ : -1;
+    return OST_SUCCESS;
+}
+
+/* Carries requests to the ranks that hold one of their vertices; `back`: the one that goes. */
+static OstStatus carry_requests(const Merge *merge, int back, OstLocal *count, Request **request)
+{
+    OstContext *ctx = merge->chunk->ctx;
+    int *to = NULL;
+    Route *route = NULL;
+    Request *arrived = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, *count)));
+    for (OstLocal i = 0; i < *count; i++)
+        to[i] = ost_coincident_holder(merge->end, ost_size(ctx), back ? (*request)[i].from : (*request)[i].to);
+    OST_TRY_DONE(ost_route_create(ctx, *count, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof **request, *request, (void **)&arrived));
+    OST_FREE(*request);
+    *request = arrived;
+    *count = route->receives;
+done:
+    OST_FREE(to);
+    ost_route_destroy(&route);
+    return status;
+}
+
+static OstStatus take_numbers(const Merge *merge, OstLocal count, const Request *request, double tolerance)
+{
+    const OstMeshChunk *chunk = merge->chunk;
+    for (OstLocal i = 0; i < count; i++) {
+        const OstLocal local = (OstLocal)(request[i].from - merge->points.first);
+        if (request[i].number < 0)
+            return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
+                             "merge: %g joins vertex %lld with one that is joined with another, farther off; give a "
+                             "smaller distance",
+                             tolerance,
+                             (long long)(chunk->node_label ? chunk->node_label[local] : request[i].from + 1));
+        merge->number[local] = request[i].number;
+    }
+    return OST_SUCCESS;
+}
+
+/* Vertices that go take the number of the one that stands for them, which any rank may hold. */
+static OstStatus number_merged(Merge *merge, double tolerance)
+{
+    OstContext *ctx = merge->chunk->ctx;
+    Request *request = NULL;
+    OstLocal count = 0;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &request, merge->points.count)));
+    for (OstLocal i = 0; i < merge->points.count; i++)
+        if (merge->lowest[i] != merge->points.first + i)
+            request[count++] = (Request){merge->points.first + i, merge->lowest[i], -1};
+    OST_TRY_DONE(carry_requests(merge, 0, &count, &request));
+    for (OstLocal i = 0; i < count; i++) {
+        const OstLocal local = (OstLocal)(request[i].to - merge->points.first);
+        request[i].number = merge->lowest[local] == request[i].to ? merge->number[local] : -1;
+    }
+    OST_TRY_DONE(carry_requests(merge, 1, &count, &request));
+    OST_TRY_DONE(ost_agree(ctx, take_numbers(merge, count, request, tolerance)));
+    OST_TRY_DONE(ost_agree(ctx, ost_halo_import(merge->slab->halo, sizeof *merge->number, merge->number)));
+done:
+    OST_FREE(request);
+    return status;
+}
+
+static void renumber(const Merge *merge, size_t count, OstGlobal *nodes)
+{
+    for (size_t i = 0; i < count; i++)
+        nodes[i] = merge->number[ost_slab_local(merge->slab, nodes[i])];
+}
+
+/* A group of points may have had several of those that are one now. */
+static void remove_repeated_points(OstBoundary *boundary)
+{
+    OstLocal kept = 0;
+    if (boundary->count == 0)
+        return;
+    ost_sort_numbers((size_t)boundary->count, boundary->nodes);
+    for (OstLocal i = 0; i < boundary->count; i++)
+        if (i == 0 || boundary->nodes[i] != boundary->nodes[kept - 1])
+            boundary->nodes[kept++] = boundary->nodes[i];
+    boundary->count = kept;
+}
+
+static void renumber_all(const Merge *merge)
+{
+    OstMeshChunk *chunk = merge->chunk;
+    renumber(merge, (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet, chunk->tet_nodes);
+    for (int b = 0; b < chunk->boundary_count; b++) {
+        OstBoundary *boundary = &chunk->boundaries[b];
+        renumber(merge, (size_t)boundary->count * (size_t)boundary->nodes_per_item, boundary->nodes);
+        if (boundary->dimension == 0)
+            remove_repeated_points(boundary);
+    }
+}
+
+static OstStatus keep_labels(OstMeshChunk *chunk)
+{
+    if (chunk->node_label)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
+    for (OstLocal i = 0; i < chunk->node_count; i++)
+        chunk->node_label[i] = chunk->first_node + i + 1;
+    return OST_SUCCESS;
+}
+
+static void drop_merged(Merge *merge)
+{
+    OstMeshChunk *chunk = merge->chunk;
+    OstLocal kept = 0;
+    for (OstLocal i = 0; i < chunk->node_count; i++) {
+        if (merge->lowest[i] != chunk->first_node + i)
+            continue;
+        memmove(chunk->coordinates + 3 * (size_t)kept, chunk->coordinates + 3 * (size_t)i, 3 * sizeof(double));
+        chunk->node_label[kept++] = chunk->node_label[i];
+    }
+    chunk->node_count = kept;
+    chunk->first_node = merge->new_first;
+}
+
+static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merged)
+{
+    OstMeshChunk *chunk = merge->chunk;
+    OstContext *ctx = chunk->ctx;
+    OST_TRY(ost_slab_create(chunk, &merge->slab));
+    OST_TRY(check_tolerance(merge, tolerance));
+    OstStatus status = OST_NEW(ctx, &merge->end, ost_size(ctx));
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &merge->lowest, chunk->node_count);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count);
+    if (status == OST_SUCCESS)
+        status = keep_labels(chunk);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_coincident_ends(&merge->points, merge->end));
+    OST_TRY(ost_coincident_find(&merge->points, tolerance, merge->lowest));
+    OST_TRY(number_kept(merge));
+    OST_TRY(number_merged(merge, tolerance));
+    renumber_all(merge);
+    drop_merged(merge);
+    OstGlobal total = chunk->node_count;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    *merged = chunk->global_nodes - total;
+    chunk->global_nodes = total;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merged)
+{
+    *merged = 0;
+    ost_ledger_enter(chunk->ctx, OST_LEDGER_MESH);
+    OstStatus status = ost_check_chunk(chunk);
+    Merge merge = {.chunk = chunk, .points = {chunk->ctx, chunk->first_node, chunk->node_count, chunk->coordinates}};
+    if (status == OST_SUCCESS)
+        status = merge_vertices(&merge, tolerance, merged);
+    OST_FREE(merge.end);
+    OST_FREE(merge.lowest);
+    OST_FREE(merge.number);
+    ost_slab_destroy(&merge.slab);
+    ost_ledger_leave(chunk->ctx);
+    return status;
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "study/cost.h"
+#include "study/cost_file.h"
+
+#include <jansson.h>
+#include <math.h>
+
+/* null where there is no number. */
+static json_t *number_json(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+static json_t *index_json(int index)
+{
+    return index >= 0 ? json_integer(index) : json_null();
+}
+
+static json_t *reference_json(const OstCostReference *reference)
+{
+    static const char *const kinds[] = {"none", "extrapolated", "finest", "settled"};
+    return json_pack("{s:s, s:f, s:o, s:f, s:i, s:i, s:s}", "kind", kinds[reference->kind], "value", reference->value,
+                     "uncertainty", number_json(reference->uncertainty), "rate", reference->rate, "order",
+                     reference->order, "finest_refinement", reference->finest, "note", reference->note);
+}
+
+/* Runs are named by their number in the list. */
+static json_t *prices_json(const OstCost *cost, int quantity)
+{
+    json_t *prices = json_array();
+    for (int t = 0; t < OST_COST_TARGETS; t++) {
+        const double target = ost_cost_target(t);
+        json_array_append_new(prices,
+                              json_pack("{s:f, s:o, s:o}", "error", target, "run",
+                                        index_json(ost_cost_cheapest(cost, quantity, target)), "run_one_digit_more",
+                                        index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
+    }
+    return prices;
+}
+
+static json_t *frontier_json(const OstCost *cost, int quantity)
+{
+    json_t *frontier = json_array();
+    int runs[OST_COST_MOST_RUNS];
+    const int count = ost_cost_frontier(cost, quantity, runs);
+    for (int i = 0; i < count; i++)
+        json_array_append_new(frontier, json_integer(runs[i]));
+    return frontier;
+}
+
+static json_t *quantities_json(const OstCost *cost)
+{
+    json_t *quantities = json_array();
+    for (int q = 0; q < cost->quantity_count; q++)
+        json_array_append_new(quantities, json_pack("{s:s, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
+                                                    reference_json(&cost->quantity[q].reference), "cheapest",
+                                                    prices_json(cost, q), "frontier", frontier_json(cost, q)));
+    return quantities;
+}
+
+static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
+{
+    json_t *answers = json_object();
+    for (int q = 0; q < cost->quantity_count; q++)
+        json_object_set_new(answers, cost->quantity[q].name,
+                            json_pack("{s:o, s:o, s:o}", "value", number_json(run->watched[q].value), "error",
+                                      number_json(run->error[q]), "claim", number_json(ost_cost_claim(cost, run, q))));
+    return answers;
+}
+
+static json_t *run_json(const OstCost *cost, const OstCostRun *run)
+{
+    json_t *item = json_pack("{s:i, s:i, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
+                             "tolerance", run->tolerance, "state", ost_cost_state_word(run->state), "reason",
+                             run->reason, "foreseen_seconds", run->foreseen_seconds);
+    if (run->state != OST_COST_DONE)
+        return item;
+    json_t *phases = json_object();
+    for (int p = 0; p < OST_COST_PHASES; p++)
+        json_object_set_new(phases, ost_cost_phase_label((OstCostPhase)p), json_real(run->phase[p]));
+    json_t *more = json_pack("{s:I, s:I, s:i, s:f, s:i, s:f, s:o, s:f, s:o}", "unknowns", (json_int_t)run->unknowns,
+                             "tets", (json_int_t)run->tets, "iterations", run->iterations, "residual", run->residual,
+                             "repeats", run->repeats, "seconds", run->seconds, "phase_seconds", phases, "bytes",
+                             run->bytes, "answers", answers_json(cost, run));
+    json_object_update(item, more);
+    json_decref(more);
+    return item;
+}
+
+static json_t *study_json(const OstCost *cost)
+{
+    json_t *runs = json_array();
+    for (int i = 0; i < cost->run_count; i++)
+        json_array_append_new(runs, run_json(cost, &cost->run[i]));
+    return json_pack("{s:s, s:s, s:i, s:f, s:f, s:o, s:o}", "case", cost->c->path, "title", cost->c->title, "ranks",
+                     ost_size(cost->ctx), "max_seconds", cost->ladder.max_seconds, "seconds", cost->seconds,
+                     "quantities", quantities_json(cost), "runs", runs);
+}
+
+static OstStatus write_json(FILE *file, const OstCost *cost)
+{
+    json_t *document = study_json(cost);
+    const int failed = !document || json_dumpf(document, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
+                       fputc('\n', file) == EOF;
+    const int impossible = !document;
+    json_decref(document);
+    if (impossible)
+        return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
+                         "%s: the prices cannot be written as JSON (are its title and names UTF-8?)", cost->c->path);
+    return failed ? OST_RAISE(cost->ctx, OST_FILE_FAILED, "the JSON file cannot be written") : OST_SUCCESS;
+}
+
+OstStatus ost_cost_write_json(const OstCost *cost, const char *path)
+{
+    return ost_cost_write_file(cost, path, write_json);
+}

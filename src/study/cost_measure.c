@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/cost.h"
+
+#include "core/error.h"
+
+#include <string.h>
+
+/* A short run is at the mercy of whatever else the machine does: it is repeated, and the fastest counts. */
+enum { MOST_REPEATS = 3 };
+static const double long_enough = 0.5;
+
+/* Accounts that are not named here are part of the rest. */
+static const OstCostPhase phase_of[OST_LEDGER_COUNT] = {
+    [OST_LEDGER_MESH] = OST_COST_MESH,
+    [OST_LEDGER_PARTITION] = OST_COST_MESH,
+    [OST_LEDGER_SELECTION] = OST_COST_ASSEMBLY,
+    [OST_LEDGER_PATTERN] = OST_COST_ASSEMBLY,
+    [OST_LEDGER_STIFFNESS] = OST_COST_ASSEMBLY,
+    [OST_LEDGER_SUPPORTS] = OST_COST_ASSEMBLY,
+    [OST_LEDGER_HIERARCHY] = OST_COST_SETUP,
+    [OST_LEDGER_SOLVE] = OST_COST_SOLVE,
+    [OST_EFFECT_ORTHOTROPY] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_VARYING_AXES] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_GRADIENT_AXES] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_REGIONS] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_GIVEN_DISPLACEMENT] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_SLIDING] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_POINT_FORCE] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_SURFACE_LOAD] = OST_COST_ASSEMBLY,
+    [OST_EFFECT_BODY_FORCE] = OST_COST_ASSEMBLY,
+};
+
+/* What this rank had booked when a run began. */
+typedef struct Meter {
+    double start;
+    double seconds[OST_LEDGER_COUNT];
+    size_t bytes;
+} Meter;
+
+static OstStatus start_meter(OstContext *ctx, Meter *meter)
+{
+    OST_TRY(OST_MPI(ctx, MPI_Barrier(ost_comm(ctx))));
+    for (int a = 0; a < OST_LEDGER_COUNT; a++)
+        meter->seconds[a] = ost_ledger_entry(ctx, (OstAccount)a).seconds;
+    ost_ledger_restart_peak(ctx);
+    meter->bytes = ost_ledger_bytes(ctx);
+    meter->start = ost_seconds();
+    return OST_SUCCESS;
+}
+
+static OstStatus read_meter(OstContext *ctx, const Meter *meter, OstCostRun *run)
+{
+    run->seconds = ost_seconds() - meter->start;
+    run->bytes = (double)(ost_ledger_peak_bytes(ctx) - meter->bytes);
+    memset(run->phase, 0, sizeof run->phase);
+    for (int a = 0; a < OST_LEDGER_COUNT; a++)
+        run->phase[phase_of[a]] += ost_ledger_entry(ctx, (OstAccount)a).seconds - meter->seconds[a];
+    MPI_Comm comm = ost_comm(ctx);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->seconds, 1, MPI_DOUBLE, MPI_MAX, comm)));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, run->phase, OST_COST_PHASES, MPI_DOUBLE, MPI_MAX, comm)));
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
+}
+
+static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)
+{
+    run->unknowns = result->unknowns;
+    run->tets = scene->mesh->global_tets;
+    run->iterations = result->solve.iterations;
+    run->residual = result->solve.relative_residual;
+    for (int w = 0; w < cost->c->watch_count && !cost->placed; w++)
+        OST_TRY(ost_watch_place(scene->mesh, &cost->watch[w]));
+    cost->placed = 1;
+    for (int q = 0; q < cost->quantity_count; q++) {
+        const OstWatch *watch = cost->quantity[q].watch;
+        if (watch)
+            OST_TRY(ost_watch_evaluate(scene, result, watch, &run->watched[q]));
+        else
+            run->watched[q] = (OstWatched){result->largest_displacement, result->largest_displacement};
+    }
+    return OST_SUCCESS;
+}
+
+/* What there is to warn of is said once for each order, not for each run. */
+static void hush(const OstCost *cost, int order)
+{
+    if (cost->heard[order - 1] && ost_log_level(cost->ctx) == OST_LOG_NORMAL)
+        ost_log_set_level(cost->ctx, OST_LOG_QUIET);
+}
+
+static OstStatus measure_once(OstCost *cost, const OstCase *variant, OstCostRun *run)
+{
+    const OstLogLevel level = ost_log_level(cost->ctx);
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    Meter meter;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(start_meter(cost->ctx, &meter));
+    hush(cost, variant->order);
+    OST_TRY_DONE(ost_scene_create(variant, &scene));
+    OST_TRY_DONE(ost_scene_solve(scene, &result));
+    OST_TRY_DONE(read_meter(cost->ctx, &meter, run));
+    ost_log_set_level(cost->ctx, level);
+    status = evaluate(cost, scene, result, run);
+    cost->heard[variant->order - 1] = 1;
+done:
+    ost_log_set_level(cost->ctx, level);
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    return status;
+}
+
+OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run)
+{
+    double spent = 0.0;
+    do {
+        OstCostRun again = *run;
+        OST_TRY(measure_once(cost, variant, &again));
+        again.repeats = run->repeats + 1;
+        spent += again.seconds;
+        if (run->repeats == 0 || again.seconds < run->seconds)
+            *run = again;
+        run->repeats = again.repeats;
+    } while (run->repeats < MOST_REPEATS && spent < long_enough);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/cost.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { ERROR_WIDTH = 12, CELL_SIZE = 40 };
+static const double mebibyte = 1048576.0;
+
+/* 1,234,567 */
+static void with_commas(OstGlobal number, char *text, size_t size)
+{
+    char digits[CELL_SIZE];
+    const int count = snprintf(digits, sizeof digits, "%lld", (long long)number);
+    size_t out = 0;
+    for (int i = 0; i < count && out + 2 < size; i++) {
+        if (i > 0 && (count - i) % 3 == 0)
+            text[out++] = ',';
+        text[out++] = digits[i];
+    }
+    text[out] = 0;
+}
+
+static void duration(double seconds, char *text, size_t size)
+{
+    if (seconds < 0.9995)
+        snprintf(text, size, "%.1f ms", 1e3 * seconds);
+    else
+        snprintf(text, size, seconds < 99.95 ? "%.2f s" : "%.0f s", seconds);
+}
+
+static void percent(double share, char *text, size_t size)
+{
+    const double hundredths = 100.0 * share;
+    if (hundredths != 0.0 && (hundredths < 1e-3 || hundredths >= 1e4))
+        snprintf(text, size, "%.0e %%", hundredths);
+    else
+        snprintf(text, size, hundredths >= 99.5 ? "%.0f %%" : "%.2g %%", hundredths);
+}
+
+/* An error below what the reference is known to is only known to be below that. */
+static void error_cell(const OstCost *cost, const OstCostRun *run, int quantity, char *text, size_t size)
+{
+    const double error = run->error[quantity];
+    const double claim = ost_cost_claim(cost, run, quantity);
+    char number[CELL_SIZE - 2];
+    if (isnan(error)) {
+        snprintf(text, size, cost->quantity[quantity].reference.kind == OST_REFERENCE_FINEST ? "(finest)" : "-");
+        return;
+    }
+    percent(isinf(claim) ? error : claim, number, sizeof number);
+    snprintf(text, size, "%s%s", isinf(claim) ? "~ " : claim > error ? "< " : "", number);
+}
+
+static void print_heading(const OstCost *cost)
+{
+    printf("  order  refine  tolerance     unknowns");
+    for (int q = 0; q < cost->quantity_count; q++)
+        printf(" %*.*s", ERROR_WIDTH, ERROR_WIDTH, cost->quantity[q].name);
+    for (int p = OST_COST_MESH; p < OST_COST_PHASES; p++)
+        printf(" %9s", ost_cost_phase_label((OstCostPhase)p));
+    printf(" %9s %9s %12s\n", ost_cost_phase_label(OST_COST_REST), "total", "memory");
+}
+
+static void print_seconds(double seconds)
+{
+    char cell[CELL_SIZE];
+    duration(seconds, cell, sizeof cell);
+    printf(" %9s", cell);
+}
+
+static void print_run(const OstCost *cost, const OstCostRun *run)
+{
+    char cell[CELL_SIZE];
+    printf("  %5d  %6d  %9.0e", run->order, run->refinement, run->tolerance);
+    if (run->state != OST_COST_DONE) {
+        printf("     %s%s%s%s\n", ost_cost_state_word(run->state), run->state == OST_COST_NOT_RUN ? " (" : ": ",
+               run->reason, run->state == OST_COST_NOT_RUN ? ")" : "");
+        return;
+    }
+    with_commas(run->unknowns, cell, sizeof cell);
+    printf(" %12s", cell);
+    for (int q = 0; q < cost->quantity_count; q++) {
+        error_cell(cost, run, q, cell, sizeof cell);
+        printf(" %*s", ERROR_WIDTH, cell);
+    }
+    for (int p = OST_COST_MESH; p < OST_COST_PHASES; p++)
+        print_seconds(run->phase[p]);
+    print_seconds(run->phase[OST_COST_REST]);
+    print_seconds(run->seconds);
+    printf(" %8.1f MiB\n", run->bytes / mebibyte);
+}
+
+static void print_reference(const OstCostQuantity *quantity)
+{
+    const OstCostReference *reference = &quantity->reference;
+    char known[CELL_SIZE] = "";
+    if (reference->kind == OST_REFERENCE_NONE) {
+        printf("  %-14s none: no run has an answer\n", quantity->name);
+        return;
+    }
+    percent(reference->uncertainty, known, sizeof known);
+    printf("  %-14s %.10g, order %d, up to refinement %d: %s; ", quantity->name, reference->value, reference->order,
+           reference->finest, reference->note);
+    if (isinf(reference->uncertainty))
+        printf("not to be trusted");
+    else
+        printf("good to %s", known);
+    if (reference->size > fabs(reference->value))
+        printf("; it is nothing beside %.4g, of which errors are shares", reference->size);
+    printf("\n");
+}
+
+/* What the best claim is, where a target is out of reach. */
+static void print_out_of_reach(const OstCost *cost, int quantity)
+{
+    double best = INFINITY;
+    char number[CELL_SIZE];
+    for (int i = 0; i < cost->run_count; i++)
+        best = fmin(best, ost_cost_claim(cost, &cost->run[i], quantity)); /* fmin passes over NaN */
+    percent(best, number, sizeof number);
+    if (isinf(best))
+        printf("no run can claim it: nothing tells how good the reference is\n");
+    else
+        printf("no run can claim it: the best has %s\n", number);
+}
+
+static void print_ratio(double ratio)
+{
+    printf(ratio < 10.0 ? "   one digit more costs %.1f times that" : "   one digit more costs %.0f times that", ratio);
+}
+
+static void print_price(const OstCost *cost, int quantity, double target)
+{
+    const int cheapest = ost_cost_cheapest(cost, quantity, target);
+    const int next = ost_cost_cheapest(cost, quantity, 0.1 * target);
+    printf(" %4.3g %%  ", 100.0 * target);
+    if (cheapest < 0) {
+        print_out_of_reach(cost, quantity);
+        return;
+    }
+    const OstCostRun *run = &cost->run[cheapest];
+    printf("order %d, refinement %d, tolerance %.0e ", run->order, run->refinement, run->tolerance);
+    print_seconds(run->seconds);
+    printf(" %8.1f MiB", run->bytes / mebibyte);
+    if (next >= 0 && next != cheapest)
+        print_ratio(cost->run[next].seconds / run->seconds);
+    else if (next == cheapest)
+        printf("   one digit more comes with it");
+    printf("\n");
+}
+
+static void print_prices(const OstCost *cost, int quantity)
+{
+    for (int t = 0; t < OST_COST_TARGETS; t++) {
+        printf("  %-14s", t == 0 ? cost->quantity[quantity].name : "");
+        print_price(cost, quantity, ost_cost_target(t));
+    }
+}
+
+void ost_cost_print(const OstCost *cost)
+{
+    if (ost_rank(cost->ctx) != 0)
+        return;
+    int done = 0;
+    for (int i = 0; i < cost->run_count; i++)
+        done += cost->run[i].state == OST_COST_DONE;
+    printf("%s: %s\n  %d of %d runs done in %.3g s on %d rank%s\n\n"
+           "prices (seconds of the slowest rank, memory of our own arrays on all ranks)\n",
+           cost->c->path, cost->c->title, done, cost->run_count, cost->seconds, ost_size(cost->ctx),
+           ost_size(cost->ctx) == 1 ? "" : "s");
+    print_heading(cost);
+    for (int i = 0; i < cost->run_count; i++)
+        print_run(cost, &cost->run[i]);
+    printf("\nerrors are against\n");
+    for (int q = 0; q < cost->quantity_count; q++)
+        print_reference(&cost->quantity[q]);
+    printf("\ncheapest for an error of\n");
+    for (int q = 0; q < cost->quantity_count; q++)
+        print_prices(cost, q);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/cost.h"
+
+#include "core/error.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A refinement has 8 times the tets, and multigrid's work grows with them; a factorisation's faster, so the growth that
+ * was seen counts, within bounds. */
+static const double least_growth = 8.0, most_growth = 32.0;
+
+/* Order 2 on a mesh has the nodes of order 1 on its refinement, and about three times as many entries to a row. */
+static const double denser_rows = 3.0;
+
+/* Memory of the libraries and of the program beside our own arrays. */
+static const double memory_beside = 2.0;
+
+typedef struct Forecast {
+    double seconds, bytes; /* 0: not known */
+} Forecast;
+
+/* The run that tells most about another: of its own order rather than the one below, of the finest mesh, and then the
+ * slowest, or that of the same tolerance. */
+static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
+{
+    const OstCostRun *best = NULL;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *other = &cost->run[i];
+        if (other->state != OST_COST_DONE || other->order > run->order)
+            continue;
+        if (!best || other->order > best->order ||
+            (other->order == best->order && other->refinement > best->refinement)) {
+            best = other;
+            continue;
+        }
+        if (other->order != best->order || other->refinement != best->refinement || best->tolerance == run->tolerance)
+            continue;
+        if (other->tolerance == run->tolerance || other->seconds > best->seconds)
+            best = other;
+    }
+    return best;
+}
+
+/* How the seconds grew to the model from the refinement before it. */
+static double growth_to(const OstCost *cost, const OstCostRun *model)
+{
+    double growth = least_growth;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *other = &cost->run[i];
+        if (other->state == OST_COST_DONE && other->order == model->order && other->tolerance == model->tolerance &&
+            other->refinement + 1 == model->refinement && other->seconds > 0.0)
+            growth = model->seconds / other->seconds;
+    }
+    return fmin(fmax(growth, least_growth), most_growth);
+}
+
+static Forecast foresee(const OstCost *cost, const OstCostRun *run)
+{
+    const OstCostRun *model = find_model(cost, run);
+    if (!model)
+        return (Forecast){0.0, 0.0};
+    const int finer = run->refinement - model->refinement;
+    const int higher = run->order - model->order;
+    const double denser = higher > 0 ? denser_rows : 1.0;
+    return (Forecast){model->seconds * pow(growth_to(cost, model), finer + higher) * denser,
+                      model->bytes * pow(least_growth, finer + higher) * denser};
+}
+
+static void describe_seconds(double seconds, char *text, size_t size)
+{
+    if (seconds < 9.5)
+        snprintf(text, size, "about %.1g s", seconds);
+    else if (seconds < 120.0)
+        snprintf(text, size, "about %.0f s", seconds);
+    else if (seconds < 7200.0)
+        snprintf(text, size, "about %.0f min", seconds / 60.0);
+    else
+        snprintf(text, size, "about %.0f h", seconds / 3600.0);
+}
+
+/* Collective: the clocks of the ranks differ, that of rank 0 decides. */
+static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
+{
+    const Forecast forecast = foresee(cost, run);
+    const OstCostLadder *ladder = &cost->ladder;
+    const double gibibytes = memory_beside * forecast.bytes / 1073741824.0;
+    double elapsed = ost_seconds() - start;
+    OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
+    run->foreseen_seconds = forecast.seconds;
+    *yes = forecast.seconds == 0.0 || elapsed + forecast.seconds <= ladder->max_seconds;
+    if (!*yes)
+        describe_seconds(forecast.seconds, run->reason, sizeof run->reason);
+    else if (ladder->max_bytes > 0.0 && memory_beside * forecast.bytes > ladder->max_bytes) {
+        *yes = 0;
+        snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, and there are %.2g", gibibytes,
+                 ladder->max_bytes / 1073741824.0);
+    }
+    return OST_SUCCESS;
+}
+
+static void announce(const OstCost *cost, const OstCostRun *run, int number)
+{
+    char line[160], about[32] = "";
+    if (run->foreseen_seconds > 0.0)
+        describe_seconds(run->foreseen_seconds, about, sizeof about);
+    snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1, cost->run_count,
+             run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
+    ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
+    ost_progress(cost->ctx, line, (double)number / cost->run_count);
+}
+
+static OstStatus try_run(OstCost *cost, OstCostRun *run)
+{
+    OstCase variant = *cost->c;
+    variant.order = run->order;
+    variant.refinement = run->refinement;
+    variant.solver.relative_residual = run->tolerance;
+    variant.output_fields = 0;
+    const OstStatus status = cost->measure(cost, &variant, run);
+    run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
+    if (status != OST_SUCCESS)
+        snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(cost->ctx));
+    return status;
+}
+
+OstStatus ost_cost_run(OstCost *cost)
+{
+    OstContext *ctx = cost->ctx;
+    const double start = ost_seconds();
+    OstStatus last_failure = OST_SUCCESS;
+    int done = 0;
+    for (int i = 0; i < cost->run_count; i++) {
+        OstCostRun *run = &cost->run[i];
+        int affordable = 0;
+        OST_TRY(fits(cost, run, start, &affordable));
+        if (!affordable) {
+            run->state = OST_COST_NOT_RUN;
+            continue;
+        }
+        announce(cost, run, i);
+        const OstStatus status = try_run(cost, run);
+        last_failure = status == OST_SUCCESS ? last_failure : status;
+        done += status == OST_SUCCESS;
+    }
+    ost_progress(ctx, "", -1.0);
+    cost->seconds = ost_seconds() - start;
+    ost_cost_judge(cost);
+    return done > 0 ? OST_SUCCESS : last_failure;
+}

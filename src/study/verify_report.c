@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/verify.h"
+
+#include "core/error.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void print_number(const char *format, int width, double number)
+{
+    if (isnan(number))
+        printf(" %*s", width, "-");
+    else
+        printf(format, number);
+}
+
+static void print_reading(const OstVerifyReport *report, int quantity, const OstVerifyRun *run,
+                          const OstVerifyVerdict *verdict)
+{
+    const OstVerify *verify = report->c->verify;
+    const OstVerifyReading *reading = &run->reading[quantity];
+    const int is_field = verify->quantity[quantity].kind == OST_MEASURE_FIELD;
+    printf("  %-24.24s P%d %9lld", verify->quantity[quantity].name, verify->step[run->step].order,
+           (long long)run->unknowns);
+    print_number(" %13.6e", 13, is_field ? NAN : reading->expected);
+    print_number(" %13.6e", 13, is_field ? NAN : reading->obtained);
+    printf(" %8.1e", reading->error);
+    if (verdict) {
+        printf(" %8.1e", verdict->error_limit);
+        print_number(" %6.2f", 6, verdict->rate);
+        if (isnan(verdict->rate_limit))
+            printf(" %6s", "exact");
+        else if (verdict->rate_limit == 0.0)
+            printf(" %6s", "any");
+        else
+            printf(" %6.2f", verdict->rate_limit);
+        printf("  %s", verdict->passed ? "pass" : "FAIL");
+    }
+    puts("");
+}
+
+static void print_quantity(const OstVerifyReport *report, int quantity, int all)
+{
+    const OstVerify *verify = report->c->verify;
+    for (int r = 0; r < report->run_count; r++) {
+        const OstVerifyRun *run = &report->run[r];
+        const OstVerifyVerdict *verdict = &report->verdict[quantity * verify->step_count + run->step];
+        if (all || verdict->run == r)
+            print_reading(report, quantity, run, verdict->run == r ? verdict : NULL);
+    }
+}
+
+void ost_verify_print(const OstVerifyReport *report, int all)
+{
+    if (ost_rank(report->ctx) != 0)
+        return;
+    const OstVerify *verify = report->c->verify;
+    printf("%s: %s\n  %s\n", report->name, report->c->title, verify->source);
+    if (report->failure)
+        printf("  no answer: %s\n", report->failure);
+    else
+        printf("  %-24s %2s %9s %13s %13s %8s %8s %6s %6s\n", "", "", "unknowns", "expected", "obtained", "error",
+               "limit", "order", "least");
+    for (int q = 0; q < verify->quantity_count && !report->failure; q++)
+        print_quantity(report, q, all);
+    printf("  balance: force %.1e, moment %.1e, energy %.1e; %.1f s; %s\n\n", report->force_imbalance,
+           report->moment_imbalance, report->energy_imbalance, report->seconds, report->passed ? "pass" : "FAIL");
+    fflush(stdout);
+}
+
+void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
+{
+    int passed = 0;
+    double force = 0.0, moment = 0.0, energy = 0.0, seconds = 0.0;
+    if (count == 0 || ost_rank(reports[0]->ctx) != 0)
+        return;
+    for (int i = 0; i < count; i++) {
+        passed += reports[i]->passed;
+        force = fmax(force, reports[i]->force_imbalance);
+        moment = fmax(moment, reports[i]->moment_imbalance);
+        energy = fmax(energy, reports[i]->energy_imbalance);
+        seconds += reports[i]->seconds;
+    }
+    printf("%d of %d cases pass. Worst balance: force %.1e, moment %.1e, energy %.1e. %.0f s\n", passed, count, force,
+           moment, energy, seconds);
+    for (int i = 0; i < count; i++)
+        if (!reports[i]->passed)
+            printf("  failed: %s\n", reports[i]->name);
+}
+
+/* --- JSON --- */
+
+/* Numbers that JSON cannot write are null. */
+static json_t *number_json(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+static json_t *level_json(const OstVerifyRun *run, int quantity)
+{
+    const OstVerifyReading *reading = &run->reading[quantity];
+    return json_pack("{s:i, s:f, s:I, s:o, s:o, s:o}", "refinement", run->refinement, "h", run->h, "unknowns",
+                     (json_int_t)run->unknowns, "expected", number_json(reading->expected), "obtained",
+                     number_json(reading->obtained), "error", number_json(reading->error));
+}
+
+static json_t *step_json(const OstVerifyReport *report, int quantity, int step)
+{
+    const OstVerify *verify = report->c->verify;
+    const OstVerifyVerdict *verdict = &report->verdict[quantity * verify->step_count + step];
+    json_t *levels = json_array();
+    for (int r = 0; r < report->run_count; r++)
+        if (report->run[r].step == step)
+            json_array_append_new(levels, level_json(&report->run[r], quantity));
+    return json_pack("{s:i, s:o, s:f, s:o, s:o, s:b}", "order", verify->step[step].order, "levels", levels,
+                     "error_limit", verdict->error_limit, "rate", number_json(verdict->rate), "rate_limit",
+                     number_json(verdict->rate_limit), "passed", verdict->passed);
+}
+
+static json_t *quantities_json(const OstVerifyReport *report)
+{
+    const OstVerify *verify = report->c->verify;
+    json_t *quantities = json_array();
+    for (int q = 0; q < verify->quantity_count && !report->failure; q++) {
+        json_t *steps = json_array();
+        for (int s = 0; s < verify->step_count; s++)
+            if (report->verdict[q * verify->step_count + s].run >= 0)
+                json_array_append_new(steps, step_json(report, q, s));
+        json_array_append_new(quantities, json_pack("{s:s, s:b, s:o}", "name", verify->quantity[q].name, "field",
+                                                    verify->quantity[q].kind == OST_MEASURE_FIELD, "steps", steps));
+    }
+    return quantities;
+}
+
+static json_t *runs_json(const OstVerifyReport *report)
+{
+    json_t *runs = json_array();
+    for (int r = 0; r < report->run_count; r++) {
+        const OstVerifyRun *run = &report->run[r];
+        json_array_append_new(runs, json_pack("{s:i, s:i, s:I, s:I, s:f, s:f, s:i, s:o, s:o, s:o, s:o}", "order",
+                                              report->c->verify->step[run->step].order, "refinement", run->refinement,
+                                              "tets", (json_int_t)run->tets, "unknowns", (json_int_t)run->unknowns, "h",
+                                              run->h, "seconds", run->seconds, "iterations", run->iterations,
+                                              "relative_residual", number_json(run->checks.relative_residual),
+                                              "force_imbalance", number_json(run->checks.force_imbalance),
+                                              "moment_imbalance", number_json(run->checks.moment_imbalance),
+                                              "energy_imbalance", number_json(run->checks.energy_imbalance)));
+    }
+    return runs;
+}
+
+static json_t *case_json(const OstVerifyReport *report)
+{
+    const OstVerify *verify = report->c->verify;
+    return json_pack("{s:s, s:s, s:s, s:s, s:b, s:f, s:s?, s:o, s:o}", "name", report->name, "title", report->c->title,
+                     "formula", verify->formula, "source", verify->source, "passed", report->passed, "seconds",
+                     report->seconds, "failure", report->failure, "quantities", quantities_json(report), "runs",
+                     runs_json(report));
+}
+
+static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
+{
+    const size_t flags = JSON_INDENT(1) | JSON_REAL_PRECISION(12);
+    char partial[4096];
+    if (strcmp(path, "-") == 0) {
+        if (json_dumpf(document, stdout, flags) == 0 && puts("") >= 0)
+            return OST_SUCCESS;
+        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
+    }
+    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
+    if (length < 0 || (size_t)length >= sizeof partial)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
+    if (json_dump_file(document, partial, flags) == 0 && rename(partial, path) == 0)
+        return OST_SUCCESS;
+    const char *reason = strerror(errno);
+    remove(partial);
+    return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
+}
+
+OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *const *reports, int quick,
+                                const char *path)
+{
+    int passed = 1;
+    if (ost_rank(ctx) != 0)
+        return OST_SUCCESS;
+    json_t *cases = json_array();
+    for (int i = 0; i < count; i++) {
+        json_array_append_new(cases, case_json(reports[i]));
+        passed &= reports[i]->passed;
+    }
+    json_t *document =
+        json_pack("{s:b, s:b, s:i, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx), "cases", cases);
+    if (!document)
+        return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
+    const OstStatus status = write_file(ctx, document, path);
+    json_decref(document);
+    return status;
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/verify.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const double ost_verify_balance = 1e-10;
+const double ost_verify_energy_balance = 1e-9;
+
+/* Errors below this are rounding, and have no rate. */
+static const double rounding = 1e-10;
+
+static OstStatus body_volume(const OstMesh *mesh, double *volume)
+{
+    *volume = 0.0;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
+        *volume += ost_tet_volume(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet);
+    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, volume, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx)));
+}
+
+static OstStatus measure_all(const OstScene *scene, const OstResult *result, const OstExact *exact, OstVerifyRun *run)
+{
+    const OstVerify *verify = scene->c->verify;
+    double volume;
+    OST_TRY(body_volume(scene->mesh, &volume));
+    run->tets = scene->mesh->global_tets;
+    run->unknowns = result->unknowns;
+    run->h = cbrt(6.0 * volume / (double)run->tets);
+    run->iterations = result->solve.iterations;
+    run->checks = result->checks;
+    for (int q = 0; q < verify->quantity_count; q++)
+        OST_TRY(ost_verify_measure(scene, result, exact, &verify->quantity[q], &run->reading[q]));
+    return OST_SUCCESS;
+}
+
+static OstStatus solve_and_measure(const OstCase *c, const OstExact *exact, OstVerifyRun *run)
+{
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    const double start = ost_seconds();
+    OstStatus status = ost_scene_create(c, &scene);
+    if (status == OST_SUCCESS) {
+        scene->exact = &exact->field;
+        status = ost_scene_solve(scene, &result);
+    }
+    if (status == OST_SUCCESS)
+        status = measure_all(scene, result, exact, run);
+    run->seconds = ost_seconds() - start;
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    return status;
+}
+
+static OstStatus run_level(OstVerifyReport *report, const OstExact *exact, int step, int level)
+{
+    OstContext *ctx = report->ctx;
+    OstCase *c = report->c;
+    const OstVerifyStep *steps = &c->verify->step[step];
+    OST_TRY(ost_agree(ctx, OST_RESIZE(ctx, &report->run, report->run_count + 1)));
+    OstVerifyRun *run = &report->run[report->run_count++];
+    run->step = step;
+    run->refinement = steps->refinement[level];
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &run->reading, c->verify->quantity_count)));
+    c->order = steps->order;
+    c->refinement = run->refinement;
+    c->output_fields = 0;
+    return solve_and_measure(c, exact, run);
+}
+
+static OstStatus run_ladder(OstVerifyReport *report, const OstExact *exact, int quick)
+{
+    const OstVerify *verify = report->c->verify;
+    char what[256];
+    for (int s = 0; s < verify->step_count; s++) {
+        const int levels = quick ? verify->step[s].quick_count : verify->step[s].level_count;
+        for (int l = 0; l < levels; l++) {
+            snprintf(what, sizeof what, "%.150s: order %d, refined %d times", report->name, verify->step[s].order,
+                     verify->step[s].refinement[l]);
+            ost_progress(report->ctx, what, (double)l / levels);
+            OST_TRY(run_level(report, exact, s, l));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* --- what the readings say --- */
+
+static void find_last_runs(const OstVerifyReport *report, int step, int *last, int *before, int *count)
+{
+    *last = *before = -1;
+    *count = 0;
+    for (int r = 0; r < report->run_count; r++) {
+        if (report->run[r].step != step)
+            continue;
+        *before = *last;
+        *last = r;
+        (*count)++;
+    }
+}
+
+/* The error on the finest mesh of a quick run is as much larger as the rate foretells. */
+static void judge(const OstVerifyReport *report, int quantity, int step, OstVerifyVerdict *verdict)
+{
+    const OstVerifyQuantity *stated = &report->c->verify->quantity[quantity];
+    int last, before, count;
+    find_last_runs(report, step, &last, &before, &count);
+    *verdict = (OstVerifyVerdict){last, NAN, stated->error[step], stated->rate[step], 1};
+    if (last < 0)
+        return;
+    const int held_exactly = isnan(verdict->rate_limit);
+    const int missing = report->c->verify->step[step].level_count - count;
+    if (!held_exactly)
+        verdict->error_limit *= pow(2.0, verdict->rate_limit * missing);
+    const double error = report->run[last].reading[quantity].error;
+    verdict->passed = error <= verdict->error_limit;
+    for (int r = 0; r < report->run_count && held_exactly; r++)
+        if (report->run[r].step == step)
+            verdict->passed &= report->run[r].reading[quantity].error <= verdict->error_limit;
+    if (held_exactly || before < 0 || error < rounding)
+        return;
+    verdict->rate = log2(report->run[before].reading[quantity].error / error);
+    verdict->passed &= verdict->rate_limit == 0.0 || verdict->rate >= verdict->rate_limit;
+}
+
+static void find_worst_balance(OstVerifyReport *report)
+{
+    for (int r = 0; r < report->run_count; r++) {
+        const OstChecks *checks = &report->run[r].checks;
+        report->force_imbalance = fmax(report->force_imbalance, checks->force_imbalance);
+        report->moment_imbalance = fmax(report->moment_imbalance, checks->moment_imbalance);
+        report->energy_imbalance = fmax(report->energy_imbalance, checks->energy_imbalance);
+    }
+}
+
+static OstStatus conclude(OstVerifyReport *report)
+{
+    const OstVerify *verify = report->c->verify;
+    OST_TRY(OST_NEW(report->ctx, &report->verdict, verify->quantity_count * verify->step_count));
+    find_worst_balance(report);
+    report->passed = report->failure == NULL && report->force_imbalance <= ost_verify_balance &&
+                     report->moment_imbalance <= ost_verify_balance &&
+                     report->energy_imbalance <= ost_verify_energy_balance;
+    for (int q = 0; q < verify->quantity_count && !report->failure; q++)
+        for (int s = 0; s < verify->step_count; s++) {
+            OstVerifyVerdict *verdict = &report->verdict[q * verify->step_count + s];
+            judge(report, q, s, verdict);
+            report->passed &= verdict->passed;
+        }
+    return OST_SUCCESS;
+}
+
+/* A run without an answer is what verification is there to find; a file that is no case is not. */
+static OstStatus take_failure(OstVerifyReport *report, OstStatus status)
+{
+    if (status != OST_NOT_CONVERGED && status != OST_CHECK_FAILED)
+        return status;
+    return ost_agree(report->ctx, ost_copy_string(report->ctx, ost_error_text(report->ctx), &report->failure));
+}
+
+static OstStatus name_report(OstVerifyReport *report, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    OST_TRY(ost_copy_string(report->ctx, slash ? slash + 1 : path, &report->name));
+    char *dot = strrchr(report->name, '.');
+    if (dot && dot != report->name)
+        *dot = 0;
+    return OST_SUCCESS;
+}
+
+static OstStatus create_report(OstContext *ctx, const char *path, OstVerifyReport **report)
+{
+    OST_TRY(OST_NEW(ctx, report, 1));
+    (*report)->ctx = ctx;
+    return name_report(*report, path);
+}
+
+OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerifyReport **out)
+{
+    OstVerifyReport *report = NULL;
+    OstExact exact;
+    const double start = ost_seconds();
+    *out = NULL;
+    OstStatus status = ost_agree(ctx, create_report(ctx, path, &report));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_case_read(ctx, path, &report->c));
+    OST_TRY_DONE(ost_agree(ctx, ost_exact_create(report->c, &exact)));
+    OST_TRY_DONE(take_failure(report, run_ladder(report, &exact, quick)));
+    OST_TRY_DONE(ost_agree(ctx, conclude(report)));
+    report->seconds = ost_seconds() - start;
+done:
+    ost_progress(ctx, "", -1.0);
+    if (status != OST_SUCCESS)
+        ost_verify_report_destroy(&report);
+    *out = report;
+    return status;
+}
+
+void ost_verify_report_destroy(OstVerifyReport **report)
+{
+    if (!*report)
+        return;
+    for (int r = 0; r < (*report)->run_count; r++)
+        OST_FREE((*report)->run[r].reading);
+    OST_FREE((*report)->run);
+    OST_FREE((*report)->verdict);
+    OST_FREE((*report)->name);
+    OST_FREE((*report)->failure);
+    ost_case_destroy(&(*report)->c);
+    OST_FREE(*report);
+}

@@ -1,0 +1,163 @@
+"""Where solve writes: named before any work, refused where something would be lost; and what check says of it."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+
+from program import SOURCE, check, run
+
+CASE = """mesh:
+  block: {size: [2, 1, 1], divisions: [2, 1, 1]}
+materials:
+  - {region: all, youngs_modulus: 1000, poissons_ratio: 0.3}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: [0, 0, -1]}
+"""
+
+
+def write(folder, name, text):
+    with open(os.path.join(folder, name), "w") as stream:
+        stream.write(text)
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), "rb") as stream:
+        return stream.read()
+
+
+def refused(folder, words, *arguments):
+    """Refused in these words, once, with no file changed or left."""
+    before = {name: read(folder, name) for name in os.listdir(folder) if os.path.isfile(os.path.join(folder, name))}
+    finished = run("solve", *arguments, ranks=2, folder=folder)
+    where = f"solve {' '.join(arguments)[:200]}: exit {finished.exit_code}\n{finished.errors}"
+    check(finished.exit_code == 2, where)
+    check(finished.errors.count("orthostat: error:") == 1, where)
+    for word in words:
+        check(word in finished.errors, f"no '{word}': {where}")
+    for name, content in before.items():
+        check(read(folder, name) == content, f"{name} was changed: {where}")
+    check(not [name for name in os.listdir(folder) if name.endswith(".partial")], f"a part was left: {where}")
+
+
+def refuses_what_would_be_lost(folder):
+    write(folder, "case.yaml", CASE)
+    refused(folder, ["'case.yaml'", ".vtkhdf"], "case.yaml", "-o", "case.yaml")
+    refused(folder, ["'fields.vtu'", ".vtkhdf"], "case.yaml", "-o", "fields.vtu")
+    refused(folder, ["over the case itself"], "case.yaml", "--json", "case.yaml")
+    refused(folder, ["over the case itself"], "case.yaml", "--json", "./folder/../case.yaml")
+    os.symlink("case.yaml", os.path.join(folder, "linked.json"))
+    refused(folder, ["over the case itself"], "case.yaml", "--json", "linked.json")
+    shutil.copy(os.path.join(folder, "case.yaml"), os.path.join(folder, "case.vtkhdf"))
+    refused(folder, ["over the case itself"], "case.vtkhdf")
+    refused(folder, ["cannot both"], "case.yaml", "-o", "same.vtkhdf", "--json", "folder/../same.vtkhdf")
+    refused(folder, ["'folder'", "not a regular file"], "case.yaml", "--json", "folder")
+    refused(folder, ["'folder.vtkhdf'", "not a regular file"], "case.yaml", "-o", "folder.vtkhdf")
+    refused(folder, ["'/dev/null'", "not a regular file"], "case.yaml", "--json", "/dev/null")
+    refused(folder, ["names no file"], "case.yaml", "--json", "")
+
+
+def refuses_folders_that_are_not_there(folder):
+    refused(folder, ["folder 'nowhere'", "No such file"], "case.yaml", "-o", "nowhere/result.vtkhdf")
+    refused(folder, ["folder 'nowhere'", "No such file"], "case.yaml", "--json", "nowhere//x.json")
+    refused(folder, ["'case.yaml' is not a folder"], "case.yaml", "--json", "case.yaml/x.json")
+    write(folder, "lost.yaml", CASE + "output: {file: nowhere/x.vtkhdf}\n")
+    refused(folder, ["folder 'nowhere'"], "lost.yaml")
+    if os.getuid() != 0:
+        os.mkdir(os.path.join(folder, "shut"), 0o500)
+        refused(folder, ["folder 'shut' is closed to writing"], "case.yaml", "--json", "shut/x.json")
+
+
+def refuses_what_is_too_long(folder):
+    refused(folder, ["letters, more than"], "case.yaml", "-o", "x" * 250 + ".vtkhdf")
+    refused(folder, ["letters, more than"], "case.yaml", "-o", "./" * 97 + "x.vtkhdf")
+    refused(folder, ["letters, more than"], "case.yaml", "--json", "./" * 2050 + "x.json")
+    long = "c" * 245 + ".yaml"  # with another ending it would not fit
+    write(folder, long, CASE)
+    refused(folder, ["letters, more than"], long)
+    os.remove(os.path.join(folder, long))
+    # Open MPI overruns a buffer where the path of the file of fields has some 230 letters and above.
+    finished = run("solve", "-q", "case.yaml", "-o", "./" * 92 + "x.vtkhdf", "--json", "./" * 2030 + "x.json",
+                   folder=folder)
+    check(finished.exit_code == 0 and os.path.exists(os.path.join(folder, "x.vtkhdf")),
+          f"a path just short enough: {finished.errors}")
+
+
+def refuses_the_mesh_it_reads(folder):
+    finished = run("solve", "-q", "case.yaml", "-o", "mesh.vtkhdf", folder=folder)
+    check(finished.exit_code == 0, f"a mesh to read: {finished.errors}")
+    write(folder, "again.yaml", CASE.replace("block: {size: [2, 1, 1], divisions: [2, 1, 1]}", "file: mesh.vtkhdf"))
+    finished = run("solve", "-q", "again.yaml", "--json", "again.json", ranks=2, folder=folder)
+    check(finished.exit_code == 0, f"the mesh is read: {finished.errors}")
+    refused(folder, ["over the mesh that the case reads"], "again.yaml", "-o", "mesh.vtkhdf")
+    refused(folder, ["over the mesh that the case reads"], "again.yaml", "--json", "folder/../mesh.vtkhdf")
+    write(folder, "held.bou", "1,2,3,4")
+    write(folder, "listed.yaml", CASE.replace("boundary: xmin", "vertices: held.bou"))
+    refused(folder, ["over a list of vertices that the case reads"], "listed.yaml", "--json", "held.bou")
+
+
+def check_says_where_it_goes(folder):
+    finished = run("check", "case.yaml", folder=folder)
+    check(finished.exit_code == 0 and not finished.errors, f"check: {finished.errors}")
+    check("12 vertices, 12 tets, 1 region, 1 constraint on 4 vertices, 1 load\n" in finished.output
+          and "to case.vtkhdf\n" in finished.output, f"check: {finished.output}")
+    finished = run("check", "lost.yaml", "--json", ranks=2, folder=folder)
+    check(finished.exit_code == 0, f"check --json: {finished.errors}")
+    found = json.loads(finished.output)
+    check(found["vertices"] == 12 and found["tets"] == 12 and found["regions"] == ["block"], f"check --json: {found}")
+    check(sorted(found["boundaries"]) == ["xmax", "xmin", "ymax", "ymin", "zmax", "zmin"], f"check --json: {found}")
+    check(found["output"] == "nowhere/x.vtkhdf" and len(found["warnings"]) == 1 and "'nowhere'" in found["warnings"][0],
+          f"check --json: {found}")
+
+
+def a_body_at_rest_is_pointed_out(folder):
+    write(folder, "rest.yaml", CASE[:CASE.index("loads:")])
+    finished = run("solve", "rest.yaml", folder=folder)
+    check(finished.exit_code == 0 and finished.errors.count("nothing acts on the body") == 1, f"{finished.errors}")
+    found = json.loads(run("check", "-q", "rest.yaml", "--json", folder=folder).output)
+    check(len(found["warnings"]) == 1 and "nothing acts on the body" in found["warnings"][0], f"{found}")
+    write(folder, "moved.yaml", CASE[:CASE.index("loads:")] +
+          "  - {on: {boundary: xmax}, displacement: [0.1, free, free]}\n")
+    finished = run("solve", "moved.yaml", folder=folder)
+    check(finished.exit_code == 0 and not finished.errors, f"a displacement acts: {finished.errors}")
+
+
+def the_script_takes_words_in_any_order(folder):
+    """scripts/orthostat hands on what comes first; its program here is one that says how it was called."""
+    scripts = os.path.join(folder, "scripts")
+    os.mkdir(scripts)
+    shutil.copy(os.path.join(SOURCE, "scripts", "orthostat"), scripts)
+    write(scripts, "environment", f"cores=3 build={folder}/bin\nbuild_program() {{ :; }}\n"
+          f"mpirun() {{ echo mpirun \"$@\"; }}\nexec() {{ \"$@\"; exit 0; }}\n")
+    os.mkdir(os.path.join(folder, "bin"))
+    write(folder, "bin/orthostat", "#!/bin/sh\necho alone \"$@\"\n")
+    os.chmod(os.path.join(folder, "bin", "orthostat"), 0o755)
+    program = os.path.join(folder, "bin", "orthostat")
+    for words, expected in [
+            ("-q -n 2 solve a.yaml -v", f"mpirun --quiet -n 2 {program} -q solve a.yaml -v"),
+            ("-n 2 -v -q check a.yaml", f"mpirun --quiet -n 2 {program} -v -q check a.yaml"),
+            ("solve -n", f"mpirun --quiet -n 3 {program} solve -n"),
+            ("-v material x", "alone -v material x"),
+            ("-q --help", "alone -q --help"),
+            ("-n 2", "alone")]:
+        said = subprocess.run(["bash", os.path.join(scripts, "orthostat"), *words.split()], text=True,
+                              stdout=subprocess.PIPE).stdout.strip()
+        check(said == expected, f"scripts/orthostat {words}: {said}")
+
+
+def main():
+    folder = tempfile.mkdtemp(prefix="orthostat-")
+    os.mkdir(os.path.join(folder, "folder"))
+    os.mkdir(os.path.join(folder, "folder.vtkhdf"))
+    refuses_what_would_be_lost(folder)
+    refuses_folders_that_are_not_there(folder)
+    refuses_what_is_too_long(folder)
+    refuses_the_mesh_it_reads(folder)
+    check_says_where_it_goes(folder)
+    a_body_at_rest_is_pointed_out(folder)
+    the_script_takes_words_in_any_order(folder)
+
+
+main()

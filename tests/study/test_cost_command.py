@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`orthostat cost` as a user calls it: the list, its files and its picture."""
+import csv
+import io
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["ORTHOSTAT_PROGRAM"]
+MPIEXEC = os.environ["ORTHOSTAT_MPIEXEC"]
+SOURCE = os.environ["ORTHOSTAT_SOURCE"]
+CASE = """title: a cantilever
+mesh: {block: {size: [4, 1, 1], divisions: [4, 1, 1]}}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [0, 0, -1]}]
+watch:
+  tip: {displacement: {nearest: [4, 1, 0]}, component: z}
+"""
+LADDER = ["--tolerances", "1e-2,1e-8"]
+
+
+def run(*arguments, ranks=1, folder=None):
+    command = [PROGRAM, "cost", *arguments]
+    if ranks > 1:
+        command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100, stdin=subprocess.DEVNULL)
+
+
+class Cost(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="orthostat-")
+        with open(self.path("beam.yaml"), "w") as stream:
+            stream.write(CASE)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def cost(self, *arguments, ranks=1):
+        finished = run("beam.yaml", *arguments, ranks=ranks, folder=self.folder)
+        self.assertEqual(finished.returncode, 0, finished)
+        return finished
+
+    def refuse(self, text, *arguments):
+        finished = run(*arguments, folder=self.folder)
+        self.assertEqual(finished.returncode, 2, finished)
+        self.assertIn(text, finished.stderr)
+
+    def test_everything_is_in_the_files(self):
+        finished = self.cost(*LADDER, "--csv", "p.csv", "--json", "p.json", ranks=2)
+        self.assertEqual(finished.stdout.count("cheapest for an error of"), 1)
+        with open(self.path("p.json")) as stream:
+            study = json.load(stream)
+        with open(self.path("p.csv"), newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual(study["ranks"], 2)
+        self.assertEqual(len(rows), 12)
+        self.assertEqual(len(study["runs"]), 12)
+        # Order 2 of one mesh against order 1 of its refinement, which has the same nodes.
+        error = {(one["order"], one["refinement"]): one["answers"]["tip"]["error"] for one in study["runs"]}
+        for r in (0, 1):
+            self.assertLess(error[2, r], 0.3 * error[1, r + 1])
+        for row, one in zip(rows, study["runs"]):
+            self.assertEqual(one["state"], "done", one)
+            self.assertEqual(int(row["unknowns"]), one["unknowns"])
+            self.assertEqual(float(row["seconds"]), one["seconds"])
+            self.assertEqual(float(row["tip"]), one["answers"]["tip"]["value"])
+            self.assertEqual(float(row["tip error"]), one["answers"]["tip"]["error"])
+            self.assertEqual(float(row["setup_seconds"]), one["phase_seconds"]["setup"])
+        sizes = {(one["order"], one["refinement"]): one["tets"] for one in study["runs"]}
+        self.assertEqual(sizes[1, 1], 8 * sizes[1, 0])
+        self.assertEqual(sizes[2, 2], 64 * sizes[1, 0])
+        self.assertEqual([entry["name"] for entry in study["quantities"]], ["energy", "tip"])
+        self.assertFalse([name for name in os.listdir(self.folder) if "partial" in name])
+
+    def test_ranks_do_not_change_the_answers(self):
+        answers = []
+        for ranks in (1, 2):
+            found = json.loads(self.cost("--tolerances", "1e-11", "--refinements", "0,1", "--json", "-", ranks=ranks).stdout)
+            answers.append([one["answers"]["tip"]["value"] for one in found["runs"]])
+        for one, two in zip(*answers):
+            self.assertAlmostEqual(one, two, delta=1e-9 * abs(one))
+
+    def test_max_time_leaves_runs_out(self):
+        found = json.loads(self.cost(*LADDER, "--max-time", "1e-6", "--json", "-").stdout)
+        states = [one["state"] for one in found["runs"]]
+        self.assertEqual(states, ["done"] + 11 * ["not run"])
+        self.assertTrue(found["runs"][1]["reason"].startswith("about "))
+        table = self.cost(*LADDER, "--max-time", "1e-6").stdout
+        self.assertEqual(table.count("not run (about "), 11)
+
+    def test_csv_goes_to_standard_output_alone(self):
+        rows = list(csv.DictReader(io.StringIO(self.cost(*LADDER, "--orders", "1", "--refinements", "0", "--csv", "-").stdout)))
+        self.assertEqual([row["order"] for row in rows], ["1", "1"])
+        self.assertEqual(rows[0]["tip error"], "", "the finest answer knows nothing of itself")
+
+    def test_picture_is_drawn(self):
+        self.assertEqual(self.cost(*LADDER, "-q", "--picture", "p.png").stdout, "")
+        with open(self.path("p.png"), "rb") as stream:
+            self.assertEqual(stream.read(8), b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["beam.yaml", "p.png"])
+
+    def test_plot_cost_refuses_what_is_no_price_list(self):
+        script = os.path.join(SOURCE, "scripts", "plot-cost")
+        finished = subprocess.run([script, self.path("beam.yaml"), self.path("p.png")], capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 2)
+        self.assertIn("not a price list", finished.stderr)
+
+    def test_mistakes_are_refused(self):
+        self.refuse("--orders takes", "beam.yaml", "--orders", "1;2")
+        self.refuse("--tolerances takes", "beam.yaml", "--tolerances", "1e-2,")
+        self.refuse("order 1 or 2, not 3", "beam.yaml", "--orders", "3")
+        self.refuse("0 to 8 times", "beam.yaml", "--refinements", "9")
+        self.refuse("below 1", "beam.yaml", "--tolerances", "2")
+        self.refuse("above 0", "beam.yaml", "--max-time", "no")
+        self.refuse("which case", *LADDER)
+        self.refuse("cannot write 'nowhere/p.csv'", "beam.yaml", "--orders", "1", "--refinements", "0", "--csv", "nowhere/p.csv")
+
+    def test_all_refused_is_a_failure_with_its_reason(self):
+        with open(self.path("beam.yaml"), "a") as stream:
+            stream.write("solver: {recipe: metric, max_iterations: 1}\n")
+        finished = run("beam.yaml", "--orders", "1", "--refinements", "2", "--tolerances", "1e-12", folder=self.folder)
+        self.assertEqual(finished.returncode, 1, finished)
+        self.assertIn("1 iteration", finished.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/case_text.h"
+
+static void watched(const char *text, OstCase **c)
+{
+    char whole[1024];
+    snprintf(whole, sizeof whole, "%s%swatch: %s\n", cube, steel, text);
+    assert_success(read_text(whole, c));
+}
+
+static void refused(const char *text, const char *expected)
+{
+    char whole[1024];
+    snprintf(whole, sizeof whole, "%s%swatch: %s\n", cube, steel, text);
+    assert_refused(whole, expected);
+}
+
+static void watches_are_read(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    watched("{tip: {displacement: {nearest: [1, 0.5, 0]}, component: y}, e: strain_energy, "
+            "held: {reaction: {boundary: xmin}}}",
+            &c);
+    assert_int_equal(c->watch_count, 3);
+    assert_string_equal(c->watches[0].name, "tip");
+    assert_int_equal(c->watches[0].kind, OST_WATCH_DISPLACEMENT);
+    assert_int_equal(c->watches[0].on.kind, OST_SELECT_NEAREST);
+    assert_close(c->watches[0].on.point[1], 0.5, 0.0);
+    assert_int_equal(c->watches[0].component, 1);
+    assert_int_equal(c->watches[1].kind, OST_WATCH_STRAIN_ENERGY);
+    assert_int_equal(c->watches[2].kind, OST_WATCH_REACTION);
+    assert_string_equal(c->watches[2].on.boundaries.name[0], "xmin");
+    assert_int_equal(c->watches[2].component, OST_WATCH_LENGTH);
+    assert_int_equal(c->watches[2].line, 3);
+    ost_case_destroy(&c);
+}
+
+static void wrong_watches_are_refused_where_they_stand(void **state)
+{
+    (void)state;
+    refused("[tip]", "3:8: watch: found a list of 1, expected a name for each quantity...");
+    refused("{tip: stress}", "3:14: watch.tip: found 'stress', expected strain_energy...");
+    refused("{tip: {displacement: {boundary: xmin}}}", "3:29: the displacement of a place is watched...");
+    refused("{tip: {component: x}}", "3:14: watch.tip has none of displacement, reaction...");
+    refused("{tip: {displacement: {nearest: [1, 0, 0]}, component: w}}", "3:62: ...");
+    refused("{tip: {displacment: {nearest: [1, 0, 0]}}}", "3:15: unknown key 'displacment' in watch.tip...");
+    refused("{tip: strain_energy, tip: strain_energy}", "3:29: 'tip' is watched twice, the first time in line 3...");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(watches_are_read),
+    cmocka_unit_test(wrong_watches_are_refused_where_they_stand),
+};
+
+OST_TEST_MAIN(tests)
