@@ -93,6 +93,8 @@ typedef struct OstWatch {
     int line;
     OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
     int component;   /* 0 to 2, or OST_WATCH_LENGTH */
+    double expected; /* by a formula; NaN: not known */
+    char *source;    /* of that formula; or NULL */
 } OstWatch;
 
 typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_SECTOR, OST_MESH_OCTANT, OST_MESH_FILE } OstMeshKind;

@@ -50,4 +50,8 @@ int ost_plan_acts(const OstCase *c, const OstPlan *plan);
 /* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. */
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 
+/* Local. Turns the counts of a mesh file into those of the mesh that the case makes of it, refined and in its order:
+ * the tets exactly, the nodes about. */
+void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets);
+
 #endif

@@ -89,6 +89,7 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field)
     OstLanes blocks[BLOCK_NUMBERS];
     double numbers[BLOCK_NUMBERS * OST_LANES];
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.metric_suffices = element->points == 0; /* the stiffness is all that is asked of this batch */
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
         fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_LANES, mesh->tet_count),
                     pairs * (size_t)least(first + 2 * OST_LANES, mesh->tet_count), system->matrix->value);

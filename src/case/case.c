@@ -208,6 +208,7 @@ void ost_case_destroy(OstCase **c)
     }
     for (int i = 0; i < (*c)->watch_count; i++) {
         OST_FREE((*c)->watches[i].name);
+        OST_FREE((*c)->watches[i].source);
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);

@@ -155,22 +155,40 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
     const OstGlobal nodal = c->order == 2 ? 2 * fine : fine;
     const OstTubeShape *tube = &c->tube;
     const OstSectorShape *sector = &c->sector;
+    const OstGlobal around = c->octant.around;
     const OstLocal *n = c->block.divisions;
     *nodes = *tets = 0;
     if (c->mesh_kind == OST_MESH_TUBE) {
         *nodes = (nodal * tube->axial + 1) * nodal * tube->around * (nodal * tube->radial + 1);
-        *tets = 6 * fine * fine * fine * tube->axial * tube->around * tube->radial;
+        *tets = (OstGlobal)6 * tube->axial * tube->around * tube->radial;
     } else if (c->mesh_kind == OST_MESH_SECTOR) {
-        *nodes = ((OstGlobal)sector->axial + 1) * (sector->around + 1) * ((OstGlobal)sector->radial + 1);
+        *nodes = (nodal * sector->axial + 1) * (nodal * sector->around + 1) * (nodal * sector->radial + 1);
         *tets = (OstGlobal)6 * sector->axial * sector->around * sector->radial;
     } else if (c->mesh_kind == OST_MESH_OCTANT) {
-        const OstGlobal around = c->octant.around;
-        *nodes = (3 * around * (around + 1) + 1) * ((OstGlobal)c->octant.radial + 1);
+        *nodes = (3 * nodal * around * (nodal * around + 1) + 1) * (nodal * c->octant.radial + 1);
         *tets = 18 * around * around * c->octant.radial;
     } else if (c->mesh_kind == OST_MESH_BLOCK) {
         *nodes = (nodal * n[0] + 1) * (nodal * n[1] + 1) * (nodal * n[2] + 1);
-        *tets = 6 * fine * fine * fine * n[0] * n[1] * n[2];
+        *tets = (OstGlobal)6 * n[0] * n[1] * n[2];
     }
+    *tets *= fine * fine * fine;
+}
+
+void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets)
+{
+    /* A tet mesh has about 7/6 edges a tet; a refinement or a rise in order puts a node on each, a refinement of
+     * quadratic tets is one of its vertices, raised. */
+    int quadratic = nodes_per_tet == 10;
+    if (quadratic)
+        *nodes -= 7 * *tets / 6;
+    for (int r = 0; r < c->refinement; r++) {
+        *nodes += 7 * *tets / 6;
+        *tets *= 8;
+    }
+    if (c->order != 0)
+        quadratic = c->order == 2;
+    if (quadratic)
+        *nodes += 7 * *tets / 6;
 }
 
 int ost_plan_acts(const OstCase *c, const OstPlan *plan)

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 static OstStatus read_component(const OstYaml *yaml, const OstYamlKey *key, OstWatch *watch)
@@ -36,25 +37,52 @@ static OstStatus read_word(const OstYaml *yaml, const OstYamlNode *node, OstWatc
     return OST_SUCCESS;
 }
 
+/* The energy has no component, and is that of the whole body. */
+static OstStatus read_energy(const OstYaml *yaml, const OstYamlNode *node, const OstYamlNode *component)
+{
+    static const char *const words[] = {"all"};
+    int which;
+    if (component)
+        return ost_yaml_raise(yaml, component, "the strain energy has no component; leave it out");
+    return ost_yaml_word(yaml, node, "strain_energy", words, OST_COUNT_OF(words), &which);
+}
+
+static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *expected, const OstYamlNode *source,
+                               OstWatch *watch)
+{
+    if (expected)
+        OST_TRY(ost_yaml_number(yaml, expected, &watch->expected));
+    else if (source)
+        return ost_yaml_raise(yaml, source, "found a source of no number; give the number too, as expected: 0.25");
+    return source ? ost_read_string(yaml, source, &watch->source) : OST_SUCCESS;
+}
+
 static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
-    enum { FORMS = OST_WATCH_REACTION + 1, COMPONENT = FORMS };
+    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
         [OST_WATCH_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
         [OST_WATCH_REACTION] = {"reaction", OST_OPTIONAL, NULL},
+        [OST_WATCH_STRAIN_ENERGY] = {"strain_energy", OST_OPTIONAL, NULL},
         [COMPONENT] = {"component", OST_OPTIONAL, NULL},
+        [EXPECTED] = {"expected", OST_OPTIONAL, NULL},
+        [SOURCE] = {"source", OST_OPTIONAL, NULL},
     };
     int form;
     watch->line = ost_yaml_line(node);
     watch->component = OST_WATCH_LENGTH;
+    watch->expected = NAN;
     if (ost_yaml_is(yaml, node, OST_YAML_SCALAR))
         return read_word(yaml, node, watch);
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
     OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
+    OST_TRY(read_expected(yaml, keys[EXPECTED].value, keys[SOURCE].value, watch));
     watch->kind = (OstWatchKind)form;
-    return form == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)
-                                          : ost_read_selection(yaml, keys[form].value, &watch->on);
+    if (watch->kind == OST_WATCH_STRAIN_ENERGY)
+        return read_energy(yaml, keys[form].value, keys[COMPONENT].value);
+    return watch->kind == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)
+                                                 : ost_read_selection(yaml, keys[form].value, &watch->on);
 }
 
 static OstStatus check_new_name(const OstYaml *yaml, const OstYamlNode *key, const OstCase *c, const char *name)

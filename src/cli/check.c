@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "core/error.h"
@@ -7,50 +8,12 @@
 #include "solve/boundary_conditions.h"
 #include "solve/freedom.h"
 
-#include <argp.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
-typedef struct Arguments {
-    const char *path;
-    int json;
-} Arguments;
-
-static const struct argp_option options[] = {
-    {"json", 'j', 0, 0, "Print what was found as JSON", 0},
-    {0},
-};
-
-static error_t parse_argument(int key, char *value, struct argp_state *state)
-{
-    Arguments *arguments = state->input;
-    switch (key) {
-    case 'j':
-        arguments->json = 1;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (arguments->path)
-            argp_error(state, "one case at a time; '%s' is a second one", value);
-        arguments->path = value;
-        return 0;
-    case ARGP_KEY_END:
-        if (!arguments->path)
-            argp_error(state, "which case? Name its file");
-        return arguments->path ? 0 : EINVAL;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static const struct argp argp = {
-    options,
-    parse_argument,
-    "CASE",
-    "Read a case, make its mesh, materials, axes and selections, and say what is wrong with them. Nothing is solved.",
-    NULL,
-    NULL,
-    NULL};
+static const char doc[] =
+    "Read a case, make its mesh, materials, axes and selections, and say what is wrong with them. Nothing is solved.";
 
 /* What the checks found beyond errors. */
 typedef struct Findings {
@@ -205,7 +168,7 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
                   : OST_SUCCESS;
 }
 
-static OstStatus look_at_case(OstContext *ctx, const Arguments *arguments, Findings *findings)
+static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments, Findings *findings)
 {
     OstCase *c = NULL;
     OstScene *scene = NULL;
@@ -228,7 +191,7 @@ done:
     return status;
 }
 
-static OstStatus check_case(OstContext *ctx, const Arguments *arguments)
+static OstStatus check_case(OstContext *ctx, const OstCaseArguments *arguments)
 {
     Findings findings = {.warnings = json_array()};
     ost_warn_listen(ctx, hear_warning, &findings);
@@ -240,9 +203,9 @@ static OstStatus check_case(OstContext *ctx, const Arguments *arguments)
 
 int ost_cli_check(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {0};
+    OstCaseArguments arguments = {0};
     int exit_code;
-    if (!ost_cli_parse(ctx, &argp, argc, argv, &arguments, &exit_code))
+    if (!ost_cli_parse_case(ctx, doc, argc, argv, &arguments, &exit_code))
         return exit_code;
     return ost_cli_finish(ctx, check_case(ctx, &arguments));
 }

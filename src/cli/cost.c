@@ -2,6 +2,8 @@
 #include "cli/command.h"
 
 #include "cli/cost_picture.h"
+#include "cli/destination.h"
+#include "core/error.h"
 #include "study/cost.h"
 
 #include <argp.h>
@@ -154,6 +156,15 @@ static OstStatus report(const OstCost *cost, const Arguments *arguments)
     return ost_agree(cost->ctx, status);
 }
 
+/* Before anything runs: what is asked for can be written. */
+static OstStatus check_reports(const OstCase *c, const Arguments *arguments)
+{
+    const char *const paths[] = {arguments->csv, arguments->json, arguments->picture};
+    if (is_stdout(arguments->picture))
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it");
+    return ost_check_reports(c, (int)(sizeof paths / sizeof *paths), paths);
+}
+
 static OstStatus price(OstContext *ctx, Arguments *arguments)
 {
     OstCase *c = NULL;
@@ -161,6 +172,8 @@ static OstStatus price(OstContext *ctx, Arguments *arguments)
     OstStatus status = ost_cost_machine_bytes(ctx, &arguments->ladder.max_bytes);
     if (status == OST_SUCCESS)
         status = ost_case_read(ctx, arguments->case_path, &c);
+    if (status == OST_SUCCESS)
+        status = check_reports(c, arguments);
     if (status == OST_SUCCESS)
         status = ost_cost_create(c, &arguments->ladder, &cost);
     if (status == OST_SUCCESS)

@@ -149,3 +149,22 @@ OstStatus ost_check_destinations(const OstCase *c, const char *output, const cha
 {
     return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_destinations(c, output, json) : OST_SUCCESS);
 }
+
+static OstStatus check_reports(const OstCase *c, int count, const char *const *paths)
+{
+    for (int i = 0; i < count; i++) {
+        const int prints = paths[i] && strcmp(paths[i], "-") == 0;
+        if (paths[i] && !prints)
+            OST_TRY(check_file(c, paths[i]));
+        for (int j = 0; j < i; j++)
+            if (paths[i] && paths[j] && (prints ? strcmp(paths[j], "-") == 0 : is_same_place(paths[i], paths[j])))
+                return OST_RAISE(c->ctx, OST_INVALID_USAGE, "two reports cannot both go to %s%s%s", prints ? "" : "'",
+                                 prints ? "standard output" : paths[i], prints ? "" : "'");
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_check_reports(const OstCase *c, int count, const char *const *paths)
+{
+    return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_reports(c, count, paths) : OST_SUCCESS);
+}

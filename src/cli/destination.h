@@ -15,4 +15,8 @@ OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_L
  * and not the other. Raises naming what is in the way. */
 OstStatus ost_check_destinations(const OstCase *c, const char *output, const char *json);
 
+/* Collective; rank 0 looks. Can a report be written to each path (NULL: there is none; "-": standard output)? They are
+ * bound as above, and all differ. */
+OstStatus ost_check_reports(const OstCase *c, int count, const char *const *paths);
+
 #endif

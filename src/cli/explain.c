@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "core/error.h"
 #include "orthostat/case.h"
@@ -6,50 +7,11 @@
 #include "orthostat/solver.h"
 #include "output/summary.h"
 
-#include <argp.h>
 #include <jansson.h>
 #include <stdio.h>
 
-typedef struct Arguments {
-    const char *path;
-    int json;
-} Arguments;
-
-static const struct argp_option options[] = {
-    {"json", 'j', 0, 0, "Print the plan as JSON", 0},
-    {0},
-};
-
-static error_t parse_argument(int key, char *value, struct argp_state *state)
-{
-    Arguments *arguments = state->input;
-    switch (key) {
-    case 'j':
-        arguments->json = 1;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (arguments->path)
-            argp_error(state, "one case at a time; '%s' is a second one", value);
-        arguments->path = value;
-        return 0;
-    case ARGP_KEY_END:
-        if (!arguments->path)
-            argp_error(state, "which case? Name its file");
-        return arguments->path ? 0 : EINVAL;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static const struct argp argp = {options,
-                                 parse_argument,
-                                 "CASE",
-                                 "Say which effects a case calls for and why, how it will be solved, and how large the "
-                                 "job is, before anything large "
-                                 "is made.",
-                                 NULL,
-                                 NULL,
-                                 NULL};
+static const char doc[] = "Say which effects a case calls for and why, how it will be solved, and how large the job "
+                          "is, before anything large is made.";
 
 /* Shapes are known by their divisions; a file is read for its counts and materials. */
 static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
@@ -64,6 +26,7 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
         OST_TRY_DONE(ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials));
         nodes = chunk->global_nodes;
         tets = chunk->global_tets;
+        ost_plan_file_size(c, chunk->nodes_per_tet, &nodes, &tets);
     }
     ost_plan_make(c, nodes, tets, materials, ost_size(ctx), plan);
 done:
@@ -120,11 +83,11 @@ static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 
 int ost_cli_explain(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {0};
+    OstCaseArguments arguments = {0};
     OstCase *c = NULL;
     OstPlan plan;
     int exit_code;
-    if (!ost_cli_parse(ctx, &argp, argc, argv, &arguments, &exit_code))
+    if (!ost_cli_parse_case(ctx, doc, argc, argv, &arguments, &exit_code))
         return exit_code;
     OstStatus status = ost_case_read(ctx, arguments.path, &c);
     if (status == OST_SUCCESS)

@@ -2,6 +2,7 @@
 #include "study/verify.h"
 
 #include "cli/command.h"
+#include "cli/destination.h"
 #include "cli/script.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -131,20 +132,67 @@ static OstStatus find_cases(OstContext *ctx, const Arguments *arguments, CaseLis
     return OST_MPI(ctx, MPI_Bcast(list->path, list->count * LONGEST_PATH, MPI_CHAR, 0, ost_comm(ctx)));
 }
 
+/* --- where it goes --- */
+
+/* The files in the folder of the picture. */
+typedef struct PicturePaths {
+    char readings[LONGEST_PATH];
+    char picture[LONGEST_PATH];
+} PicturePaths;
+
+static OstStatus name_picture(OstContext *ctx, const char *folder, PicturePaths *paths)
+{
+    const int length = snprintf(paths->readings, LONGEST_PATH, "%s/verify.json", folder);
+    if (length < 0 || length >= LONGEST_PATH)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
+    snprintf(paths->picture, LONGEST_PATH, "%.4000s/verify.png", folder);
+    return OST_SUCCESS;
+}
+
+static OstStatus make_folder(OstContext *ctx, const char *folder)
+{
+    return mkdir(folder, 0777) == 0 || errno == EEXIST
+               ? OST_SUCCESS
+               : OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
+}
+
+static OstStatus check_case_is_safe(OstContext *ctx, const char *case_path, int count, const char *const *paths)
+{
+    OstCase *c = NULL;
+    OstStatus status = ost_case_read(ctx, case_path, &c);
+    if (status == OST_SUCCESS)
+        status = ost_check_reports(c, count, paths);
+    ost_case_destroy(&c);
+    return status;
+}
+
+/* Before anything runs: what is asked for can be written, over none of the cases. The readings beside the picture may
+ * be those of --json. */
+static OstStatus check_destinations(OstContext *ctx, const Arguments *arguments, const CaseList *list)
+{
+    PicturePaths beside;
+    const char *const drawn[] = {beside.readings, beside.picture};
+    for (int i = 0; arguments->json && i < list->count; i++)
+        OST_TRY(check_case_is_safe(ctx, list->path[i], 1, &arguments->json));
+    if (!arguments->picture)
+        return OST_SUCCESS;
+    OST_TRY(name_picture(ctx, arguments->picture, &beside));
+    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? make_folder(ctx, arguments->picture) : OST_SUCCESS));
+    for (int i = 0; i < list->count; i++)
+        OST_TRY(check_case_is_safe(ctx, list->path[i], 2, drawn));
+    return OST_SUCCESS;
+}
+
 /* --- what becomes of them --- */
 
 static OstStatus draw(OstContext *ctx, int count, OstVerifyReport *const *reports, const Arguments *arguments)
 {
-    char readings[LONGEST_PATH];
-    const int length = snprintf(readings, sizeof readings, "%s/verify.json", arguments->picture);
+    PicturePaths paths;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
-    if (length < 0 || (size_t)length >= sizeof readings)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", arguments->picture);
-    if (mkdir(arguments->picture, 0777) != 0 && errno != EEXIST)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", arguments->picture, strerror(errno));
-    OST_TRY(ost_verify_write_json(ctx, count, reports, arguments->quick, readings));
-    return ost_cli_run_script(ctx, "plot-verify", readings, arguments->picture);
+    OST_TRY(name_picture(ctx, arguments->picture, &paths));
+    OST_TRY(ost_verify_write_json(ctx, count, reports, arguments->quick, paths.readings));
+    return ost_cli_run_script(ctx, "plot-verify", paths.readings, arguments->picture);
 }
 
 static OstStatus run_all(OstContext *ctx, const Arguments *arguments, const CaseList *list, OstVerifyReport **reports)
@@ -167,6 +215,8 @@ static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_pa
     CaseList list = {0, NULL};
     OstVerifyReport **reports = NULL;
     OstStatus status = find_cases(ctx, arguments, &list);
+    if (status == OST_SUCCESS)
+        status = check_destinations(ctx, arguments, &list);
     if (status == OST_SUCCESS)
         status = ost_agree(ctx, OST_NEW(ctx, &reports, list.count));
     if (status == OST_SUCCESS)

@@ -4,6 +4,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -68,6 +69,13 @@ void ost_warn(OstContext *ctx, const char *format, ...)
     va_end(arguments);
 }
 
+/* Does a person watch? mpirun stands between the program and the terminal; scripts/orthostat looks before it starts it.
+ */
+static int is_watched(void)
+{
+    return isatty(STDERR_FILENO) || getenv("ORTHOSTAT_ON_TERMINAL") != NULL;
+}
+
 void ost_progress(OstContext *ctx, const char *what, double fraction)
 {
     if (ctx->rank != 0 || ctx->level == OST_LOG_QUIET)
@@ -79,7 +87,7 @@ void ost_progress(OstContext *ctx, const char *what, double fraction)
         return;
     }
     const double now = ost_seconds();
-    if (now - ctx->progress_time < progress_interval || !isatty(STDERR_FILENO))
+    if (now - ctx->progress_time < progress_interval || !is_watched())
         return;
     ctx->progress_time = now;
     ctx->progress_shown = 1;

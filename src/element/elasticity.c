@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/elasticity.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -47,6 +49,48 @@ static void rotate(const double *stiffness, const OstLanes axes[9], OstLanes *c)
                      shear[0][p] * shearing[0][q] + shear[1][p] * shearing[1][q] + shear[2][p] * shearing[2][q];
 }
 
+/* Does C, in material axes, belong to the family, up to rounding? Then the roots of its diagonal are the stretches. */
+static int is_stretched(const double *stiffness, double stretch[3], double *shear)
+{
+    for (int a = 0; a < 3; a++)
+        stretch[a] = sqrt(stiffness[7 * a]);
+    *shear = stiffness[7 * 3] / (stretch[0] * stretch[1]);
+    double error = 0.0;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3;
+        const double unit = stretch[a] * stretch[b];
+        error = fmax(error, fabs(stiffness[6 * a + b] / unit - (1.0 - 2.0 * *shear)));
+        error = fmax(error, fabs(stiffness[7 * (3 + a)] / unit - *shear));
+    }
+    return error <= 8.0 * DBL_EPSILON;
+}
+
+/* A, from axes that come as rows. */
+static inline void stretched_metric(const double stretch[3], const OstLanes axes[9], OstLanes metric[6])
+{
+    for (int i = 0; i < 3; i++) {
+        const OstLanes scaled[3] = {stretch[0] * axes[i], stretch[1] * axes[3 + i], stretch[2] * axes[6 + i]};
+        const int next = (i + 1) % 3;
+        metric[i] = scaled[0] * axes[i] + scaled[1] * axes[3 + i] + scaled[2] * axes[6 + i];
+        metric[3 + i] = scaled[0] * axes[next] + scaled[1] * axes[3 + next] + scaled[2] * axes[6 + next];
+    }
+}
+
+static inline void stretched_stiffness(double shear, const OstLanes metric[6], OstLanes *c)
+{
+    static const int ends[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const double bulk = 1.0 - 2.0 * shear;
+    for (int p = 0, n = 0; p < 6; p++)
+        for (int q = p; q < 6; q++) {
+            const int *ij = ends[p];
+            const int *kl = ends[q];
+            c[n++] =
+                bulk * (metric[p] * metric[q]) + shear * (metric[place[ij[0]][kl[0]]] * metric[place[ij[1]][kl[1]]] +
+                                                          metric[place[ij[0]][kl[1]]] * metric[place[ij[1]][kl[0]]]);
+        }
+}
+
 static void fill_lanes(const double stiffness[36], OstLanes *c)
 {
     for (int p = 0, n = 0; p < 6; p++)
@@ -55,18 +99,22 @@ static void fill_lanes(const double stiffness[36], OstLanes *c)
                 c[n][lane] = stiffness[6 * p + q];
 }
 
+/* Lanes at any address. (By memcpy the compiler may move them in halves through the stack, and wait for both.) */
+typedef double AnyLanes __attribute__((vector_size(OST_LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 /* Each tet's own axes. */
-static void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_LANES], OstLanes axes[9])
+static inline void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_LANES], OstLanes axes[9])
 {
     OstLanes rows[2][OST_LANES];
+    const double *of_tet[OST_LANES];
     for (int lane = 0; lane < OST_LANES; lane++) {
-        const double *of_tet = field->tet_axes + 9 * (size_t)tets[lane];
-        memcpy(&rows[0][lane], of_tet, sizeof(OstLanes));
-        memcpy(&rows[1][lane], of_tet + 4, sizeof(OstLanes));
-        axes[8][lane] = of_tet[8];
+        of_tet[lane] = field->tet_axes + 9 * (size_t)tets[lane];
+        rows[0][lane] = *(const AnyLanes *)of_tet[lane];
+        rows[1][lane] = *(const AnyLanes *)(of_tet[lane] + 4);
     }
     ost_lanes_transpose(rows[0], axes);
     ost_lanes_transpose(rows[1], axes + 4);
+    axes[8] = (OstLanes){of_tet[0][8], of_tet[1][8], of_tet[2][8], of_tet[3][8]};
 }
 
 /* Axes at a point of each tet. */
@@ -97,6 +145,26 @@ static void split(const double mode[3], const OstLanes axes[9], OstLanes *c, Ost
             c[n++] -= m[p] * m[q];
 }
 
+static void examine(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
+{
+    if (elasticity->examined == region)
+        return;
+    elasticity->examined = region;
+    elasticity->stretched = is_stretched(field->material[region].stiffness, elasticity->stretch, &elasticity->shear);
+}
+
+/* C at a point where the tets have these axes: A in place of it where that will do. */
+static void turn(OstElasticity *elasticity, const double *stiffness, const OstLanes axes[9], int point)
+{
+    if (!elasticity->stretched) {
+        rotate(stiffness, axes, elasticity->c[point]);
+        return;
+    }
+    stretched_metric(elasticity->stretch, axes, elasticity->metric);
+    if (!elasticity->by_metric)
+        stretched_stiffness(elasticity->shear, elasticity->metric, elasticity->c[point]);
+}
+
 static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
 {
     const double *of_region = field->region_axes ? field->region_axes + 9 * (size_t)region : world;
@@ -106,6 +174,8 @@ static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *fi
     for (int i = 0; i < 9; i++)
         for (int lane = 0; lane < OST_LANES; lane++)
             axes[i][lane] = of_region[i];
+    if (elasticity->by_metric)
+        stretched_metric(elasticity->stretch, axes, elasticity->metric);
     if (elasticity->by_mean)
         split(ost_field_stiff_mode(field, region), axes, elasticity->c[0], elasticity->m[0]);
 }
@@ -120,7 +190,7 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
             evaluate_axes(field, tets, places + 3 * point, axes);
         else
             gather_axes(field, tets, axes);
-        rotate(field->material[region].stiffness, axes, elasticity->c[point]);
+        turn(elasticity, field->material[region].stiffness, axes, point);
         if (elasticity->by_mean)
             split(ost_field_stiff_mode(field, region), axes, elasticity->c[point], elasticity->m[point]);
     }
@@ -134,6 +204,8 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
         return;
     elasticity->region = field->region_varies[region] ? -1 : region;
     elasticity->by_mean = points > 0 && ost_field_stiff_mode(field, region) != NULL;
+    examine(elasticity, field, region);
+    elasticity->by_metric = elasticity->metric_suffices && elasticity->stretched;
     if (field->region_varies[region])
         gather_varying(elasticity, field, region, tets, points, places);
     else
@@ -158,6 +230,7 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
     elasticity->region = -1;
     elasticity->points = points > 0 ? points : 1;
     elasticity->by_mean = 0;
+    elasticity->by_metric = 0;
     for (int lane = 0; lane < OST_LANES; lane++) {
         const OstLocal same[OST_LANES] = {tets[lane], tets[lane], tets[lane], tets[lane]};
         OstElasticity one;

@@ -13,11 +13,26 @@ enum { OST_MAX_POINTS = 10, OST_ELASTICITY_COUNT = 21 };
  * have one C for all.
  *
  * Where part of a region's C sees a mean alone (ost_field_mean_dilatation), C is split: C = c + m m', with c the softer
- * rest. The energy density of a tet is then 1/2 strain'c strain + 1/2 (mean of m'strain)^2. */
+ * rest. The energy density of a tet is then 1/2 strain'c strain + 1/2 (mean of m'strain)^2.
+ *
+ * The stable family with geometric shear (eq. 18 and 22), and with it every isotropic body, is isotropic elasticity in
+ * a stretched metric: with A = sum of sqrt(C_aa) e_a e_a' over the axes, and `shear` = C_44 / sqrt(C_11 C_22), C_ijkl =
+ * (1 - 2 shear) A_ij A_kl + shear (A_ik A_jl + A_il A_jk). From A, C comes more cheaply than by rotation, and the
+ * stiffness of a linear tet more cheaply still, without C. */
 typedef struct OstElasticity {
     int points;     /* 1: the same all over each tet; or as many as were asked for */
     int by_mean;    /* is C split? */
     int32_t region; /* every lane holds this region's one C; -1: not so */
+
+    int metric_suffices; /* set by who has no need of c and m where there is A (linear tets alone) */
+    int by_metric;       /* is A set, and c not? */
+    OstLanes metric[6];  /* A_11 A_22 A_33 A_12 A_23 A_31 */
+
+    int32_t examined; /* the region, or -1, that these are about: */
+    int stretched;    /* is it of the family? */
+    double stretch[3];
+    double shear;
+
     OstLanes c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstLanes m[OST_MAX_POINTS][6]; /* zero in the lanes that are not split; not set if by_mean is 0 */
 } OstElasticity;
@@ -26,6 +41,9 @@ typedef struct OstElasticity {
 static inline void ost_elasticity_clear(OstElasticity *elasticity)
 {
     elasticity->region = -1;
+    elasticity->metric_suffices = 0;
+    elasticity->by_metric = 0;
+    elasticity->examined = -1;
 }
 
 /* Local. Takes up the tets in the lanes. `places` are `points` points in each of them (3 numbers a point): C is

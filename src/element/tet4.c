@@ -74,9 +74,45 @@ void ost_tet4_blocks(const OstLanes *x, const OstLanes *c, OstLanes *blocks)
     complete_by_translations(blocks);
 }
 
+/* A times a gradient. */
+static inline void stretch_gradient(const OstLanes metric[6], const OstLanes g[3], OstLanes stretched[3])
+{
+    stretched[0] = metric[0] * g[0] + metric[3] * g[1] + metric[5] * g[2];
+    stretched[1] = metric[3] * g[0] + metric[1] * g[1] + metric[4] * g[2];
+    stretched[2] = metric[5] * g[0] + metric[4] * g[1] + metric[2] * g[2];
+}
+
+/* Isotropic elasticity in the metric A. With h = A g: (1 - 2 shear) h_a h_b' + shear (h_b h_a' + (g_a·h_b) A). */
+static void metric_blocks(const OstLanes *x, const OstLanes metric[6], double shear, OstLanes *blocks)
+{
+    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    OstLanes gradient[3][3];
+    OstLanes h[3][3];
+    OstLanes factor;
+    scaled_gradients(x, gradient, &factor);
+    const OstLanes slide = shear * factor;
+    const OstLanes bulk = factor - 2.0 * slide;
+    for (int b = 0; b < 3; b++) {
+        stretch_gradient(metric, gradient[b], h[b]);
+        const OstLanes bulk_h[3] = {bulk * h[b][0], bulk * h[b][1], bulk * h[b][2]};
+        const OstLanes slide_h[3] = {slide * h[b][0], slide * h[b][1], slide * h[b][2]};
+        for (int a = 0; a <= b; a++) {
+            OstLanes *block = blocks + pair[a + 1][b + 1];
+            const OstLanes product =
+                gradient[a][0] * slide_h[0] + gradient[a][1] * slide_h[1] + gradient[a][2] * slide_h[2];
+            for (int n = 0; n < 9; n++)
+                block[n] = h[a][n / 3] * bulk_h[n % 3] + slide_h[n / 3] * h[a][n % 3] + product * metric[place[n]];
+        }
+    }
+    complete_by_translations(blocks);
+}
+
 static void tet4_stiffness(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
 {
-    ost_tet4_blocks(x, elasticity->c[0], blocks);
+    if (elasticity->by_metric)
+        metric_blocks(x, elasticity->metric, elasticity->shear, blocks);
+    else
+        ost_tet4_blocks(x, elasticity->c[0], blocks);
 }
 
 /* Strain times the determinant d. */

@@ -44,10 +44,32 @@ OstStatus ost_msh_define_node(const OstMshCursor *cursor, OstMshContents *conten
     return OST_SUCCESS;
 }
 
+/* Lines 1, triangles 2, quadrangles 3, tets 4, hexahedra 5, prisms 6, pyramids 7; 0: points and what else there is. */
+static int shape_of(int type)
+{
+    static const int shape[] = {0, 1, 2, 3, 4, 5, 6, 7, 1, 2, 3, 4, 5, 6, 7, 0,
+                                3, 5, 6, 7, 2, 2, 2, 2, 2, 2, 1, 1, 1, 4, 4, 4};
+    return type >= 0 && type < (int)(sizeof shape / sizeof shape[0]) ? shape[type] : 0;
+}
+
+/* Gmsh 4.8 writes past its arrays where elements of one shape stand in two orders. */
+static OstStatus check_order(const OstMshCursor *cursor, OstMshContents *contents, int type)
+{
+    int *first = &contents->type_of_shape[shape_of(type)];
+    if (shape_of(type) != 0 && *first != 0 && *first != type)
+        return OST_RAISE_MSH(cursor,
+                             "an element of type %d found after others of the same shape and of type %d, expected one "
+                             "order; mesh the whole body in one order",
+                             type, *first);
+    *first = type;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_msh_define_element(const OstMshCursor *cursor, OstMshContents *contents, int type, OstGlobal tag)
 {
     if (tag < 1 || tag > INT_MAX)
         return OST_RAISE_MSH(cursor, "element tag %" PRId64 " found, expected 1 to %d", tag, INT_MAX);
+    OST_TRY(check_order(cursor, contents, type));
     contents->elements++;
     if (type == TET4 || type == TET10) {
         contents->tets_out_of_order |= tag < contents->last_tet_tag;

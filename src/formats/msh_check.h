@@ -14,6 +14,7 @@ typedef struct OstMshContents {
     OstGlobal first_node_tag, last_node_tag;
     OstGlobal last_tet_tag;
     int tets_out_of_order; /* their tags do not ascend */
+    int type_of_shape[8];  /* Gmsh's type of lines 1, triangles 2, quadrangles 3, tets 4, ...; 0: none so far */
 } OstMshContents;
 
 /* Local. Raises OST_INVALID_INPUT with file:line (or the byte) where the file is cut, not a mesh of version 2.2 or 4.1,

@@ -5,6 +5,7 @@
 #include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/incidence.h"
+#include "mesh/raise.h"
 #include "mesh/tet.h"
 
 #include <float.h>
@@ -171,6 +172,8 @@ OstStatus ost_check_mesh(const OstMesh *mesh)
     Incidence incidence = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(check_volumes(mesh));
+    if (mesh->nodes_per_tet == 10)
+        OST_TRY_DONE(ost_check_folds(mesh));
     OST_TRY_DONE(ost_agree(mesh->ctx, ost_incidence_build(mesh->ctx, mesh->owned_nodes, mesh->tet_count,
                                                           mesh->nodes_per_tet, mesh->tet_nodes, &incidence)));
     OST_TRY_DONE(check_used(mesh, &incidence));

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,7 @@ static void list_quantities(OstCost *cost)
     for (int w = 0; w < c->watch_count; w++)
         energy_watched |= c->watches[w].kind == OST_WATCH_STRAIN_ENERGY;
     cost->strain_energy.kind = OST_WATCH_STRAIN_ENERGY;
+    cost->strain_energy.expected = NAN;
     if (!energy_watched)
         add_quantity(cost, "energy", &cost->strain_energy);
     if (c->watch_count == 0)

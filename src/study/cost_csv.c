@@ -33,7 +33,8 @@ static void write_heading(FILE *file, const OstCost *cost)
         fprintf(file, ",%s_seconds", ost_cost_phase_label((OstCostPhase)p));
     fputs(",bytes", file);
     for (int q = 0; q < cost->quantity_count; q++) {
-        static const char *const columns[] = {"", " reference", " reference uncertainty", " error", " claim"};
+        static const char *const columns[] = {"",       " reference", " reference uncertainty", " reference kind",
+                                              " error", " claim"};
         for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
             char name[256];
             snprintf(name, sizeof name, "%.200s%s", cost->quantity[q].name, columns[c]);
@@ -65,6 +66,7 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
         write_number(file, done, run->watched[q].value);
         write_number(file, reference->kind != OST_REFERENCE_NONE, reference->value);
         write_number(file, reference->kind != OST_REFERENCE_NONE, reference->uncertainty);
+        fprintf(file, ",%s", ost_reference_kind_word(reference->kind));
         write_number(file, done, run->error[q]);
         write_number(file, done, ost_cost_claim(cost, run, q));
     }

@@ -17,12 +17,16 @@ static json_t *index_json(int index)
     return index >= 0 ? json_integer(index) : json_null();
 }
 
-static json_t *reference_json(const OstCostReference *reference)
+/* A formula has no order and no refinement; only a formula has a source. */
+static json_t *reference_json(const OstCostQuantity *quantity)
 {
-    static const char *const kinds[] = {"none", "extrapolated", "finest", "settled"};
-    return json_pack("{s:s, s:f, s:o, s:f, s:i, s:i, s:s}", "kind", kinds[reference->kind], "value", reference->value,
-                     "uncertainty", number_json(reference->uncertainty), "rate", reference->rate, "order",
-                     reference->order, "finest_refinement", reference->finest, "note", reference->note);
+    const OstCostReference *reference = &quantity->reference;
+    const int is_formula = reference->kind == OST_REFERENCE_FORMULA;
+    return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word(reference->kind),
+                     "value", reference->value, "uncertainty", number_json(reference->uncertainty), "rate",
+                     reference->rate, "order", index_json(is_formula ? -1 : reference->order), "finest_refinement",
+                     index_json(is_formula ? -1 : reference->finest), "note", reference->note, "source",
+                     is_formula ? quantity->watch->source : NULL);
 }
 
 /* Runs are named by their number in the list. */
@@ -54,7 +58,7 @@ static json_t *quantities_json(const OstCost *cost)
     json_t *quantities = json_array();
     for (int q = 0; q < cost->quantity_count; q++)
         json_array_append_new(quantities, json_pack("{s:s, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
-                                                    reference_json(&cost->quantity[q].reference), "cheapest",
+                                                    reference_json(&cost->quantity[q]), "cheapest",
                                                     prices_json(cost, q), "frontier", frontier_json(cost, q)));
     return quantities;
 }

@@ -55,12 +55,19 @@ static int lower_tells_more(const OstCostReference *lower, const OstCostReferenc
            lower->uncertainty < higher->uncertainty;
 }
 
+/* The formula's value where the case has one. */
 static void choose_reference(OstCost *cost, int quantity)
 {
     Ladder ladder[2];
     OstCostReference found[2];
     for (int i = 0; i < 2; i++)
         judge_order(cost, quantity, i + 1, &ladder[i], &found[i]);
+    const OstWatch *watch = cost->quantity[quantity].watch;
+    if (watch && !isnan(watch->expected)) {
+        ost_reference_of_formula(watch->expected, fmax(ladder[0].scale, ladder[1].scale),
+                                 &cost->quantity[quantity].reference);
+        return;
+    }
     if (ladder[1].count == 1 && ladder[0].count > 0)
         ost_reference_compare(&found[1], ladder[0].value[ladder[0].count - 1]);
     cost->quantity[quantity].reference = found[!lower_tells_more(&found[0], &found[1])];

@@ -92,6 +92,13 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
     printf(" %8.1f MiB\n", run->bytes / mebibyte);
 }
 
+static void print_formula(const OstCostQuantity *quantity)
+{
+    const char *source = quantity->watch->source;
+    printf("%s %.10g%s%s", quantity->reference.note, quantity->reference.value, source ? ", " : "",
+           source ? source : "");
+}
+
 static void print_reference(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
@@ -101,12 +108,13 @@ static void print_reference(const OstCostQuantity *quantity)
         return;
     }
     percent(reference->uncertainty, known, sizeof known);
-    printf("  %-14s %.10g, order %d, up to refinement %d: %s; ", quantity->name, reference->value, reference->order,
-           reference->finest, reference->note);
-    if (isinf(reference->uncertainty))
-        printf("not to be trusted");
+    printf("  %-14s ", quantity->name);
+    if (reference->kind == OST_REFERENCE_FORMULA)
+        print_formula(quantity);
     else
-        printf("good to %s", known);
+        printf("%.10g, order %d, up to refinement %d: %s; %s%s", reference->value, reference->order, reference->finest,
+               reference->note, isinf(reference->uncertainty) ? "not to be trusted" : "good to ",
+               isinf(reference->uncertainty) ? "" : known);
     if (reference->size > fabs(reference->value))
         printf("; it is nothing beside %.4g, of which errors are shares", reference->size);
     printf("\n");

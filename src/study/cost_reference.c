@@ -130,6 +130,19 @@ void ost_reference_of(const OstAnswers *answers, OstCostReference *reference)
     take_finest(answers, reference);
 }
 
+void ost_reference_of_formula(double value, double scale, OstCostReference *reference)
+{
+    memset(reference, 0, sizeof *reference);
+    set_value(reference, OST_REFERENCE_FORMULA, value, 0.0, scale);
+    snprintf(reference->note, sizeof reference->note, "the formula's value");
+}
+
+const char *ost_reference_kind_word(OstReferenceKind kind)
+{
+    static const char *const words[] = {"none", "extrapolated", "finest", "settled", "formula"};
+    return words[kind];
+}
+
 void ost_reference_compare(OstCostReference *lone, double lower)
 {
     const double share = lone->size > 0.0 ? fabs(lone->value - lower) / lone->size : 0.0;

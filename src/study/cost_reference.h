@@ -19,8 +19,9 @@ int ost_extrapolate(const double h[3], const double q[3], OstExtrapolation *foun
 typedef enum {
     OST_REFERENCE_NONE,
     OST_REFERENCE_EXTRAPOLATED,
-    OST_REFERENCE_FINEST, /* the finest answer as it is, whose own error is then not known */
-    OST_REFERENCE_SETTLED /* refinement no longer changes the answer by more than the solver leaves */
+    OST_REFERENCE_FINEST,  /* the finest answer as it is, whose own error is then not known */
+    OST_REFERENCE_SETTLED, /* refinement no longer changes the answer by more than the solver leaves */
+    OST_REFERENCE_FORMULA  /* no answer: what the case expects */
 } OstReferenceKind;
 
 typedef struct OstCostReference {
@@ -29,7 +30,7 @@ typedef struct OstCostReference {
     double size;        /* errors are shares of this: |value|, or the scale of its kind where the value is nothing */
     double uncertainty; /* relative: how far the reference may be off; infinite where nothing tells */
     double rate;        /* observed; 0: none */
-    int order;          /* of the answers it comes from */
+    int order;          /* of the answers it comes from; 0: a formula */
     int finest;         /* their highest refinement */
     char note[OST_COST_NOTE_SIZE];
 } OstCostReference;
@@ -50,6 +51,12 @@ double ost_best_rate_factor(int order);
 /* Local. The reference that one order's answers give. A rate makes sense from 0.4 (singular edges) to half an order
  * above 2 × order (what energy gains on smooth answers). */
 void ost_reference_of(const OstAnswers *answers, OstCostReference *reference);
+
+/* Local. The reference that a formula gives, which is taken to be exact. */
+void ost_reference_of_formula(double value, double scale, OstCostReference *reference);
+
+/* Local. "none", "extrapolated", "finest", "settled" or "formula". */
+const char *ost_reference_kind_word(OstReferenceKind kind);
 
 /* Local. An order's only answer knows nothing of itself; it is taken to be off by no more than it differs from the best
  * answer of the order below. */

@@ -1,5 +1,9 @@
 """Quadratic tets: p-multigrid, the direct solver and any number of ranks give one pose, and it is softer than that of linear tets."""
-from program import check, read_points, solve
+import json
+import os
+import tempfile
+
+from program import check, read_points, run as run_program, solve
 
 CASE = """
 title: a short tube of quadratic tets
@@ -27,7 +31,35 @@ def run(order, recipe, ranks):
     return report, read_points(path)
 
 
+FORESEEN = """
+mesh: {SHAPE, refine: 1}
+element: {order: 2}
+materials:
+  - {region: all, youngs_modulus: 1000, poissons_ratio: 0.3}
+constraints:
+  - {on: {all: true}, displacement: [0, free, free]}
+  - {on: {nearest: [0, 9, 1]}, displacement: [0, 0, 0]}
+  - {on: {nearest: [0, 1, 9]}, displacement: [0, 0, 0]}
+"""
+
+
+def foreseen_sizes_are_the_real_ones():
+    for shape in ("sector: {axis: z, length: 1, radii: [1, 2], angle: 90, divisions: {around: 3, radial: 2, axial: 1}}",
+                  "octant: {radii: [1, 2], divisions: {around: 2, radial: 1}}",
+                  "tube: {axis: x, length: 1, radii: [1, 2], divisions: {around: 6, radial: 1, axial: 2}}"):
+        folder = tempfile.mkdtemp(prefix="orthostat-")
+        with open(os.path.join(folder, "case.yaml"), "w") as stream:
+            stream.write(FORESEEN.replace("SHAPE", shape))
+        foreseen = run_program("explain", "case.yaml", "--json", folder=folder)
+        real = run_program("check", "case.yaml", "--json", folder=folder)
+        check(foreseen.exit_code == 0, f"explain: {foreseen.errors}")
+        foreseen, real = json.loads(foreseen.output), json.loads(real.output)
+        for what in ("vertices", "tets"):
+            check(foreseen[what] == real[what], f"{shape}: {foreseen[what]} {what} foreseen, {real[what]} made")
+
+
 def main():
+    foreseen_sizes_are_the_real_ones()
     linear, _ = run(1, "metric", 1)
     reference = None
     for recipe, ranks in (("metric", 1), ("metric", 2), ("metric", 4), ("direct", 1), ("direct", 2), ("plain", 2)):

@@ -59,6 +59,7 @@ static inline void uniform_elasticity(const double c[36], OstElasticity *elastic
 {
     elasticity->points = 1;
     elasticity->by_mean = 0;
+    elasticity->by_metric = 0;
     elasticity->region = 0;
     fill_lanes(c, elasticity->c[0]);
 }

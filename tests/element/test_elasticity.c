@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "element/elasticity.h"
+#include "element/element.h"
+#include "element_support.h"
 #include "orthostat/field.h"
 #include "support.h"
 
@@ -169,7 +170,109 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
     }
 }
 
+/* Four tets with random axes, each its own (CELLS) or one for all (FIXED), of one material of the family. */
+static OstMaterialField *family_field(const double youngs_modulus[3], double nu, OstShearRule rule, OstAxesKind kind)
+{
+    static const int32_t region[OST_LANES] = {0};
+    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
+    const double centroids[3 * OST_LANES] = {0};
+    const OstOrthotropic constants = ost_orthotropic_family(youngs_modulus, nu, rule);
+    OstAxesSpec spec = {.kind = kind};
+    double axes[9 * OST_LANES];
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    for (unsigned lane = 0; lane < OST_LANES; lane++)
+        random_axes(lane + 1u, axes + 9 * lane);
+    random_axes(9u, spec.fixed);
+    assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
+    assert_success(ost_field_create(ctx, 1, &material, &spec, OST_LANES, region, label, centroids, axes, &field));
+    return field;
+}
+
+static const double moduli[][3] = {{1, 1e12, 1e6}, {1e12, 1, 1}, {3e-4, 2e2, 5e8}, {1e6, 1e9, 1e6}, {2, 3, 5}};
+enum { MODULI = sizeof moduli / sizeof *moduli };
+static const OstLocal first_tets[OST_LANES] = {0, 1, 2, 3};
+
+/* C of the family, which comes from a metric, against eq. 9. */
+static void the_familys_elasticity_is_the_rotated_one(void **state)
+{
+    (void)state;
+    static const double nu[4] = {-0.6, 0.0, 0.3, 0.49};
+    for (int n = 0; n < 4 * MODULI; n++) {
+        OstMaterialField *field = family_field(moduli[n / 4], nu[n % 4], OST_SHEAR_GEOMETRIC, OST_AXES_CELLS);
+        OstElasticity elasticity;
+        ost_elasticity_clear(&elasticity);
+        ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+        assert_true(elasticity.stretched);
+        assert_false(elasticity.by_metric);
+        for (int lane = 0; lane < OST_LANES; lane++) {
+            double c[36], size = 0.0;
+            ost_field_stiffness(field, lane, c);
+            for (int i = 0; i < 36; i++)
+                size = fmax(size, fabs(c[i]));
+            for (int p = 0, i = 0; p < 6; p++)
+                for (int q = p; q < 6; q++)
+                    assert_close(elasticity.c[0][i++][lane] / size, c[6 * p + q] / size, 1e-14);
+        }
+        ost_field_destroy(&field);
+    }
+}
+
+/* Stiffness of the four tets, by the metric if that suffices. */
+static void stiffness_of_field(const OstMaterialField *field, int metric_suffices, OstLanes blocks[90])
+{
+    OstElasticity elasticity;
+    OstLanes x[12];
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        double of_tet[12];
+        random_tet((unsigned)lane + 1u, of_tet);
+        for (int i = 0; i < 12; i++)
+            x[i][lane] = of_tet[i];
+    }
+    ost_elasticity_clear(&elasticity);
+    elasticity.metric_suffices = metric_suffices;
+    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+    assert_int_equal(elasticity.by_metric, metric_suffices);
+    ost_element_of(4)->stiffness(x, &elasticity, blocks);
+}
+
+static void stiffness_by_the_metric_is_that_by_the_elasticity(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 2 * MODULI; n++) {
+        OstMaterialField *field =
+            family_field(moduli[n / 2], 0.3, OST_SHEAR_GEOMETRIC, n % 2 ? OST_AXES_CELLS : OST_AXES_FIXED);
+        OstLanes metric[90], plain[90];
+        stiffness_of_field(field, 1, metric);
+        stiffness_of_field(field, 0, plain);
+        for (int lane = 0; lane < OST_LANES; lane++) {
+            double size = 0.0;
+            for (int i = 0; i < 90; i++)
+                size = fmax(size, fabs(plain[i][lane]));
+            for (int i = 0; i < 90; i++)
+                assert_close(metric[i][lane] / size, plain[i][lane] / size, 1e-14);
+        }
+        ost_field_destroy(&field);
+    }
+}
+
+static void other_shear_has_no_metric(void **state)
+{
+    (void)state;
+    OstMaterialField *field = family_field(moduli[MODULI - 1], 0.3, OST_SHEAR_ARITHMETIC, OST_AXES_CELLS);
+    OstElasticity elasticity;
+    ost_elasticity_clear(&elasticity);
+    elasticity.metric_suffices = 1;
+    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+    assert_false(elasticity.stretched);
+    assert_false(elasticity.by_metric);
+    ost_field_destroy(&field);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_familys_elasticity_is_the_rotated_one),
+    cmocka_unit_test(stiffness_by_the_metric_is_that_by_the_elasticity),
+    cmocka_unit_test(other_shear_has_no_metric),
     cmocka_unit_test(lanes_hold_each_tets_elasticity),
     cmocka_unit_test(lanes_of_several_regions_hold_theirs),
     cmocka_unit_test(a_uniform_region_is_gathered_once),

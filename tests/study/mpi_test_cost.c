@@ -161,6 +161,30 @@ static void errors_are_against_the_extrapolated_answer(void **state)
     drop_study();
 }
 
+static void errors_are_against_the_formula_where_there_is_one(void **state)
+{
+    (void)state;
+    OstCostLadder ladder = ost_cost_default_ladder();
+    ladder.refinement_count = 2;
+    make_study("watch: {work: {strain_energy: all, expected: 1.6}, tip: {displacement: {nearest: [4, 0, 0]}}}\n",
+               &ladder);
+    cost->measure = pretend;
+    assert_success(ost_cost_run(cost));
+    assert_int_equal(cost->quantity_count, 2);
+    const OstCostReference *work = &cost->quantity[0].reference;
+    assert_int_equal(work->kind, OST_REFERENCE_FORMULA);
+    assert_close(work->value, 1.6, 0.0);
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        const double error = (2.0 + pow(0.25, run->refinement) / run->order - 1.6) / 1.6;
+        assert_int_equal(run->state, OST_COST_DONE);
+        assert_close(run->error[0], error, 1e-14);
+        assert_close(ost_cost_claim(cost, run, 0), error, 1e-14); /* the finest too, and nothing is in doubt */
+    }
+    assert_int_equal(cost->quantity[1].reference.kind, OST_REFERENCE_FINEST);
+    drop_study();
+}
+
 static void a_lone_answer_of_order_two_is_measured_by_order_one(void **state)
 {
     (void)state;
@@ -368,6 +392,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(time_bounds_what_runs),
     cmocka_unit_test(memory_bounds_what_runs),
     cmocka_unit_test(errors_are_against_the_extrapolated_answer),
+    cmocka_unit_test(errors_are_against_the_formula_where_there_is_one),
     cmocka_unit_test(a_lone_answer_of_order_two_is_measured_by_order_one),
     cmocka_unit_test(near_by_accident_is_not_exact),
     cmocka_unit_test(what_diverges_has_no_price),

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -116,7 +117,69 @@ class Cost(unittest.TestCase):
         self.refuse("below 1", "beam.yaml", "--tolerances", "2")
         self.refuse("above 0", "beam.yaml", "--max-time", "no")
         self.refuse("which case", *LADDER)
-        self.refuse("cannot write 'nowhere/p.csv'", "beam.yaml", "--orders", "1", "--refinements", "0", "--csv", "nowhere/p.csv")
+
+    def test_errors_are_against_the_formula_where_there_is_one(self):
+        expected = -0.25
+        with open(self.path("beam.yaml"), "w") as stream:
+            stream.write(CASE.replace("component: z", f"component: z, expected: {expected}, source: a book §7") +
+                         "  work: {strain_energy: all, expected: 0.125}\n")
+        finished = self.cost("--tolerances", "1e-8", "--refinements", "0,1", "--csv", "p.csv", "--json", "p.json")
+        self.assertIn("the formula's value -0.25, a book §7\n", finished.stdout)
+        self.assertIn("the formula's value 0.125\n", finished.stdout)
+        with open(self.path("p.json")) as stream:
+            study = json.load(stream)
+        with open(self.path("p.csv"), newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        tip, work = study["quantities"]
+        self.assertEqual((tip["reference"]["kind"], tip["reference"]["source"]), ("formula", "a book §7"))
+        self.assertEqual((tip["reference"]["value"], tip["reference"]["uncertainty"]), (expected, 0))
+        self.assertEqual((work["reference"]["value"], work["reference"]["source"]), (0.125, None))
+        self.assertEqual(len(rows), 4)
+        for row, one in zip(rows, study["runs"]):
+            answer = one["answers"]["tip"]
+            self.assertAlmostEqual(answer["error"], abs(answer["value"] - expected) / 0.25, delta=1e-14)
+            self.assertEqual(row["tip reference kind"], "formula")
+            self.assertEqual(float(row["tip reference"]), expected)
+        script = os.path.join(SOURCE, "scripts", "plot-cost")
+        finished = subprocess.run([script, "p.json", "p.svg", "tip"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 0, finished)
+        with open(self.path("p.svg")) as stream:
+            self.assertIn("against the formula's value -0.25, a book §7", stream.read())
+
+    def test_nothing_is_written_over_what_is_needed(self):
+        os.mkdir(self.path("folder"))
+        for option in ("--csv", "--json", "--picture"):
+            for place, words in (("beam.yaml", "over the case itself"), ("folder/../beam.yaml", "over the case itself"),
+                                 ("folder", "not a regular file"), ("/dev/null", "not a regular file"),
+                                 ("nowhere/p.png", "folder 'nowhere'"), ("", "names no file")):
+                # The ladder would be refused if anything came to it.
+                self.refuse(words, "beam.yaml", "--orders", "3", option, place)
+        self.refuse("cannot both go to 'folder/../p'", "beam.yaml", "--orders", "3", "--csv", "p", "--json", "folder/../p")
+        self.refuse("cannot both go to standard output", "beam.yaml", "--orders", "3", "--csv", "-", "--json", "-")
+        self.refuse("a picture cannot go to standard output", "beam.yaml", "--orders", "3", "--picture", "-")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["beam.yaml", "folder"])
+        with open(self.path("beam.yaml")) as stream:
+            self.assertEqual(stream.read(), CASE)
+
+    def test_verify_writes_over_nothing_that_is_needed(self):
+        shutil.copy(os.path.join(SOURCE, "cases", "verify", "strip.yaml"), self.path("strip.yaml"))
+        before = sorted(os.listdir(self.folder))
+        for words, *arguments in (("over the case itself", "--json", "strip.yaml"),
+                                  ("not a regular file", "--json", "."),
+                                  ("folder 'nowhere'", "--json", "nowhere/v.json"),
+                                  ("cannot make the folder 'nowhere/here'", "--picture", "nowhere/here"),
+                                  ("'strip.yaml' is not a folder", "--picture", "strip.yaml")):
+            command = [PROGRAM, "verify", "--quick", "./strip.yaml", *arguments]
+            if words.startswith("cannot make"):
+                command = [MPIEXEC, "--quiet", "-n", "2", *command]
+            finished = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60)
+            self.assertEqual(finished.returncode, 2, finished)
+            self.assertIn(words, finished.stderr)
+            self.assertEqual(finished.stderr.count("error:"), 1, finished)
+            self.assertEqual(finished.stdout, "", "nothing ran")
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        with open(self.path("strip.yaml")) as copy, open(os.path.join(SOURCE, "cases", "verify", "strip.yaml")) as case:
+            self.assertEqual(copy.read(), case.read())
 
     def test_all_refused_is_a_failure_with_its_reason(self):
         with open(self.path("beam.yaml"), "a") as stream:

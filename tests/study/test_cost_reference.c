@@ -131,6 +131,21 @@ static void errors_of_nothing_are_shares_of_its_scale(void **state)
     assert_close(vanishing.uncertainty, 0.01, 1e-6);
 }
 
+static void a_formula_is_exact(void **state)
+{
+    (void)state;
+    OstCostReference found;
+    ost_reference_of_formula(-0.25, 3.0, &found);
+    assert_int_equal(found.kind, OST_REFERENCE_FORMULA);
+    assert_string_equal(ost_reference_kind_word(found.kind), "formula");
+    assert_close(found.value, -0.25, 0.0);
+    assert_close(found.size, 0.25, 0.0);
+    assert_close(found.uncertainty, 0.0, 0.0);
+    ost_reference_of_formula(0.0, 3.0, &found);
+    assert_close(found.value, 0.0, 0.0);
+    assert_close(found.size, 3.0, 0.0);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_power_law_is_found_exactly),
     cmocka_unit_test(steps_of_refinement_may_differ),
@@ -141,6 +156,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(few_answers_say_how_little_they_know),
     cmocka_unit_test(an_answer_that_stays_is_the_reference),
     cmocka_unit_test(errors_of_nothing_are_shares_of_its_scale),
+    cmocka_unit_test(a_formula_is_exact),
 };
 
 OST_TEST_MAIN(tests)

@@ -36,6 +36,40 @@ static void watches_are_read(void **state)
     ost_case_destroy(&c);
 }
 
+static void what_a_formula_expects_is_read(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    watched("{tip: {displacement: {nearest: [1, 0, 0]}, expected: -1.5e-3, source: Timoshenko §41}, "
+            "held: {reaction: {boundary: xmin}, expected: 2}, "
+            "work: {strain_energy: all, expected: 0.25}, e: {strain_energy: all}, short: strain_energy}",
+            &c);
+    assert_int_equal(c->watch_count, 5);
+    assert_close(c->watches[0].expected, -1.5e-3, 0.0);
+    assert_string_equal(c->watches[0].source, "Timoshenko §41");
+    assert_close(c->watches[1].expected, 2.0, 0.0);
+    assert_null(c->watches[1].source);
+    assert_int_equal(c->watches[2].kind, OST_WATCH_STRAIN_ENERGY);
+    assert_close(c->watches[2].expected, 0.25, 0.0);
+    for (int w = 3; w < 5; w++) {
+        assert_int_equal(c->watches[w].kind, OST_WATCH_STRAIN_ENERGY);
+        assert_true(isnan(c->watches[w].expected));
+        assert_null(c->watches[w].source);
+    }
+    ost_case_destroy(&c);
+}
+
+static void wrong_expectations_are_refused_where_they_stand(void **state)
+{
+    (void)state;
+    refused("{e: {strain_energy: all, expected: much}}", "3:43: watch.e.expected: ...");
+    refused("{e: {strain_energy: all, expected: .nan}}", "3:43: watch.e.expected: ...");
+    refused("{e: {strain_energy: all, source: a book}}", "3:41: found a source of no number...");
+    refused("{e: {strain_energy: half}}", "3:28: unknown strain_energy 'half'; did you mean 'all'?...");
+    refused("{e: {strain_energy: all, component: x}}", "3:44: the strain energy has no component...");
+    refused("{e: {expected: 1}}", "3:12: watch.e has none of displacement, reaction...");
+}
+
 static void wrong_watches_are_refused_where_they_stand(void **state)
 {
     (void)state;
@@ -50,6 +84,8 @@ static void wrong_watches_are_refused_where_they_stand(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(watches_are_read),
+    cmocka_unit_test(what_a_formula_expects_is_read),
+    cmocka_unit_test(wrong_expectations_are_refused_where_they_stand),
     cmocka_unit_test(wrong_watches_are_refused_where_they_stand),
 };
 
