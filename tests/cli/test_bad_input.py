@@ -58,7 +58,7 @@ def veg(nodes="4", extra="", tet="0 1 2 3"):
 
 
 # One tet of ten nodes in Gmsh's order; the middle of the edge from vertex 2 to vertex 3 goes where MIDDLE says.
-MSH = """$MeshFormat
+TET10_MSH = """$MeshFormat
 2.2 0 8
 $EndMeshFormat
 $Nodes
@@ -81,8 +81,8 @@ MORE$EndElements
 """
 
 
-def msh(middle="0.5 0.5 0", more=""):
-    return MSH.replace("MIDDLE", middle).replace("MORE", more).replace("COUNT", str(1 + more.count("\n")))
+def tet10_msh(middle="0.5 0.5 0", more=""):
+    return TET10_MSH.replace("MIDDLE", middle).replace("MORE", more).replace("COUNT", str(1 + more.count("\n")))
 
 
 def with_mesh(name):
@@ -110,8 +110,8 @@ MISTAKES = [
     ("unused vertex", with_mesh("m.veg"), {"m.veg": veg(nodes="5", extra="4 2 2 2\n")}, ["4"]),
     ("coordinate not finite", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 0 0 nan")}, ["m.veg"]),
     ("cubic elements", with_mesh("m.veg"), {"m.veg": veg().replace("TET\n", "CUBIC\n")}, ["CUBIC"]),
-    ("folded quadratic tet", with_mesh("m.msh"), {"m.msh": msh("2.5 0 0")}, ["tet 1", "folds over"]),
-    ("two orders in one mesh", with_mesh("m.msh"), {"m.msh": msh(more="2 4 2 1 1 1 2 3 4\n")}, ["m.msh:", "one order"]),
+    ("folded quadratic tet", with_mesh("m.msh"), {"m.msh": tet10_msh("2.5 0 0")}, ["tet 1", "folds over"]),
+    ("two orders in one mesh", with_mesh("m.msh"), {"m.msh": tet10_msh(more="2 4 2 1 1 1 2 3 4\n")}, ["m.msh:", "one order"]),
     ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
     ("a curve among faces", with_mesh("m.msh").replace("nearest: [1, 0, 0]", "boundary: [lid, rim]"), {"m.msh": MSH},
      ["case.yaml:8:", "'rim' is one of curves"]),
