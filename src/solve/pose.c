@@ -11,6 +11,7 @@
 #include "solve/free_body.h"
 #include "solve/freedom.h"
 #include "solve/recovery.h"
+#include "solve/rigid_motion.h"
 
 #include <string.h>
 
@@ -93,6 +94,16 @@ static OstStatus assemble(const OstScene *scene, const OstResult *result, Work *
     return ost_agree(ctx, status);
 }
 
+/* Before anything is built on it: is rigid motion free of force, tet by tet and in the matrix? */
+static OstStatus test_rigid_motion(const OstScene *scene, OstResult *result, const Work *work)
+{
+    double of_tets, of_rows;
+    OST_TRY(ost_rigid_motion_of_tets(scene->mesh, scene->field, &of_tets));
+    OST_TRY(ost_rigid_motion_of_rows(work->system, work->modes, &of_rows));
+    result->checks.rigid_motion = fmax(of_tets, of_rows);
+    return OST_SUCCESS;
+}
+
 static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *work)
 {
     OstContext *ctx = scene->ctx;
@@ -103,6 +114,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     const OstStatus status = fill_geometry(scene, work);
     ost_ledger_leave(ctx);
     OST_TRY(status);
+    OST_TRY(test_rigid_motion(scene, result, work));
     if (options.recipe == OST_RECIPE_METRIC)
         OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
     const OstSolverGeometry geometry = {work->coordinates, work->metric, work->modes,
@@ -110,6 +122,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     OST_TRY(ost_solver_create(ctx, work->system->matrix, &geometry, &options, &work->solver));
     const OstStatus solved = ost_solver_solve(work->solver, work->rhs, work->v, &result->solve);
     OST_TRY(ost_system_displacement(work->system, work->v, result->displacement));
+    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     return solved;
 }
 
@@ -136,7 +149,7 @@ static OstStatus find_largest_displacement(OstResult *result)
     double at[3] = {0.0};
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const double size = ost_norm3(result->displacement + 3 * (size_t)n);
-        if (size <= largest.value)
+        if (!(size > largest.value)) /* nor what is no number */
             continue;
         largest.value = size;
         memcpy(at, mesh->coordinates + 3 * (size_t)n, sizeof at);
@@ -146,6 +159,32 @@ static OstStatus find_largest_displacement(OstResult *result)
     result->largest_displacement = largest.value;
     memcpy(result->largest_at, at, sizeof at);
     return OST_SUCCESS;
+}
+
+/* Checks what the solver reached, finished or not, and adds the fields asked for. */
+static OstStatus examine(const OstScene *scene, OstResult *result, const OstSupports *supports, double rhs_norm)
+{
+    if (scene->c->free_body)
+        OST_TRY(ost_free_body_centre(scene->mesh, result->displacement));
+    OST_TRY(ost_result_check(result, supports, scene->c->solver.relative_residual, rhs_norm));
+    OST_TRY(find_largest_displacement(result));
+    return ost_agree(result->ctx, ost_result_recover(result, scene->c->output_fields));
+}
+
+/* What is held against the result, as a failure. */
+static OstStatus raise_objections(const OstResult *result, OstStatus solved)
+{
+    const OstObjections *objections = &result->objections;
+    char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)] = "";
+    if (objections->count == 0)
+        return OST_SUCCESS;
+    if (solved != OST_SUCCESS)
+        return OST_RAISE(result->ctx, solved, "%s", objections->text[0]);
+    for (int i = 0; i < objections->count; i++) {
+        strcat(text, i > 0 ? "; " : "");
+        strcat(text, objections->text[i]);
+    }
+    return OST_RAISE(result->ctx, OST_CHECK_FAILED, "%s", text);
 }
 
 OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
@@ -164,14 +203,17 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
         OST_TRY_DONE(ost_free_body_check_loads(scene->mesh, result->force, scene->c->path));
     OST_TRY_DONE(assemble(scene, result, &work));
     result->unknowns = 3 * work.system->matrix->global_rows;
-    OST_TRY_DONE(solve_system(scene, result, &work));
+    status = solve_system(scene, result, &work);
+    if (!result->reached)
+        goto done;
+    const OstStatus solved = status;
+    result->unfinished = solved != OST_SUCCESS;
+    if (result->unfinished)
+        ost_object(result, "%s", ost_error_text(ctx));
     OST_TRY_DONE(norm_of_rhs(&work, &rhs_norm));
     release_system(&work);
-    if (scene->c->free_body)
-        OST_TRY_DONE(ost_free_body_centre(scene->mesh, result->displacement));
-    OST_TRY_DONE(ost_result_check(result, work.supports, scene->c->solver.relative_residual, rhs_norm));
-    OST_TRY_DONE(find_largest_displacement(result));
-    OST_TRY_DONE(ost_agree(ctx, ost_result_recover(result, scene->c->output_fields)));
+    OST_TRY_DONE(examine(scene, result, work.supports, rhs_norm));
+    status = raise_objections(result, solved);
 done:
     release_system(&work);
     ost_supports_destroy(&work.supports);
