@@ -26,10 +26,11 @@ typedef struct Resistance {
 
 static void take_worse(Resistance *worst, double force, double size, OstLocal at)
 {
-    const double ratio = force / fmax(size, DBL_MIN);
-    if (ratio <= worst->ratio) /* not so of what is no number */
+    const double quotient = force / fmax(size, DBL_MIN);
+    const double ratio = isnan(quotient) ? HUGE_VAL : quotient;
+    if (ratio <= worst->ratio)
         return;
-    worst->ratio = isnan(ratio) ? HUGE_VAL : ratio;
+    worst->ratio = ratio;
     worst->at = at;
 }
 
