@@ -19,8 +19,10 @@
  * in for that of M^-1: an estimate, then, not a bound. -log10 of it is the digits. Fewer digits than the requested
  * residual leaves are the user's choice; less than one digit left by rounding alone is objected to.
  *
- * The sums are not compensated. Measured with K u in 113 bits, on the displacement as it is: see README; u rounded to
- * double leaves of itself as much as the plain sum adds, so that nothing is gained before u has more bits. */
+ * The sums are not compensated, because the limit is u's own: a displacement rounded to double leaves a residual of
+ * about DBL_EPSILON |K| |u| however exactly that is summed. Measured where it is worst, on an inclusion 1e9 times
+ * stiffer than what is around it: 4.61e-6 summed in double, 4.61e-6 summed in 64 bits (the same displacement). Nothing
+ * is gained before u has more bits. */
 OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual, double rhs_norm);
 
 /* Local. Holds something against a result. */

@@ -10,6 +10,7 @@
 #include "solve/coarse_space.h"
 #include "solve/free_body.h"
 #include "solve/freedom.h"
+#include "solve/number_range.h"
 #include "solve/recovery.h"
 #include "solve/rigid_motion.h"
 
@@ -91,7 +92,8 @@ static OstStatus assemble(const OstScene *scene, const OstResult *result, Work *
         status = OST_NEW(ctx, &work->v, 3 * rows);
     if (status == OST_SUCCESS)
         status = ost_system_right_hand_side(work->system, scene->field, result->force, work->rhs);
-    return ost_agree(ctx, status);
+    OST_TRY(ost_agree(ctx, status));
+    return ost_number_range_check(work->system, work->rhs, scene->c->path);
 }
 
 /* Before anything is built on it: is rigid motion free of force, tet by tet and in the matrix? */
