@@ -28,6 +28,7 @@ enum {
 typedef struct OstSolverOptions {
     OstRecipe recipe;
     double relative_residual;      /* of the true, unscaled residual */
+    int accept_attainable;         /* take what double precision holds where that is less */
     int max_iterations;            /* over all rungs */
     int patience;                  /* AUTO leaves a rung that needs more iterations than this, as far as it can tell */
     double aggregate_nodes;        /* METRIC to TWO_LEVEL: nodes per aggregate on the finest level */
@@ -78,6 +79,7 @@ typedef struct OstSolveReport {
     int iterations;             /* over all rungs */
     double relative_residual;   /* true, recomputed */
     double attainable_residual; /* about what rounding allows; 0 where nobody asked */
+    int rounding_limited;       /* that, and not what was asked for, is what was reached (options.accept_attainable) */
     double setup_seconds, solve_seconds;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];

@@ -68,7 +68,8 @@ static void test(void *data, void *vector, int iteration, double *r, int print, 
     note(aztec, OST_MPI(goal->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(goal->ctx))));
     *norm = sqrt(sums[0]);
     if (!aztec->stopped) {
-        aztec->stopped = iteration > 0 ? !ost_goal_count(goal, *norm) : *norm <= goal->target;
+        aztec->stopped =
+            iteration > 0 ? !ost_goal_count(goal, *norm, aztec->applied ? sums[1] : 0.0) : *norm <= goal->target;
         if (!aztec->stopped && aztec->applied)
             aztec->stopped = !ost_goal_accepts(goal, sums[1]);
         aztec->stopped = aztec->stopped || aztec->status != OST_SUCCESS;

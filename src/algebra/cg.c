@@ -24,6 +24,7 @@ typedef struct Cg {
     double *corrected;            /* z */
     double energy;                /* p·A'p of the last direction */
     double weight;                /* r·z of the last direction */
+    double size;                  /* what r' was divided by, a power of two */
     int runs;
     OstLanczos lanczos; /* of the first run */
 } Cg;
@@ -48,7 +49,7 @@ static OstStatus recursive_norm(const Cg *cg, double *norm)
     double square = cg->system->scaling ? ost_scaling_residual_square(cg->system->scaling, cg->residual)
                                         : dot(cg->n, cg->residual, cg->residual);
     OST_TRY(sum(cg, 1, &square));
-    *norm = sqrt(square);
+    *norm = cg->size * sqrt(square);
     return OST_SUCCESS;
 }
 
@@ -116,8 +117,17 @@ static OstStatus iterate(Cg *cg, double *u, OstGoal *goal)
         if (cg->runs == 0)
             ost_lanczos_add(&cg->lanczos, alpha, beta);
         OST_TRY(recursive_norm(cg, &norm));
-        on = ost_goal_count(goal, norm);
+        on = ost_goal_count(goal, norm, cg->size * cg->size * cg->weight);
     }
+    return OST_SUCCESS;
+}
+
+/* Brings r' to order 1, whatever the units: preconditioners work in single precision too. */
+static OstStatus normalise(Cg *cg)
+{
+    OST_TRY(ost_vector_size(cg->ctx, cg->n, cg->residual, &cg->size));
+    for (size_t i = 0; i < cg->n; i++)
+        cg->residual[i] /= cg->size;
     return OST_SUCCESS;
 }
 
@@ -130,7 +140,10 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
         ost_scaling_to_scaled(scaling, r, cg->residual);
     else
         memcpy(cg->residual, r, cg->n * sizeof *r);
+    OST_TRY(normalise(cg));
     const OstStatus status = iterate(cg, u, goal);
+    for (size_t i = 0; i < cg->n; i++)
+        u[i] *= cg->size;
     if (scaling)
         ost_scaling_from_scaled(scaling, u, u);
     cg->runs++;

@@ -40,13 +40,19 @@ void ost_metric_destroy(OstMetric **metric)
     OST_FREE(*metric);
 }
 
-/* The modes in scaled unknowns. */
+/* The modes in scaled unknowns, each of order 1. */
 static OstStatus scale_modes(const OstScaling *scaling, const double *modes, double **scaled)
 {
     const size_t n = 3 * (size_t)scaling->rows;
-    OST_TRY(OST_NEW(scaling->ctx, scaled, 6 * n));
-    for (size_t k = 0; k < 6; k++)
-        ost_scaling_to_scaled_mode(scaling, modes + k * n, *scaled + k * n);
+    OST_TRY(ost_agree(scaling->ctx, OST_NEW(scaling->ctx, scaled, 6 * n)));
+    for (size_t k = 0; k < 6; k++) {
+        double *mode = *scaled + k * n;
+        double size;
+        ost_scaling_to_scaled_mode(scaling, modes + k * n, mode);
+        OST_TRY(ost_vector_size(scaling->ctx, n, mode, &size));
+        for (size_t i = 0; i < n; i++)
+            mode[i] /= size;
+    }
     return OST_SUCCESS;
 }
 
@@ -81,7 +87,7 @@ static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, co
     OstStatus status = ost_metric_graph_create(matrix, geometry, &graph);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_agree(ctx, scale_modes(scaling, geometry->modes, &modes)));
+    OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
     OST_TRY_DONE(ost_metric_levels_create(scaled, modes, &graph, &metric->options, &levels));
     OST_TRY_DONE(measure_levels(metric, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));

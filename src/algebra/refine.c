@@ -9,11 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Solving again for the recomputed residual must gain this much, or it has stalled. */
+/* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may. */
 static const double least_gain = 0.5;
+enum { MOST_STALLS = 3 };
 
 /* The limit is an estimate for terms rounded at random: a residual this many times above it may still be rounding's. */
-static const double rounding_slack = 10.0;
+static const double rounding_slack = 3.0;
 
 typedef struct Refinement {
     const OstBlockMatrix *matrix;
@@ -33,11 +34,11 @@ static void say_iterations(OstGoal *goal)
     snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
 }
 
-int ost_goal_count(OstGoal *goal, double norm)
+int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
     goal->iterations++;
-    ost_watch_add(&goal->watch, norm);
+    ost_watch_add(&goal->watch, norm, weight);
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
     if (norm <= goal->target)
         return 0;
@@ -90,6 +91,16 @@ static double dot(size_t n, const double *restrict a, const double *restrict b)
     return total;
 }
 
+OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++)
+        largest = fabs(values[i]) <= largest ? largest : fabs(values[i]);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    *size = largest >= DBL_MIN && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal)
 {
     OstContext *ctx = matrix->ctx;
@@ -98,6 +109,7 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
     memset(goal, 0, sizeof *goal);
     goal->ctx = ctx;
     goal->most_iterations = options->max_iterations;
+    goal->attainable_will_do = options->accept_attainable;
     OST_TRY(sum(ctx, 1, &square));
     goal->start = goal->norm = sqrt(square);
     goal->target = options->relative_residual * goal->start;
@@ -196,14 +208,15 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
     OstGoal *goal = work->goal;
     OST_TRY(first_residual(work));
     ost_watch_start(&goal->watch, goal->norm);
-    double before;
+    int stalls = 0;
     do {
-        before = goal->norm;
+        const double before = goal->norm;
         memset(work->correction, 0, work->n * sizeof(double));
         const OstStatus status = inner(data, work->residual, work->correction, goal);
         OST_TRY(take_correction(work));
         OST_TRY(status);
-    } while (goal->end == OST_END_REACHED && goal->norm > goal->target && goal->norm < least_gain * before);
+        stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
+    } while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS);
     if (goal->norm > goal->target)
         return judge(work);
     goal->end = OST_END_REACHED;
@@ -243,7 +256,7 @@ done:
 
 OstStatus ost_goal_verdict(const OstGoal *goal)
 {
-    if (goal->end == OST_END_REACHED)
+    if (goal->end == OST_END_REACHED || (goal->end == OST_END_ROUNDING && goal->attainable_will_do))
         return OST_SUCCESS;
     const double reached = goal->norm / goal->start;
     const double requested = goal->target / goal->start;

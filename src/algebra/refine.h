@@ -25,7 +25,8 @@ typedef struct OstGoal {
     double limit;  /* about the least that rounding leaves of it; 0 where nobody asked */
     int iterations;
     int most_iterations;
-    int patience; /* 0: endless */
+    int patience;           /* 0: endless */
+    int attainable_will_do; /* less than the target, where rounding holds no more */
     OstWatch watch;
     OstEnd end;
     char words[200]; /* the end, unless reached */
@@ -46,12 +47,17 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
 OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *data, const double *f, double *u,
                      OstGoal *goal);
 
-/* Local. OST_SUCCESS if the goal was reached, else OST_NOT_CONVERGED with its words and the residual reached. */
+/* Collective. The power of two next below the largest number of all ranks, 1 if that is 0 or not finite: dividing by it
+ * is exact. */
+OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size);
+
+/* Local. OST_SUCCESS if the goal, or what will do, was reached, else OST_NOT_CONVERGED with its words and the residual
+ * reached. */
 OstStatus ost_goal_verdict(const OstGoal *goal);
 
-/* Local. Counts an iteration that left a residual of this norm, and shows how far it is on the way. Returns whether to
- * go on: not if the goal is reached, out of iterations or of patience. */
-int ost_goal_count(OstGoal *goal, double norm);
+/* Local. Counts an iteration from r·z = weight that left a residual of this norm, and shows how far it is on the way.
+ * Returns whether to go on: not if the goal is reached, out of iterations or of patience. */
+int ost_goal_count(OstGoal *goal, double norm, double weight);
 
 /* Local. Is r·z a positive number? If not, the end is OST_END_PRECONDITIONER. */
 int ost_goal_accepts(OstGoal *goal, double weight);

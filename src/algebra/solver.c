@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -218,6 +217,7 @@ static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveRe
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
         report->attainable_residual = goal->limit / goal->start;
+        report->rounding_limited = goal->end == OST_END_ROUNDING;
     }
 }
 
@@ -239,23 +239,12 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
     return measure_residual(solver, f, u, &report->relative_residual);
 }
 
-/* The power of two next to the largest number of all ranks: dividing by it is exact. */
-static OstStatus find_size(const OstSolver *solver, const double *f, double *size)
-{
-    double largest = 0.0;
-    for (size_t i = 0; i < 3 * (size_t)solver->matrix->rows; i++)
-        largest = fabs(f[i]) > largest || !isfinite(f[i]) ? fabs(f[i]) : largest;
-    OST_TRY(OST_MPI(solver->ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(solver->ctx))));
-    *size = largest > 0.0 && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
-    return OST_SUCCESS;
-}
-
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
     double *scaled = NULL;
     double size;
-    OST_TRY(find_size(solver, f, &size));
+    OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n)));
     for (size_t i = 0; i < n; i++) {
         scaled[i] = f[i] / size;

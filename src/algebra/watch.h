@@ -4,19 +4,25 @@
 
 enum { OST_WATCH_WINDOW = 20 };
 
-/* Watches a residual fall. Its norm goes up and down in conjugate gradients, so the least one so far is what counts. */
-typedef struct OstWatch {
-    int count;                       /* iterations so far */
-    double first;                    /* norm before the first */
-    double least;                    /* norm so far */
+/* A norm that goes up and down in conjugate gradients: the least one so far is what counts. */
+typedef struct OstTrack {
+    double first, least;
     double before[OST_WATCH_WINDOW]; /* the least ones of the last iterations */
+} OstTrack;
+
+/* Watches a residual fall, in the norm that is asked for and in that of the preconditioner, sqrt(r·z): while the first
+ * still rises (thin bodies, uneven stiffness), the second, close to the norm of the energy, may long be falling. */
+typedef struct OstWatch {
+    int count; /* iterations so far */
+    OstTrack residual, energy;
 } OstWatch;
 
-/* Local, all. */
+/* Local, all. `weight` is r·z. */
 void ost_watch_start(OstWatch *watch, double norm);
-void ost_watch_add(OstWatch *watch, double norm);
+void ost_watch_add(OstWatch *watch, double norm, double weight);
 
-/* By what an iteration multiplies the norm: over the last window, and since the start (geometric means). */
+/* By what an iteration of the last window multiplied the faster of the two; and the residual since the start (geometric
+ * means). */
 double ost_watch_factor(const OstWatch *watch);
 double ost_watch_whole_factor(const OstWatch *watch);
 

@@ -34,13 +34,18 @@ OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase
 
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    OstYamlKey keys[] = {{"relative_residual", OST_OPTIONAL, NULL}};
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
-    if (!keys[0].value)
+    static const char *const words[] = {"refuse", "accept"};
+    enum { RESIDUAL, OUT_OF_REACH };
+    OstYamlKey keys[] = {
+        [RESIDUAL] = {"relative_residual", OST_OPTIONAL, NULL}, [OUT_OF_REACH] = {"out_of_reach", OST_OPTIONAL, NULL}};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[OUT_OF_REACH].value)
+        OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
+    if (!keys[RESIDUAL].value)
         return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, keys[0].value, &c->solver.relative_residual));
+    OST_TRY(ost_yaml_number(yaml, keys[RESIDUAL].value, &c->solver.relative_residual));
     if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual <= 0.5))
-        return ost_yaml_raise_type(yaml, keys[0].value, "a number from 1e-15 to 0.5", "");
+        return ost_yaml_raise_type(yaml, keys[RESIDUAL].value, "a number from 1e-15 to 0.5", "");
     return OST_SUCCESS;
 }
 
