@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
-#include "peak_memory.h"
+#include "process_cost.h"
 #include "system_matrix.h"
 
 #include <stdio.h>
@@ -14,7 +14,9 @@
  * of JSON. */
 
 typedef struct Run {
-    double setup, solve, memory[2]; /* resident before, at the peak; summed over the ranks */
+    double setup, solve;
+    double setup_processor, solve_processor; /* of the rank that took most */
+    double memory[2];                        /* resident before, at the peak; summed over the ranks */
     OstSolveReport report;
     int solved;
 } Run;
@@ -25,9 +27,11 @@ static double seconds_of_all(void)
     return MPI_Wtime();
 }
 
-static void measure_memory(Run *run)
+static void measure_ranks(Run *run)
 {
     run->memory[1] = peak_resident_bytes();
+    MPI_Allreduce(MPI_IN_PLACE, &run->setup_processor, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, &run->solve_processor, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, run->memory, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
 }
 
@@ -43,15 +47,17 @@ static OstStatus solve(OstContext *ctx, const OstBlockMatrix *matrix, const Syst
     options.relative_residual = tolerance;
     restart_peak_resident();
     run->memory[0] = resident_bytes();
-    const double start = seconds_of_all();
+    const double start = seconds_of_all(), start_processor = processor_seconds();
     OST_TRY_DONE(ost_solver_create(ctx, matrix, &geometry, &options, &solver));
-    const double middle = seconds_of_all();
+    const double middle = seconds_of_all(), middle_processor = processor_seconds();
     const OstStatus solved = ost_solver_solve(solver, system->right_side, u, &run->report);
-    run->setup = middle - start;
     run->solve = seconds_of_all() - middle;
+    run->solve_processor = processor_seconds() - middle_processor;
+    run->setup = middle - start;
+    run->setup_processor = middle_processor - start_processor;
     run->solved = solved == OST_SUCCESS;
     status = solved == OST_NOT_CONVERGED ? OST_SUCCESS : solved;
-    measure_memory(run);
+    measure_ranks(run);
 done:
     ost_solver_destroy(&solver);
     return status;
@@ -59,10 +65,12 @@ done:
 
 static void print_run(const Run *run)
 {
-    printf("{\"setup\": %.6f, \"solve\": %.6f, \"iterations\": %d, \"converged\": %s, \"resident_before\": %.0f, "
-           "\"peak\": %.0f, \"levels\": %d, \"operator_complexity\": %.3f, \"version\": \"metric recipe\"}\n",
-           run->setup, run->solve, run->report.iterations, run->solved ? "true" : "false", run->memory[0],
-           run->memory[1], run->report.levels, run->report.operator_complexity);
+    printf("{\"setup\": %.6f, \"solve\": %.6f, \"setup_processor\": %.6f, \"solve_processor\": %.6f, "
+           "\"iterations\": %d, \"converged\": %s, \"resident_before\": %.0f, \"peak\": %.0f, \"levels\": %d, "
+           "\"operator_complexity\": %.3f}\n",
+           run->setup, run->solve, run->setup_processor, run->solve_processor, run->report.iterations,
+           run->solved ? "true" : "false", run->memory[0], run->memory[1], run->report.levels,
+           run->report.operator_complexity);
 }
 
 static OstStatus solve_file(OstContext *ctx, const char *folder, const char *name, double tolerance)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "peak_memory.h"
 #include "petsc_system.h"
+#include "process_cost.h"
 
 #include <HYPRE_config.h>
 #include <dmumps_c.h>
@@ -31,7 +31,9 @@ typedef struct Stop {
 } Stop;
 
 typedef struct Run {
-    PetscLogDouble setup, solve, memory[2]; /* resident before, at the peak; summed over the ranks */
+    PetscLogDouble setup, solve;
+    PetscLogDouble setup_processor, solve_processor; /* of the rank that took most */
+    PetscLogDouble memory[2];                        /* resident before, at the peak; summed over the ranks */
     PetscInt iterations;
     PetscReal residual; /* true, relative, unscaled */
 } Run;
@@ -101,10 +103,12 @@ static PetscErrorCode SolveToTolerance(KSP solver, Stop *stop, PetscReal toleran
         PetscCall(VecZeroEntries(u));
         PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
         PetscCall(PetscTime(&start));
+        run->solve_processor = -processor_seconds();
         PetscCall(KSPSolve(solver, stop->system->right_side, u));
         PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
         PetscCall(PetscTime(&end));
         run->solve = end - start;
+        run->solve_processor += processor_seconds();
         PetscCall(KSPGetIterationNumber(solver, &run->iterations));
         PetscCall(KSPGetConvergedReason(solver, &reason));
         PetscCall(PetscSystemTrueResidual(stop->system, u, &run->residual));
@@ -126,13 +130,17 @@ static PetscErrorCode SetUpAndSolve(const PetscSystem *system, const Options *op
     run->memory[0] = resident_bytes();
     PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
     PetscCall(PetscTime(&start));
+    run->setup_processor = system->scaling_processor - processor_seconds();
     PetscCall(KSPSetUp(solver));
     PetscCall(KSPSetUpOnBlocks(solver));
     PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
     PetscCall(PetscTime(&end));
     run->setup = end - start + system->scaling_seconds;
+    run->setup_processor += processor_seconds();
     PetscCall(SolveToTolerance(solver, &stop, options->tolerance, u, run));
     run->memory[1] = peak_resident_bytes();
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &run->setup_processor, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &run->solve_processor, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, run->memory, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
     PetscCall(KSPDestroy(&solver));
     PetscCall(VecDestroy(&stop.work));
@@ -143,13 +151,14 @@ static PetscErrorCode SetUpAndSolve(const PetscSystem *system, const Options *op
 static PetscErrorCode PrintRun(const Run *run, PetscReal tolerance)
 {
     PetscFunctionBeginUser;
-    PetscCall(
-        PetscPrintf(PETSC_COMM_WORLD,
-                    "{\"setup\": %.6f, \"solve\": %.6f, \"iterations\": %d, \"converged\": %s, "
-                    "\"resident_before\": %.0f, \"peak\": %.0f, \"version\": \"PETSc %d.%d.%d, hypre %s, MUMPS %s\"}\n",
-                    run->setup, run->solve, (int)run->iterations, run->residual <= tolerance ? "true" : "false",
-                    run->memory[0], run->memory[1], PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
-                    HYPRE_RELEASE_VERSION, MUMPS_VERSION));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                          "{\"setup\": %.6f, \"solve\": %.6f, \"setup_processor\": %.6f, \"solve_processor\": %.6f, "
+                          "\"iterations\": %d, \"converged\": %s, \"resident_before\": %.0f, \"peak\": %.0f, "
+                          "\"version\": \"PETSc %d.%d.%d, hypre %s, MUMPS %s\"}\n",
+                          run->setup, run->solve, run->setup_processor, run->solve_processor, (int)run->iterations,
+                          run->residual <= tolerance ? "true" : "false", run->memory[0], run->memory[1],
+                          PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR, HYPRE_RELEASE_VERSION,
+                          MUMPS_VERSION));
     PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "petsc_system.h"
 
+#include "process_cost.h"
+
 #include <math.h>
 
 /* a = L L^T and S = L^-1, both lower triangular, row-major. */
@@ -83,6 +85,7 @@ static PetscErrorCode ScaleSystem(SystemFile *file, PetscSystem *system)
     PetscFunctionBeginUser;
     PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
     PetscCall(PetscTime(&start));
+    system->scaling_processor = -processor_seconds();
     PetscCall(FactorDiagonal(file, system, &all));
     PetscCall(VecGhostGetLocalForm(all, &local));
     PetscCall(VecGetArrayRead(local, &s));
@@ -98,6 +101,7 @@ static PetscErrorCode ScaleSystem(SystemFile *file, PetscSystem *system)
     PetscCallMPI(MPI_Barrier(PETSC_COMM_WORLD));
     PetscCall(PetscTime(&end));
     system->scaling_seconds = end - start;
+    system->scaling_processor += processor_seconds();
     PetscFunctionReturn(0);
 }
 

@@ -19,7 +19,7 @@ typedef struct PetscSystem {
     PetscInt rows;             /* block rows of this rank */
     PetscScalar *scale;        /* S, rows × 9; NULL: not scaled */
     PetscScalar *unscale;      /* S^-1 */
-    PetscLogDouble scaling_seconds;
+    PetscLogDouble scaling_seconds, scaling_processor;
 } PetscSystem;
 
 PetscErrorCode PetscSystemRead(const char *folder, PetscBool scaled, SystemModes modes, PetscSystem *system);

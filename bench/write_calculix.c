@@ -29,7 +29,7 @@ static void write_mesh(const OstMesh *mesh, FILE *out)
     fputs("*NODE, NSET=ALL\n", out);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const double *x = mesh->coordinates + 3 * (size_t)n;
-        fprintf(out, "%lld, %.15e, %.15e, %.15e\n", (long long)mesh->node_label[n], x[0], x[1], x[2]);
+        fprintf(out, "%lld, %.13e, %.13e, %.13e\n", (long long)mesh->node_label[n], x[0], x[1], x[2]);
     }
     fputs("*ELEMENT, TYPE=C3D4, ELSET=BODY\n", out);
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -48,9 +48,9 @@ static void write_orthotropic(const OstMaterial *material, const OstAxesSpec *ax
     for (int k = 0; k < 3; k++)
         frame[3 * k + (axes->order[k] == OST_RADIAL ? 0 : axes->order[k] == OST_TANGENTIAL ? 1 : 2)] = 1.0;
     ost_material_rotate_stiffness(material->stiffness, frame, c);
-    fprintf(out, "*ELASTIC, TYPE=ORTHO\n%.15e, %.15e, %.15e, %.15e, %.15e, %.15e, %.15e, %.15e,\n%.15e\n", c[0], c[1],
+    fprintf(out, "*ELASTIC, TYPE=ORTHO\n%.13e, %.13e, %.13e, %.13e, %.13e, %.13e, %.13e, %.13e,\n%.13e\n", c[0], c[1],
             c[7], c[2], c[8], c[14], c[21], c[35], c[28]);
-    fprintf(out, "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n%.15e, %.15e, %.15e, %.15e, %.15e, %.15e\n",
+    fprintf(out, "*ORIENTATION, NAME=AXES, SYSTEM=CYLINDRICAL\n%.13e, %.13e, %.13e, %.13e, %.13e, %.13e\n",
             axes->origin[0], axes->origin[1], axes->origin[2], axes->origin[0] + axes->axis[0],
             axes->origin[1] + axes->axis[1], axes->origin[2] + axes->axis[2]);
 }
@@ -60,7 +60,7 @@ static void write_material(const OstScene *scene, FILE *out)
     const OstMaterial *material = &scene->field->material[0];
     fputs("*MATERIAL, NAME=SOLID\n", out);
     if (material->isotropic)
-        fprintf(out, "*ELASTIC\n%.15e, %.15e\n", material->constants.youngs_modulus[0],
+        fprintf(out, "*ELASTIC\n%.13e, %.13e\n", material->constants.youngs_modulus[0],
                 material->constants.poissons_ratio[0]);
     else
         write_orthotropic(material, &scene->c->materials[0].axes, out);
@@ -89,7 +89,7 @@ static void write_step(const OstMesh *mesh, const double *force, const char *sol
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         for (int i = 0; i < 3; i++)
             if (force[3 * (size_t)n + (size_t)i] != 0.0)
-                fprintf(out, "%lld, %d, %.15e\n", (long long)mesh->node_label[n], i + 1,
+                fprintf(out, "%lld, %d, %.13e\n", (long long)mesh->node_label[n], i + 1,
                         force[3 * (size_t)n + (size_t)i]);
     fputs("*NODE PRINT, NSET=ALL\nU\n*END STEP\n", out);
 }

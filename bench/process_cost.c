@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "peak_memory.h"
+#include "process_cost.h"
 
 #include <malloc.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 /* A number of /proc/self/status that is given in kB; 0 where there is none. */
 static double status_bytes(const char *key)
@@ -38,4 +39,11 @@ void restart_peak_resident(void)
         return;
     fputs("5", stream); /* proc(5): resets the peak resident set size */
     fclose(stream);
+}
+
+double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
