@@ -51,6 +51,7 @@ typedef struct OstHardTruth {
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||: error allowed by a residual, over that residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
+    double plain; /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
 } OstHardTruth;
 
 typedef struct OstHardReading {

@@ -131,7 +131,7 @@ OstStatus ost_hard_read(OstContext *ctx, const OstHardPoint *point, OstHardReadi
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (OstHardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN};
+    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);

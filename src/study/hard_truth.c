@@ -8,6 +8,7 @@
 #include "study/hard.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Steps of refinement at most, and of inverse iteration for ||K^-1||. */
 enum { REFINEMENTS = 60, INVERSE_STEPS = 6 };
@@ -49,6 +50,7 @@ typedef struct Direct {
     double *force, *f;
     Twofold *u;    /* with ghosts: the solution */
     double *r, *d; /* residual; correction, with ghosts */
+    double *plain; /* the factors' first solution */
 } Direct;
 
 static void release(Direct *direct)
@@ -63,6 +65,7 @@ static void release(Direct *direct)
     OST_FREE(direct->u);
     OST_FREE(direct->r);
     OST_FREE(direct->d);
+    OST_FREE(direct->plain);
 }
 
 static OstStatus assemble(const OstScene *scene, Direct *direct)
@@ -81,6 +84,8 @@ static OstStatus assemble(const OstScene *scene, Direct *direct)
         status = OST_NEW(ctx, &direct->u, columns);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &direct->r, direct->n);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &direct->plain, direct->n);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &direct->d, columns);
     if (status == OST_SUCCESS)
@@ -149,6 +154,8 @@ static OstStatus refine(Direct *direct, OstHardTruth *truth)
         OST_TRY(find_residual(direct));
         OST_TRY(apply_inverse(direct));
         OST_TRY(norm_of(direct, direct->d, &step));
+        if (k == 0)
+            memcpy(direct->plain, direct->d, direct->n * sizeof(double));
         for (size_t i = 0; i < direct->n; i++)
             direct->u[i] = plus(direct->u[i], direct->d[i]);
         OST_TRY(solution_norm(direct, &truth->size));
@@ -193,23 +200,32 @@ static OstStatus find_amplification(Direct *direct, double f_norm, OstHardTruth 
     return OST_SUCCESS;
 }
 
-static OstStatus find_error(Direct *direct, const OstResult *result, OstHardTruth *truth)
+/* ||v - u*|| / ||u*||, v being in `r`. */
+static OstStatus distance(Direct *direct, double size, double *error)
 {
-    double norm;
-    for (size_t i = 0; i < direct->n; i++) {
-        const size_t node = (size_t)direct->system->node_of_row[i / 3];
-        direct->r[i] = (result->displacement[3 * node + i % 3] - direct->u[i].high) - direct->u[i].low;
-    }
-    OST_TRY(norm_of(direct, direct->r, &norm));
-    truth->error = norm / truth->size;
+    for (size_t i = 0; i < direct->n; i++)
+        direct->r[i] = (direct->r[i] - direct->u[i].high) - direct->u[i].low;
+    OST_TRY(norm_of(direct, direct->r, error));
+    *error /= size;
     return OST_SUCCESS;
+}
+
+static OstStatus find_errors(Direct *direct, const OstResult *result, OstHardTruth *truth)
+{
+    memcpy(direct->r, direct->plain, direct->n * sizeof(double));
+    OST_TRY(distance(direct, truth->size, &truth->plain));
+    if (!result)
+        return OST_SUCCESS;
+    for (size_t i = 0; i < direct->n; i++)
+        direct->r[i] = result->displacement[3 * (size_t)direct->system->node_of_row[i / 3] + i % 3];
+    return distance(direct, truth->size, &truth->error);
 }
 
 OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth)
 {
     Direct direct = {.ctx = scene->ctx};
     double f_norm;
-    *truth = (OstHardTruth){0, NAN, NAN, NAN, NAN};
+    *truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN};
     OstStatus status = assemble(scene, &direct);
     if (status == OST_SUCCESS)
         status = factor(&direct);
@@ -219,8 +235,7 @@ OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, Os
     OST_TRY_DONE(refine(&direct, truth));
     if (!truth->known)
         goto done;
-    if (result)
-        OST_TRY_DONE(find_error(&direct, result, truth));
+    OST_TRY_DONE(find_errors(&direct, result, truth));
     OST_TRY_DONE(find_floor(&direct, f_norm, truth));
     OST_TRY_DONE(find_amplification(&direct, f_norm, truth));
 done:
