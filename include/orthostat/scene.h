@@ -19,6 +19,11 @@ typedef struct OstScene {
 
 /* Collective. Reads or makes the mesh, distributes it, and sets up materials and axes. The case outlives the scene. */
 OstStatus ost_scene_create(const OstCase *c, OstScene **scene);
+
+/* Collective. The same on a mesh of the caller's in place of the case's, which still says (by its shape) on which
+ * surface new nodes belong; no table of axes is read. The chunk is consumed: destroyed, and the pointer nulled. */
+OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene **scene);
+
 void ost_scene_destroy(OstScene **scene);
 
 /* Collective. Supports, loads, stiffness, solve, checks, and the fields the case's output asks for. Raises

@@ -124,7 +124,8 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
     return ost_field_mean_dilatation(scene->field, 0.5, &regions); /* linear tets have no use for it */
 }
 
-OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
+/* The mesh is the case's, or made of the chunk if there is one. */
+static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
 {
     OstContext *ctx = c->ctx;
     OstFileMaterials *from_file = NULL;
@@ -136,7 +137,7 @@ OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
         goto done;
     made->ctx = ctx;
     made->c = c;
-    OST_TRY_DONE(ost_scene_mesh(c, &made->mesh, &from_file));
+    OST_TRY_DONE(chunk ? ost_scene_distribute(c, chunk, &made->mesh) : ost_scene_mesh(c, &made->mesh, &from_file));
     ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
     OST_TRY_DONE(ost_scene_materials(c, made->mesh, from_file, &materials));
     OST_TRY_DONE(make_field(made, &materials));
@@ -147,6 +148,18 @@ done:
     if (status != OST_SUCCESS)
         ost_scene_destroy(&made);
     *scene = made;
+    return status;
+}
+
+OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
+{
+    return create(c, NULL, scene);
+}
+
+OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
+{
+    const OstStatus status = create(c, chunk, scene);
+    ost_chunk_destroy(chunk);
     return status;
 }
 

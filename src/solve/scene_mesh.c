@@ -88,9 +88,22 @@ static OstStatus change_order(const OstCase *c, const OstShapeSurface *surface, 
     return OST_SUCCESS;
 }
 
-OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **materials)
+OstStatus ost_scene_distribute(const OstCase *c, OstMeshChunk **chunk, OstMesh **mesh)
 {
     const OstShapeSurface surface = true_surface(c);
+    *mesh = NULL;
+    OstStatus status = ost_mesh_distribute(c->ctx, chunk, mesh);
+    if (status == OST_SUCCESS)
+        status = refine(c, &surface, mesh);
+    if (status == OST_SUCCESS)
+        status = change_order(c, &surface, mesh);
+    if (status != OST_SUCCESS)
+        ost_mesh_destroy(mesh);
+    return status;
+}
+
+OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **materials)
+{
     OstMeshChunk *chunk = NULL;
     *mesh = NULL;
     *materials = NULL;
@@ -100,15 +113,9 @@ OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **ma
     if (status == OST_SUCCESS)
         status = merge_vertices(c, chunk);
     if (status == OST_SUCCESS)
-        status = ost_mesh_distribute(c->ctx, &chunk, mesh);
-    if (status == OST_SUCCESS)
-        status = refine(c, &surface, mesh);
-    if (status == OST_SUCCESS)
-        status = change_order(c, &surface, mesh);
+        status = ost_scene_distribute(c, &chunk, mesh);
     ost_chunk_destroy(&chunk);
-    if (status == OST_SUCCESS)
-        return OST_SUCCESS;
-    ost_mesh_destroy(mesh);
-    ost_file_materials_destroy(materials);
+    if (status != OST_SUCCESS)
+        ost_file_materials_destroy(materials);
     return status;
 }

@@ -10,4 +10,7 @@
  * surface). `materials` are those that came with the file, or NULL; the caller's to free. */
 OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **materials);
 
+/* Collective. The second half of it: a chunk, which is consumed, cut, distributed, refined and in the case's order. */
+OstStatus ost_scene_distribute(const OstCase *c, OstMeshChunk **chunk, OstMesh **mesh);
+
 #endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "study/hard.h"
+
+#include <math.h>
+
+/* Nine constants at a share of the border of stability: ratios that differ by pair, and that stay near one border
+ * whatever the moduli, because they are those of the moduli's geometric means (-0.4, -0.3, -0.2 off the diagonal of the
+ * normalised normal block), blown up until the smallest eigenvalue is all but gone. */
+static OstStatus border_constants(OstContext *ctx, const double youngs[3], double share, OstOrthotropic *constants)
+{
+    static const double normalised[3] = {0.4, 0.3, 0.2};
+    double eigenvalues[3];
+    *constants = ost_orthotropic_family(youngs, 0.3, OST_SHEAR_GEOMETRIC);
+    for (int i = 0; i < 3; i++)
+        constants->poissons_ratio[i] = normalised[i] * (sqrt(youngs[i]) / sqrt(youngs[(i + 1) % 3]));
+    OST_TRY(ost_orthotropic_eigenvalues(ctx, constants, eigenvalues));
+    const double scale = share * ost_orthotropic_stable_scale(eigenvalues);
+    for (int i = 0; i < 3; i++)
+        constants->poissons_ratio[i] *= scale;
+    return OST_SUCCESS;
+}
+
+static OstStatus constants_of(OstContext *ctx, const OstHardPoint *point, double modulus, OstOrthotropic *constants)
+{
+    double youngs[3] = {modulus, modulus, modulus};
+    youngs[point->stiff] *= ost_hard_ratio[point->ratio];
+    if (point->flaw == OST_HARD_BEYOND_BORDER)
+        return border_constants(ctx, youngs, 1.001, constants);
+    if (point->poisson >= OST_HARD_FAMILY)
+        return border_constants(ctx, youngs, ost_hard_border[point->poisson - OST_HARD_FAMILY], constants);
+    const double nu = point->flaw == OST_HARD_NU_HALF ? 0.5 : ost_hard_nu[point->poisson];
+    *constants = ost_orthotropic_family(youngs, nu, OST_SHEAR_GEOMETRIC);
+    return OST_SUCCESS;
+}
+
+static void set_axes(const OstHardPoint *point, OstAxesSpec *axes)
+{
+    static const OstCylindricalDirection order[3] = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL};
+    static const OstAxesKind kind[OST_HARD_AXES] = {OST_AXES_NONE, OST_AXES_CYLINDRICAL, OST_AXES_CELLS};
+    axes->kind = kind[point->axes];
+    for (int i = 0; i < 3; i++)
+        axes->order[i] = order[i];
+    ost_hard_cylinder(point->shape, axes->origin, axes->axis);
+}
+
+OstStatus ost_hard_materials(OstContext *ctx, const OstHardPoint *point, OstHardCase *hard)
+{
+    static char all[] = "all", inclusion[] = "inclusion";
+    const double contrast = ost_hard_contrast(point->shape);
+    hard->c.materials = hard->material;
+    hard->c.material_count = contrast == 1.0 ? 1 : 2;
+    for (int m = 0; m < hard->c.material_count; m++) {
+        hard->material[m].region = m == 0 ? all : inclusion;
+        OST_TRY(constants_of(ctx, point, m == 0 ? 1.0 : contrast, &hard->material[m].constants));
+        set_axes(point, &hard->material[m].axes);
+    }
+    return OST_SUCCESS;
+}

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "study/hard.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What a residual at the floor of double precision leaves room for, over that floor. */
+static const double above_floor = 8.0;
+
+/* ||K^-1|| is estimated, from below, and the program's own check grants twice the residual asked for. */
+static const double slack = 4.0;
+
+/* Words that the reason for refusing a flawed point must hold. */
+static const char *const reason_word[OST_HARD_FLAWS] = {
+    [OST_HARD_SOUND] = "",         [OST_HARD_BEYOND_BORDER] = "Stable up to", [OST_HARD_NU_HALF] = "-1 < nu < 0.5",
+    [OST_HARD_LOOSE] = "can turn", [OST_HARD_INVERTED] = "is inverted",       [OST_HARD_NOT_A_NUMBER] = "not finite",
+};
+
+static void take_reason(OstHardReading *reading, const OstContext *ctx, OstStatus status)
+{
+    reading->status = status;
+    snprintf(reading->reason, sizeof reading->reason, "%s", status == OST_SUCCESS ? "" : ost_error_text(ctx));
+}
+
+static void take_result(const OstResult *result, double asked, OstHardReading *reading)
+{
+    reading->asked = asked;
+    reading->unknowns = result->unknowns;
+    reading->recipe = result->solve.recipe;
+    reading->iterations = result->solve.iterations;
+    reading->residual = result->solve.relative_residual;
+    reading->condition_estimate = result->solve.condition_estimate;
+}
+
+static OstStatus solve(OstScene *scene, OstHardCase *hard, double asked, OstResult **result, OstHardReading *reading)
+{
+    const double start = ost_seconds();
+    ost_result_destroy(result);
+    hard->c.solver.relative_residual = asked;
+    const OstStatus status = ost_scene_solve(scene, result);
+    reading->seconds += ost_seconds() - start;
+    take_reason(reading, scene->ctx, status);
+    if (*result)
+        take_result(*result, asked, reading);
+    return status;
+}
+
+/* A flawed point is refused as bad input, with a reason that names the flaw. */
+static void judge_flawed(OstHardReading *reading)
+{
+    const int named = strstr(reading->reason, reason_word[reading->point.flaw]) != NULL;
+    if (reading->status == OST_SUCCESS)
+        reading->outcome = OST_HARD_FALSE;
+    else
+        reading->outcome = reading->status == OST_INVALID_INPUT && named ? OST_HARD_REFUSED : OST_HARD_GIVEN_UP;
+}
+
+static void condemn(OstHardReading *reading, OstHardOutcome outcome, const char *why)
+{
+    reading->outcome = outcome;
+    if (!reading->reason[0])
+        snprintf(reading->reason, sizeof reading->reason, "%s", why);
+}
+
+static void judge(OstHardReading *reading)
+{
+    const OstHardTruth *truth = &reading->truth;
+    reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
+    if (reading->status != OST_SUCCESS)
+        reading->outcome = OST_HARD_GIVEN_UP;
+    else if (!truth->known)
+        condemn(reading, OST_HARD_FALSE, "solved, where a direct solution cannot be had");
+    else if (!(truth->error <= slack * truth->amplification * (reading->asked + truth->floor)))
+        condemn(reading, OST_HARD_FALSE, "further from the direct solution than the residual allows");
+    else
+        reading->outcome = reading->asked > 1e-8 ? OST_HARD_SOLVED_TO_ROUNDING : OST_HARD_SOLVED;
+}
+
+/* Where double precision cannot hold 1e-8, the refusal is right, and what it can hold is asked for instead. */
+static OstStatus solve_sound(OstScene *scene, OstHardCase *hard, OstHardReading *reading)
+{
+    OstResult *result = NULL;
+    OstStatus solved = solve(scene, hard, 1e-8, &result, reading);
+    OstStatus status = ost_hard_find_truth(scene, result, &reading->truth);
+    const double within_reach = above_floor * reading->truth.floor;
+    if (status == OST_SUCCESS && solved != OST_SUCCESS && within_reach > 1e-8 && within_reach < 0.5) {
+        solved = solve(scene, hard, within_reach, &result, reading);
+        status = ost_hard_find_truth(scene, result, &reading->truth);
+    }
+    ost_result_destroy(&result);
+    if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: no truth */
+        status = OST_SUCCESS;
+    if (status == OST_SUCCESS)
+        judge(reading);
+    return status;
+}
+
+/* Is this a failure of the point, and not of the grid? */
+static int concerns_point(OstStatus status)
+{
+    return status == OST_INVALID_INPUT || status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED;
+}
+
+static OstStatus read_point(OstContext *ctx, const OstHardPoint *point, OstHardReading *reading)
+{
+    OstHardCase hard;
+    OstMeshChunk *chunk = NULL;
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    OST_TRY(ost_agree(ctx, ost_hard_make_case(ctx, point, &hard)));
+    OST_TRY(ost_hard_make_chunk(point, &hard.c, &chunk));
+    OstStatus status = ost_scene_create_on(&hard.c, &chunk, &scene);
+    take_reason(reading, ctx, status);
+    if (point->flaw != OST_HARD_SOUND) {
+        if (status == OST_SUCCESS)
+            status = solve(scene, &hard, 1e-8, &result, reading);
+        judge_flawed(reading);
+    } else if (status == OST_SUCCESS)
+        status = solve_sound(scene, &hard, reading);
+    else
+        reading->outcome = OST_HARD_GIVEN_UP;
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    return concerns_point(status) ? OST_SUCCESS : status;
+}
+
+OstStatus ost_hard_read(OstContext *ctx, const OstHardPoint *point, OstHardReading *reading)
+{
+    const OstLogLevel level = ost_log_level(ctx);
+    *reading = (OstHardReading){.point = *point, .residual = NAN, .digits = NAN};
+    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN};
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    const OstStatus status = read_point(ctx, point, reading);
+    ost_log_set_level(ctx, level);
+    return status;
+}
+
+OstStatus ost_hard_run(OstContext *ctx, const int wanted[OST_HARD_SHAPES], int quick, OstHardReport **out)
+{
+    OstHardReport *report = NULL;
+    OstHardPoint *points = NULL;
+    const double start = ost_seconds();
+    OstStatus status = OST_NEW(ctx, &report, 1);
+    if (status == OST_SUCCESS) {
+        report->ctx = ctx;
+        report->quick = quick;
+        status = ost_hard_points(ctx, wanted, quick, &report->count, &points);
+    }
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &report->reading, report->count);
+    status = ost_agree(ctx, status);
+    for (int i = 0; status == OST_SUCCESS && i < report->count; i++) {
+        char what[160];
+        ost_hard_describe(&points[i], what, sizeof what);
+        ost_progress(ctx, what, (double)i / report->count);
+        status = ost_hard_read(ctx, &points[i], &report->reading[i]);
+        ost_log(ctx, OST_LOG_VERBOSE, "%s: %s, %d iterations, %.1f digits %s", what,
+                ost_hard_outcome_name[report->reading[i].outcome], report->reading[i].iterations,
+                report->reading[i].digits, report->reading[i].reason);
+    }
+    ost_progress(ctx, "", -1.0);
+    OST_FREE(points);
+    if (status == OST_SUCCESS)
+        report->seconds = ost_seconds() - start;
+    else
+        ost_hard_report_destroy(&report);
+    *out = report;
+    return status;
+}
+
+void ost_hard_report_destroy(OstHardReport **report)
+{
+    if (!*report)
+        return;
+    OST_FREE((*report)->reading);
+    OST_FREE(*report);
+}
+
+int ost_hard_passed(const OstHardReport *report)
+{
+    int failed = 0;
+    for (int i = 0; i < report->count; i++)
+        failed += report->reading[i].outcome == OST_HARD_GIVEN_UP || report->reading[i].outcome == OST_HARD_FALSE;
+    return failed == 0;
+}
