@@ -69,13 +69,12 @@ static void move_tets(const OstLanes *arm, int nodes, const OstLanes *size, cons
         }
 }
 
-static double largest_in_lane(const OstLanes *values, int count, int lane)
+static void sum_sizes(const OstLanes *values, int count, OstLanes *sum)
 {
-    double largest = 0.0;
+    *sum = (OstLanes){0};
     for (int n = 0; n < count; n++)
-        if (!(fabs(values[n][lane]) <= largest))
-            largest = fabs(values[n][lane]);
-    return largest;
+        for (int lane = 0; lane < OST_LANES; lane++)
+            (*sum)[lane] += fabs(values[n][lane]);
 }
 
 static void try_batch(const OstElement *element, const OstBatch *batch, const double share[MODES], Resistance *worst)
@@ -84,14 +83,15 @@ static void try_batch(const OstElement *element, const OstBatch *batch, const do
     OstLanes u[3 * OST_MAX_TET_NODES];
     OstLanes force[3 * OST_MAX_TET_NODES];
     OstLanes magnitude[3 * OST_MAX_TET_NODES];
-    OstLanes size;
+    OstLanes size, whole_force, whole_magnitude;
     centre_tets(batch->x, element->nodes, arm, &size);
     move_tets(arm, element->nodes, &size, share, u);
     element->force(batch->x, &batch->elasticity, u, force);
     element->magnitude(batch->x, &batch->elasticity, u, magnitude);
+    sum_sizes(force, 3 * element->nodes, &whole_force);
+    sum_sizes(magnitude, 3 * element->nodes, &whole_magnitude);
     for (int lane = 0; lane < batch->count; lane++)
-        take_worse(worst, largest_in_lane(force, 3 * element->nodes, lane),
-                   largest_in_lane(magnitude, 3 * element->nodes, lane), batch->tet[lane]);
+        take_worse(worst, whole_force[lane], whole_magnitude[lane], batch->tet[lane]);
 }
 
 static Resistance try_tets(const OstMesh *mesh, const OstMaterialField *field, const double share[MODES])
