@@ -98,7 +98,7 @@ static OstStatus factor(Direct *direct)
     const OstBlockMatrix *matrix = direct->system->matrix;
     OST_TRY(ost_scaling_create(matrix, &direct->scaling));
     OST_TRY(ost_scaling_apply_matrix(direct->scaling, matrix, &direct->scaled));
-    return ost_mumps_create(direct->scaled, &direct->factors);
+    return ost_mumps_create_of_rows(direct->scaled, 0.0, &direct->factors);
 }
 
 static OstStatus norm_of(const Direct *direct, const double *v, double *norm)
