@@ -38,8 +38,9 @@ static void measure_ranks(Run *run)
 static OstStatus solve(OstContext *ctx, const OstBlockMatrix *matrix, const SystemFile *system, double tolerance,
                        double *u, Run *run)
 {
-    const OstSolverGeometry geometry = {system->coordinates, system->has_metric ? system->metric : NULL, system->modes,
-                                        NULL};
+    const OstSolverGeometry geometry = {.coordinates = system->coordinates,
+                                        .metric = system->has_metric ? system->metric : NULL,
+                                        .modes = system->modes};
     OstSolverOptions options = ost_solver_default_options();
     OstSolver *solver = NULL;
     OstStatus status = OST_SUCCESS;

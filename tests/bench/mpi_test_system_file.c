@@ -106,7 +106,7 @@ static void solve(const SystemFile *system, double **u)
     options.relative_residual = 1e-12;
     assert_success(ost_bench_matrix(ctx, &file, &matrix));
     assert_success(OST_NEW(ctx, u, 3 * (size_t)matrix->columns));
-    assert_success(ost_solver_create(ctx, matrix, &(OstSolverGeometry){NULL, NULL, NULL, NULL}, &options, &solver));
+    assert_success(ost_solver_create(ctx, matrix, &(OstSolverGeometry){.coordinates = NULL}, &options, &solver));
     assert_success(ost_solver_solve(solver, system->right_side, *u, &report));
     ost_solver_destroy(&solver);
     ost_block_matrix_destroy(&matrix);
