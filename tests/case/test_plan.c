@@ -136,6 +136,8 @@ static void the_recipe_follows_the_size_unless_the_case_says(void **state)
     assert_int_equal(plan.solver.first, OST_RECIPE_DIRECT);
     make_plan(CUBE STEEL);
     assert_int_equal(plan.solver.first, OST_RECIPE_METRIC);
+    assert_close(plan.facts.anisotropy, 1.0, 0.0);
+    assert_close(plan.facts.contrast, 1.0, 0.0);
     make_plan(CUBE STEEL "solver: {recipe: plain}\n");
     assert_int_equal(plan.solver.first, OST_RECIPE_PLAIN);
     assert_string_equal(plan.solver.reason[0], "the case asks for it");
