@@ -30,8 +30,8 @@ typedef enum { OST_EFFECT_TABLE(OST_PLAN_ENUM) OST_PLAN_COUNT } OstPlanIndex;
 
 typedef struct OstPlan {
     OstPlanEffect effect[OST_PLAN_COUNT];
-    OstRecipe recipe;
-    char recipe_reason[160];
+    OstSolverFacts facts; /* as far as they are known */
+    OstSolverPlan solver;
     OstGlobal nodes, tets; /* of the mesh as given */
     OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
     /* Over all ranks, foreseen (the formulas are in src/case/plan_memory.c): pieces of the mesh with their halos; K by

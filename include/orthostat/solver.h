@@ -4,43 +4,98 @@
 
 #include "orthostat/context.h"
 
-/* How the linear system is solved. */
+/* How the linear system is solved: the rungs of a ladder, from cheap to safe. */
 typedef enum {
-    OST_RECIPE_AUTO,   /* METRIC, or DIRECT below 3000 unknowns */
-    OST_RECIPE_PLAIN,  /* AztecOO's CG, ML's smoothed aggregation with its own aggregates */
-    OST_RECIPE_METRIC, /* flexible CG, smoothed aggregation on aggregates round in the material's metric, block
-                          smoother, K-cycle */
-    OST_RECIPE_DIRECT  /* MUMPS, refined by CG to the requested residual */
+    OST_RECIPE_AUTO,      /* starts where the plan says, and climbs for as long as a rung is too slow or fails */
+    OST_RECIPE_PLAIN,     /* AztecOO's CG, ML's smoothed aggregation with its own aggregates; never planned */
+    OST_RECIPE_METRIC,    /* flexible CG, smoothed aggregation on aggregates round in the material's metric, block
+                             smoother, K-cycle */
+    OST_RECIPE_STRONG,    /* the same hierarchy with a smoother of higher degree over a wider interval */
+    OST_RECIPE_TWO_LEVEL, /* strong smoothing over aggregates whose matrix is factored; quadratic tets: over the linear
+                             ones, factored */
+    OST_RECIPE_DIRECT     /* MUMPS, refined by CG to the requested residual */
 } OstRecipe;
+
+/* Parameters that the user has given: plan and ladder leave them alone. */
+enum {
+    OST_GIVEN_AGGREGATE = 1,
+    OST_GIVEN_COARSE_AGGREGATE = 2,
+    OST_GIVEN_BLOCK = 4,
+    OST_GIVEN_DEGREE = 8,
+    OST_GIVEN_RATIO = 16
+};
 
 typedef struct OstSolverOptions {
     OstRecipe recipe;
-    double relative_residual; /* of the true, unscaled residual */
-    int max_iterations;
-    double aggregate_nodes;        /* METRIC: nodes per aggregate on the finest level */
-    double coarse_aggregate_nodes; /* METRIC: on the levels below */
-    double smoother_block_nodes;   /* METRIC: nodes per smoother block */
+    double relative_residual;      /* of the true, unscaled residual */
+    int accept_attainable;         /* take what double precision holds where that is less */
+    int max_iterations;            /* over all rungs */
+    int patience;                  /* AUTO leaves a rung that needs more iterations than this, as far as it can tell */
+    double aggregate_nodes;        /* METRIC to TWO_LEVEL: nodes per aggregate on the finest level */
+    double coarse_aggregate_nodes; /* on the levels below */
+    double smoother_block_nodes;   /* nodes per smoother block */
     int smoother_degree;           /* Chebyshev degree */
     double smoother_ratio;         /* Chebyshev covers [lambda / ratio, 1.1 lambda] */
     int coarsest_unknowns;         /* stop coarsening below this many */
+    int most_levels;               /* stop coarsening at this many; the last one is then factored, however large */
+    double factor_memory;          /* bytes a factorisation may take over all ranks; 0: what is free */
+    unsigned given;                /* OST_GIVEN_* */
 } OstSolverOptions;
 
-enum { OST_MAX_LEVELS = 12 };
+/* What can be seen of a system before it is solved; 0 where it is not known. */
+typedef struct OstSolverFacts {
+    OstGlobal unknowns;
+    double anisotropy;  /* largest ratio of Young's moduli at one place */
+    double poisson;     /* largest over the materials, of a stable family that resists a change of volume as much */
+    double contrast;    /* largest over smallest Young's modulus of the body */
+    double quality;     /* of the worst tet (ost_tet_quality: 1 regular, 0 flat) */
+    double free_memory; /* bytes, over the machines of all ranks */
+} OstSolverFacts;
+
+enum { OST_PLAN_REASONS = 8 };
+
+/* Where the ladder starts, with which parameters, and why. */
+typedef struct OstSolverPlan {
+    OstRecipe first;
+    OstSolverOptions options; /* those of the first rung */
+    int reasons;
+    char reason[OST_PLAN_REASONS][160]; /* the first is that of the rung */
+} OstSolverPlan;
+
+enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6 };
+
+/* A rung of the ladder that was tried. */
+typedef struct OstSolveStep {
+    OstRecipe rung;
+    int iterations;
+    double factor;            /* by which the residual fell in an iteration, geometric mean; 0 if there was none */
+    double relative_residual; /* true, at its end */
+    double seconds;           /* setup and solve */
+    char outcome[240];        /* how it ended, in words */
+} OstSolveStep;
 
 typedef struct OstSolveReport {
-    OstRecipe recipe; /* the one used */
-    int iterations;
-    double relative_residual; /* true, recomputed */
+    OstRecipe recipe;           /* the last rung */
+    int iterations;             /* over all rungs */
+    double relative_residual;   /* true, recomputed */
+    double attainable_residual; /* about what rounding allows; 0 where nobody asked */
+    int rounding_limited;       /* that, and not what was asked for, is what was reached (options.accept_attainable) */
     double setup_seconds, solve_seconds;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity; /* nonzeros of all levels over those of the finest */
     double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
+    OstSolverPlan plan;
+    int steps; /* one more than times climbed */
+    OstSolveStep step[OST_MAX_STEPS];
 } OstSolveReport;
 
-/* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, recipe R's 40 / 8 / 7 nodes, degree 3, ratio 20, coarsest
- * 1000. */
+/* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, patience 150, recipe R's 40 / 8 / 7 nodes, degree 3,
+ * ratio 20, coarsest 1000. */
 OstSolverOptions ost_solver_default_options(void);
 const char *ost_recipe_name(OstRecipe recipe);
+
+/* Local. The plan for a system of which these facts are known; a recipe other than AUTO is planned as asked. */
+void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
 
 #endif

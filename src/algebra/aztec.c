@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/aztec.h"
 
-#include "algebra/refine.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -62,7 +61,6 @@ static void test(void *data, void *vector, int iteration, double *r, int print, 
     OstGoal *goal = aztec->goal;
     double sums[2] = {0.0, aztec->weight};
     (void)vector;
-    (void)iteration;
     (void)print;
     (void)updated;
     for (size_t i = 0; i < aztec->n; i++)
@@ -70,11 +68,11 @@ static void test(void *data, void *vector, int iteration, double *r, int print, 
     note(aztec, OST_MPI(goal->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(goal->ctx))));
     *norm = sqrt(sums[0]);
     if (!aztec->stopped) {
-        aztec->stopped = *norm <= goal->target;
+        aztec->stopped =
+            iteration > 0 ? !ost_goal_count(goal, *norm, aztec->applied ? sums[1] : 0.0) : *norm <= goal->target;
         if (!aztec->stopped && aztec->applied)
-            note(aztec, ost_goal_require_positive(goal, sums[1], "r·z", "the preconditioner"));
+            aztec->stopped = !ost_goal_accepts(goal, sums[1]);
         aztec->stopped = aztec->stopped || aztec->status != OST_SUCCESS;
-        ost_goal_progress(goal, *norm);
     }
     aztec->applied = 0;
     *converged = aztec->stopped;
@@ -99,8 +97,8 @@ static OstStatus read_outcome(const Aztec *aztec, const double *outcome)
     if (outcome[AZ_why] == AZ_breakdown)
         return OST_RAISE(aztec->goal->ctx, OST_NOT_CONVERGED,
                          "iteration %d: p·Ap is not a positive number: the stiffness is not positive definite; check "
-                         "supports and materials, or ask for the direct solver",
-                         aztec->goal->iterations);
+                         "supports and materials",
+                         aztec->goal->iterations + 1);
     return OST_SUCCESS;
 }
 
@@ -128,23 +126,19 @@ static OstStatus iterate(void *data, const double *r, double *u, OstGoal *goal)
     AZ_converge_destroy(&matrix->conv_info);
     AZ_precond_destroy(&preconditioner);
     AZ_matrix_destroy(&matrix);
-    goal->iterations += (int)outcome[AZ_its];
     return read_outcome(aztec, outcome);
 }
 
 OstStatus ost_aztec_solve(const OstBlockMatrix *matrix, const OstPreconditioner *preconditioner, const double *f,
-                          double *u, const OstSolverOptions *options, OstSolveReport *report)
+                          double *u, OstGoal *goal)
 {
     OstContext *ctx = matrix->ctx;
     Aztec aztec = {.matrix = matrix, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows};
-    report->iterations = 0;
-    report->relative_residual = 0.0;
-    report->condition_estimate = 0.0;
     OstStatus status = OST_NEW(ctx, &aztec.vector, 3 * (size_t)matrix->columns);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &aztec.residual, aztec.n);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_refine(matrix, iterate, &aztec, f, u, options, report));
+    OST_TRY_DONE(ost_refine(matrix, iterate, &aztec, f, u, goal));
 done:
     OST_FREE(aztec.vector);
     OST_FREE(aztec.residual);

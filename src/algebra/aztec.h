@@ -5,8 +5,8 @@
 #include "algebra/cg.h"
 
 /* Collective. As ost_cg_solve on the unscaled matrix, by AztecOO's conjugate gradients, which need a preconditioner
- * that is not flexible. The report's condition estimate is 0, as AztecOO keeps its coefficients to itself. */
+ * that is not flexible, and keep their coefficients to themselves. */
 OstStatus ost_aztec_solve(const OstBlockMatrix *matrix, const OstPreconditioner *preconditioner, const double *f,
-                          double *u, const OstSolverOptions *options, OstSolveReport *report);
+                          double *u, OstGoal *goal);
 
 #endif

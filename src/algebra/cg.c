@@ -2,12 +2,15 @@
 #include "algebra/cg.h"
 
 #include "algebra/lanczos.h"
-#include "algebra/refine.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+/* Of p·p: what rounding may leave of p·Ap, some tens of units in the last place. */
+static const double rounding = 1e-13;
 
 typedef struct Cg {
     OstContext *ctx;
@@ -21,6 +24,7 @@ typedef struct Cg {
     double *corrected;            /* z */
     double energy;                /* p·A'p of the last direction */
     double weight;                /* r·z of the last direction */
+    double size;                  /* what r' was divided by, a power of two */
     int runs;
     OstLanczos lanczos; /* of the first run */
 } Cg;
@@ -45,18 +49,19 @@ static OstStatus recursive_norm(const Cg *cg, double *norm)
     double square = cg->system->scaling ? ost_scaling_residual_square(cg->system->scaling, cg->residual)
                                         : dot(cg->n, cg->residual, cg->residual);
     OST_TRY(sum(cg, 1, &square));
-    *norm = sqrt(square);
+    *norm = cg->size * sqrt(square);
     return OST_SUCCESS;
 }
 
 /* z = M^-1 r, and the next direction p = z + beta p. */
-static OstStatus next_direction(Cg *cg, const OstGoal *goal, int first, double *beta)
+static OstStatus next_direction(Cg *cg, OstGoal *goal, int first, double *beta)
 {
     const int flexible = cg->preconditioner->flexible && !first;
     OST_TRY(cg->preconditioner->apply(cg->preconditioner->data, cg->residual, cg->corrected));
     double sums[2] = {dot(cg->n, cg->residual, cg->corrected), flexible ? dot(cg->n, cg->corrected, cg->product) : 0.0};
     OST_TRY(sum(cg, 2, sums));
-    OST_TRY(ost_goal_require_positive(goal, sums[0], "r·z", "the preconditioner"));
+    if (!ost_goal_accepts(goal, sums[0]))
+        return OST_SUCCESS;
     *beta = first ? 0.0 : flexible ? -sums[1] / cg->energy : sums[0] / cg->weight;
     cg->weight = sums[0];
     for (size_t i = 0; i < cg->n; i++)
@@ -64,14 +69,30 @@ static OstStatus next_direction(Cg *cg, const OstGoal *goal, int first, double *
     return OST_SUCCESS;
 }
 
+/* p·Ap is not positive. Scaled matrices have ones on the diagonal and a norm of some tens, so that rounding may turn
+ * the sign of what is small beside p·p. */
+static OstStatus judge_energy(Cg *cg, OstGoal *goal)
+{
+    double square = dot(cg->n, cg->direction, cg->direction);
+    OST_TRY(sum(cg, 1, &square));
+    if (cg->energy < -rounding * square || (!cg->system->scaling && cg->energy < 0.0))
+        return ost_goal_refuse_indefinite(goal, cg->energy);
+    goal->end = OST_END_STALLED;
+    snprintf(goal->words, sizeof goal->words,
+             "in iteration %d p·Ap = %g beside p·p = %g: the stiffness is singular to rounding", goal->iterations + 1,
+             cg->energy, square);
+    return OST_SUCCESS;
+}
+
 /* The step along p that leaves the least energy. */
-static OstStatus step(Cg *cg, const OstGoal *goal, double *u, double *alpha)
+static OstStatus step(Cg *cg, OstGoal *goal, double *u, double *alpha)
 {
     OST_TRY(ost_block_matrix_apply(cg->matrix, cg->direction, cg->product));
     double sums[2] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual)};
     OST_TRY(sum(cg, 2, sums));
-    OST_TRY(ost_goal_require_positive(goal, sums[0], "p·Ap", "the stiffness"));
     cg->energy = sums[0];
+    if (!(cg->energy > 0.0 && isfinite(cg->energy)))
+        return judge_energy(cg, goal);
     *alpha = sums[1] / sums[0];
     for (size_t i = 0; i < cg->n; i++) {
         u[i] += *alpha * cg->direction[i];
@@ -84,17 +105,29 @@ static OstStatus iterate(Cg *cg, double *u, OstGoal *goal)
 {
     double norm;
     OST_TRY(recursive_norm(cg, &norm));
-    for (int first = 1; norm > goal->target && goal->iterations < goal->most_iterations; first = 0) {
-        double alpha;
-        double beta;
+    int on = norm > goal->target && goal->iterations < goal->most_iterations;
+    for (int first = 1; on; first = 0) {
+        double alpha = 0.0;
+        double beta = 0.0;
         OST_TRY(next_direction(cg, goal, first, &beta));
-        OST_TRY(step(cg, goal, u, &alpha));
+        if (goal->end == OST_END_REACHED)
+            OST_TRY(step(cg, goal, u, &alpha));
+        if (goal->end != OST_END_REACHED)
+            return OST_SUCCESS;
         if (cg->runs == 0)
             ost_lanczos_add(&cg->lanczos, alpha, beta);
-        goal->iterations++;
         OST_TRY(recursive_norm(cg, &norm));
-        ost_goal_progress(goal, norm);
+        on = ost_goal_count(goal, norm, cg->size * cg->size * cg->weight);
     }
+    return OST_SUCCESS;
+}
+
+/* Brings r' to order 1, whatever the units: preconditioners work in single precision too. */
+static OstStatus normalise(Cg *cg)
+{
+    OST_TRY(ost_vector_size(cg->ctx, cg->n, cg->residual, &cg->size));
+    for (size_t i = 0; i < cg->n; i++)
+        cg->residual[i] /= cg->size;
     return OST_SUCCESS;
 }
 
@@ -107,24 +140,27 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
         ost_scaling_to_scaled(scaling, r, cg->residual);
     else
         memcpy(cg->residual, r, cg->n * sizeof *r);
+    OST_TRY(normalise(cg));
     const OstStatus status = iterate(cg, u, goal);
+    for (size_t i = 0; i < cg->n; i++)
+        u[i] *= cg->size;
     if (scaling)
         ost_scaling_from_scaled(scaling, u, u);
     cg->runs++;
     return status;
 }
 
-static OstStatus cg_allocate(Cg *cg, const OstSolverOptions *options)
+static OstStatus cg_allocate(Cg *cg, int steps)
 {
     OST_TRY(OST_NEW(cg->ctx, &cg->direction, 3 * (size_t)cg->matrix->columns));
     OST_TRY(OST_NEW(cg->ctx, &cg->product, cg->n));
     OST_TRY(OST_NEW(cg->ctx, &cg->residual, cg->n));
     OST_TRY(OST_NEW(cg->ctx, &cg->corrected, cg->n));
-    return ost_lanczos_create(cg->ctx, options->max_iterations, &cg->lanczos);
+    return ost_lanczos_create(cg->ctx, steps, &cg->lanczos);
 }
 
 OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
-                       const OstSolverOptions *options, OstSolveReport *report)
+                       OstGoal *goal, double *condition)
 {
     OstContext *ctx = system->matrix->ctx;
     Cg cg = {.ctx = ctx,
@@ -132,12 +168,10 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
              .preconditioner = preconditioner,
              .matrix = system->scaled_matrix ? system->scaled_matrix : system->matrix,
              .n = 3 * (size_t)system->matrix->rows};
-    report->iterations = 0;
-    report->relative_residual = 0.0;
-    OstStatus status = ost_agree(ctx, cg_allocate(&cg, options));
+    OstStatus status = ost_agree(ctx, cg_allocate(&cg, goal->most_iterations));
     if (status == OST_SUCCESS)
-        status = ost_refine(system->matrix, solve_scaled, &cg, f, u, options, report);
-    report->condition_estimate = ost_lanczos_condition(&cg.lanczos);
+        status = ost_refine(system->matrix, solve_scaled, &cg, f, u, goal);
+    *condition = ost_lanczos_condition(&cg.lanczos);
     OST_FREE(cg.direction);
     OST_FREE(cg.product);
     OST_FREE(cg.residual);

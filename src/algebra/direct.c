@@ -23,7 +23,17 @@ void ost_direct_destroy(OstDirect **direct)
     OST_FREE(*direct);
 }
 
-OstStatus ost_direct_create(const OstBlockMatrix *matrix, OstDirect **direct)
+/* The view lives as long as the call. */
+static OstStatus factor(const OstBlockMatrix *matrix, double memory, OstMumps **factors)
+{
+    OstExactMatrix *view = NULL;
+    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &view)));
+    const OstStatus status = ost_mumps_create(view, memory, factors);
+    ost_exact_matrix_destroy(&view);
+    return status;
+}
+
+OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDirect **direct)
 {
     OstDirect *made = NULL;
     *direct = NULL;
@@ -31,7 +41,7 @@ OstStatus ost_direct_create(const OstBlockMatrix *matrix, OstDirect **direct)
     OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
     OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
-    OST_TRY_DONE(ost_mumps_create(made->scaled, &made->factors));
+    OST_TRY_DONE(factor(made->scaled, memory, &made->factors));
     made->system = (OstCgSystem){.matrix = matrix, .scaled_matrix = made->scaled, .scaling = made->scaling};
 done:
     if (status != OST_SUCCESS)
@@ -45,12 +55,11 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
     return ost_mumps_solve(data, r, z);
 }
 
-OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, const OstSolverOptions *options,
-                           OstSolveReport *report)
+OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .flexible = 0};
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
-    return ost_cg_solve(&direct->system, &factors, f, u, options, report);
+    return ost_cg_solve(&direct->system, &factors, f, u, goal, &report->condition_estimate);
 }

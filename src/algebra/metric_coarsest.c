@@ -23,6 +23,7 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
     OST_FREE((*coarsest)->start);
     OST_FREE((*coarsest)->factor);
     OST_FREE((*coarsest)->vector);
+    ost_mumps_destroy(&(*coarsest)->sparse);
     OST_FREE(*coarsest);
 }
 
@@ -33,13 +34,11 @@ static OstStatus number_unknowns(OstCoarsest *coarsest)
     OST_TRY(OST_MPI(ctx, MPI_Allgather(&coarsest->owned, 1, MPI_INT, coarsest->count, 1, MPI_INT, ost_comm(ctx))));
     OstGlobal order = 0;
     for (int r = 0; r < ost_size(ctx); r++) {
-        coarsest->start[r] = (int)order;
+        coarsest->start[r] = order <= OST_COARSEST_LIMIT ? (int)order : 0;
         order += coarsest->count[r];
     }
-    if (order > OST_COARSEST_LIMIT)
-        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%lld coarse unknowns; a dense factor takes at most %d",
-                         (long long)order, OST_COARSEST_LIMIT);
-    coarsest->order = (int)order;
+    coarsest->dense = order <= OST_COARSEST_LIMIT;
+    coarsest->order = order <= OST_COARSEST_LIMIT ? (int)order : 0;
     return OST_SUCCESS;
 }
 
@@ -119,13 +118,25 @@ static OstStatus factor(OstCoarsest *coarsest)
             return OST_SUCCESS;
         shift = try == 0 ? first_shift * largest : 100.0 * shift;
     }
-    return OST_RAISE(coarsest->ctx, OST_LIBRARY_FAILED,
-                     "LAPACK's dpotrf met pivot %d of %d that is not positive on the coarsest level: the stiffness is "
-                     "indefinite",
-                     info, coarsest->order);
+    return OST_RAISE(
+        coarsest->ctx, OST_NOT_CONVERGED,
+        "pivot %d of %d on the coarsest level is not positive: the stiffness, or what rounding made of it, is "
+        "indefinite",
+        info, coarsest->order);
 }
 
-OstStatus ost_coarsest_create(const OstExactMatrix *matrix, OstCoarsest **coarsest)
+static OstStatus factor_dense(const OstExactMatrix *matrix, OstCoarsest *coarsest)
+{
+    OstContext *ctx = coarsest->ctx;
+    OstStatus status = OST_NEW(ctx, &coarsest->factor, (size_t)coarsest->order * (size_t)coarsest->order);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &coarsest->vector, coarsest->order);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, assemble(matrix, coarsest)));
+    return ost_agree(ctx, factor(coarsest));
+}
+
+OstStatus ost_coarsest_create(const OstExactMatrix *matrix, double memory, OstCoarsest **coarsest)
 {
     OstContext *ctx = matrix->ctx;
     const size_t ranks = (size_t)ost_size(ctx);
@@ -140,12 +151,10 @@ OstStatus ost_coarsest_create(const OstExactMatrix *matrix, OstCoarsest **coarse
     made->ctx = ctx;
     made->owned = matrix->size * matrix->rows;
     OST_TRY_DONE(ost_agree(ctx, number_unknowns(made)));
-    status = OST_NEW(ctx, &made->factor, (size_t)made->order * (size_t)made->order);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->vector, made->order);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_agree(ctx, assemble(matrix, made)));
-    OST_TRY_DONE(ost_agree(ctx, factor(made)));
+    if (made->dense)
+        OST_TRY_DONE(factor_dense(matrix, made));
+    else
+        OST_TRY_DONE(ost_mumps_create(matrix, memory, &made->sparse));
 done:
     if (status != OST_SUCCESS)
         ost_coarsest_destroy(&made);
@@ -158,6 +167,8 @@ OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x)
     OstContext *ctx = coarsest->ctx;
     const int one = 1;
     int info = 0;
+    if (coarsest->sparse)
+        return ost_mumps_solve(coarsest->sparse, b, x);
     OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
                                         coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
     const int leading = coarsest->order > 0 ? coarsest->order : 1;

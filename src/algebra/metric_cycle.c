@@ -72,14 +72,14 @@ static OstStatus set_up_level(OstCycle *cycle, int l, const OstSolverOptions *op
     return OST_SUCCESS;
 }
 
-static OstStatus factor_coarsest(OstCycle *cycle)
+static OstStatus factor_coarsest(OstCycle *cycle, const OstSolverOptions *options)
 {
     OstMetricLevels *levels = &cycle->levels;
     const OstGlobal mine = (OstGlobal)ost_level_unknowns(levels->matrix[levels->count - 1]);
     OstGlobal all = 0;
     OST_TRY(OST_MPI(cycle->ctx, MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, ost_comm(cycle->ctx))));
-    if (all <= OST_COARSEST_LIMIT)
-        OST_TRY(ost_coarsest_create(levels->coarsest, &cycle->coarsest));
+    if (all <= OST_COARSEST_LIMIT || levels->count >= options->most_levels)
+        OST_TRY(ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest));
     ost_exact_matrix_destroy(&levels->coarsest);
     return OST_SUCCESS;
 }
@@ -95,7 +95,7 @@ OstStatus ost_cycle_create(OstContext *ctx, OstMetricLevels *levels, const OstSo
     made->inner_steps = INNER_STEPS;
     made->levels = *levels;
     memset(levels, 0, sizeof *levels);
-    OST_TRY_DONE(factor_coarsest(made));
+    OST_TRY_DONE(factor_coarsest(made, options));
     for (int l = 0; l < made->levels.count; l++)
         OST_TRY_DONE(set_up_level(made, l, options));
 done:

@@ -78,7 +78,7 @@ static OstStatus coarsen(Coarsening *work)
     OstMetricLevels *levels = work->levels;
     OstAggregates *aggregates = NULL;
     OstStatus status = OST_SUCCESS;
-    while (work->unknowns > work->options->coarsest_unknowns && levels->count < OST_MAX_LEVELS) {
+    while (work->unknowns > work->options->coarsest_unknowns && levels->count < work->options->most_levels) {
         OstGlobal unknowns = 0;
         OST_TRY_DONE(aggregate(work, &aggregates, &unknowns));
         if (unknowns == 0 || (double)unknowns > least_gain * (double)work->unknowns) {

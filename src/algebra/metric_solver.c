@@ -7,6 +7,10 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <string.h>
+
+static const double careful = 1.2; /* of an eigenvalue estimate that may have been too low */
+
 struct OstMetric {
     OstContext *ctx;
     OstSolverOptions options;
@@ -36,13 +40,19 @@ void ost_metric_destroy(OstMetric **metric)
     OST_FREE(*metric);
 }
 
-/* The modes in scaled unknowns. */
+/* The modes in scaled unknowns, each of order 1. */
 static OstStatus scale_modes(const OstScaling *scaling, const double *modes, double **scaled)
 {
     const size_t n = 3 * (size_t)scaling->rows;
-    OST_TRY(OST_NEW(scaling->ctx, scaled, 6 * n));
-    for (size_t k = 0; k < 6; k++)
-        ost_scaling_to_scaled_mode(scaling, modes + k * n, *scaled + k * n);
+    OST_TRY(ost_agree(scaling->ctx, OST_NEW(scaling->ctx, scaled, 6 * n)));
+    for (size_t k = 0; k < 6; k++) {
+        double *mode = *scaled + k * n;
+        double size;
+        ost_scaling_to_scaled_mode(scaling, modes + k * n, mode);
+        OST_TRY(ost_vector_size(scaling->ctx, n, mode, &size));
+        for (size_t i = 0; i < n; i++)
+            mode[i] /= size;
+    }
     return OST_SUCCESS;
 }
 
@@ -77,7 +87,7 @@ static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, co
     OstStatus status = ost_metric_graph_create(matrix, geometry, &graph);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_agree(ctx, scale_modes(scaling, geometry->modes, &modes)));
+    OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
     OST_TRY_DONE(ost_metric_levels_create(scaled, modes, &graph, &metric->options, &levels));
     OST_TRY_DONE(measure_levels(metric, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
@@ -106,6 +116,7 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
 {
     const OstCoarseSpace *space = geometry->coarse;
     OstMetricGraph *graph = NULL;
+    metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
     OstStatus status = ost_scaling_create(space->matrix, &metric->linear_scaling);
     if (status != OST_SUCCESS)
         goto done;
@@ -144,6 +155,17 @@ done:
     return status;
 }
 
+/* The estimate of the largest eigenvalue is from below, and a polynomial that ends short of the spectrum is not
+ * definite: a stronger smoother also takes more care. */
+static void strengthen(OstSmoother *smoother, int more, double ratio)
+{
+    if (!smoother)
+        return;
+    smoother->degree += more;
+    smoother->ratio = ratio * careful;
+    smoother->largest *= careful;
+}
+
 static OstStatus apply_cycle(void *data, const double *r, double *z)
 {
     return ost_cycle_apply(data, r, z);
@@ -154,7 +176,19 @@ static OstStatus apply_quadratic(void *data, const double *r, double *z)
     return ost_quadratic_level_apply(data, r, z);
 }
 
-OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
+void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
+{
+    const int more = options->smoother_degree - metric->options.smoother_degree;
+    OstCycle *cycle = metric->cycle;
+    for (int l = 0; l < cycle->levels.count; l++)
+        strengthen(cycle->level[l].smoother, more, options->smoother_ratio);
+    if (metric->quadratic)
+        strengthen(metric->quadratic->smoother, more, options->smoother_ratio);
+    metric->options.smoother_degree = options->smoother_degree;
+    metric->options.smoother_ratio = options->smoother_ratio;
+}
+
+OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const OstPreconditioner linear = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
     const OstPreconditioner quadratic = {.data = metric->quadratic, .apply = apply_quadratic, .flexible = 1};
@@ -163,5 +197,16 @@ OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSol
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];
     report->operator_complexity = metric->operator_complexity;
-    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, &metric->options, report);
+    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, goal, &report->condition_estimate);
+}
+
+OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
+{
+    OstGoal goal;
+    OST_TRY(ost_goal_set(metric->matrix, f, &metric->options, &goal));
+    memset(u, 0, 3 * (size_t)metric->matrix->rows * sizeof *u);
+    const OstStatus status = ost_metric_improve(metric, f, u, &goal, report);
+    report->iterations = goal.iterations;
+    report->relative_residual = goal.start > 0.0 ? goal.norm / goal.start : 0.0;
+    return status == OST_SUCCESS ? ost_goal_verdict(&goal) : status;
 }

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_METRIC_SOLVER_H
 #define ORTHOSTAT_ALGEBRA_METRIC_SOLVER_H
 
+#include "algebra/refine.h"
 #include "algebra/solver.h"
 
 /* The recipe METRIC: rows scaled by their diagonal blocks, aggregates round in the material's metric,
@@ -14,7 +15,15 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
                             const OstSolverOptions *options, OstMetric **metric);
 void ost_metric_destroy(OstMetric **metric);
 
-/* Collective. As ost_solver_solve; also fills the report's levels, level_unknowns and operator_complexity. */
+/* Local. Takes the smoother's degree and ratio from `options`, and more care with the eigenvalues it was built on; the
+ * hierarchy and the smoothers' blocks stay. */
+void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
+
+/* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
+OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
+
+/* Collective. The same from u = 0 by the options' residual and iterations; also fills the report's iterations and
+ * relative_residual. Raises OST_NOT_CONVERGED if they do not do. */
 OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report);
 
 #endif

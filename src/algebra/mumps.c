@@ -2,6 +2,7 @@
 #include "algebra/mumps.h"
 
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "core/memory.h"
 
 #include <dmumps_c.h>
@@ -12,6 +13,7 @@
 /* MUMPS numbers its controls and results from 1. */
 #define ICNTL(k) icntl[(k)-1]
 #define INFOG(k) infog[(k)-1]
+#define INFO(k) info[(k)-1]
 
 enum {
     JOB_START = -1,
@@ -29,12 +31,16 @@ enum {
     ERROR_INDEFINITE_ROOT = -40
 };
 
+static const double mebibyte = 1048576.0;
+
 struct OstMumps {
     OstContext *ctx;
     DMUMPS_STRUC_C id;
     int started;
-    int unknowns; /* of this rank */
-    int *counts;  /* rank 0: unknowns of each rank, and where they start */
+    int unknowns;         /* of this rank */
+    OstGlobal first, all; /* number of the first, and of all ranks */
+    double memory;        /* bytes it may take over all ranks; 0: what is free */
+    int *counts;          /* rank 0: unknowns of each rank, and where they start */
     int *starts;
     double *vector; /* rank 0: all of a right-hand side, then of its solution */
 };
@@ -106,56 +112,84 @@ static OstStatus start(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-static OstStatus check_limit(const OstBlockMatrix *matrix)
+static OstStatus number_unknowns(OstMumps *mumps, const OstExactMatrix *matrix)
 {
-    if (matrix->global_rows > INT_MAX / 3)
-        return OST_RAISE(matrix->ctx, OST_LIMIT_EXCEEDED,
+    OstContext *ctx = mumps->ctx;
+    const OstGlobal mine = (OstGlobal)matrix->size * matrix->rows;
+    OstGlobal end = 0;
+    mumps->unknowns = (int)mine;
+    OST_TRY(OST_MPI(ctx, MPI_Scan(&mine, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &mumps->all, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    mumps->first = end - mine;
+    if (mumps->all > INT_MAX)
+        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
                          "%lld unknowns are more than MUMPS can number (2^31 - 1); use an iterative recipe",
-                         3LL * (long long)matrix->global_rows);
+                         (long long)mumps->all);
     return OST_SUCCESS;
 }
 
-/* This rank's entries on and above the diagonal, by global numbers from 1. */
-static void fill_entries(const OstBlockMatrix *matrix, const OstGlobal *number, DMUMPS_STRUC_C *id)
+/* This rank's entries on and above the diagonal, by global numbers from 1; `number` has each column's first. */
+static void fill_entries(const OstExactMatrix *matrix, const OstGlobal *number, DMUMPS_STRUC_C *id)
 {
+    const int size = matrix->size;
     MUMPS_INT8 n = 0;
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const OstLocal j = matrix->column[k];
             if (number[j] < number[i])
                 continue;
-            for (int c = 0; c < 3; c++)
-                for (int d = i == j ? c : 0; d < 3; d++, n++) {
-                    id->irn_loc[n] = (MUMPS_INT)(3 * number[i] + c + 1);
-                    id->jcn_loc[n] = (MUMPS_INT)(3 * number[j] + d + 1);
-                    id->a_loc[n] = matrix->value[9 * (size_t)k + (size_t)(3 * c + d)];
+            for (int c = 0; c < size; c++)
+                for (int d = i == j ? c : 0; d < size; d++, n++) {
+                    id->irn_loc[n] = (MUMPS_INT)(number[i] + c + 1);
+                    id->jcn_loc[n] = (MUMPS_INT)(number[j] + d + 1);
+                    id->a_loc[n] = matrix->value[(size_t)(size * size) * (size_t)k + (size_t)(size * c + d)];
                 }
         }
     id->nnz_loc = n;
 }
 
-static OstStatus global_numbers(const OstBlockMatrix *matrix, OstGlobal **number)
+static OstStatus global_numbers(const OstMumps *mumps, const OstExactMatrix *matrix, OstGlobal **number)
 {
     OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, number, matrix->columns)));
     for (OstLocal i = 0; i < matrix->rows; i++)
-        (*number)[i] = matrix->first_row + i;
+        (*number)[i] = mumps->first + (OstGlobal)matrix->size * i;
     return ost_halo_import(matrix->halo, sizeof **number, *number);
 }
 
-static OstStatus allocate_entries(const OstBlockMatrix *matrix, DMUMPS_STRUC_C *id)
+static OstStatus allocate_entries(const OstExactMatrix *matrix, DMUMPS_STRUC_C *id)
 {
-    const size_t most = 9 * (size_t)matrix->row_start[matrix->rows];
+    const size_t most = (size_t)(matrix->size * matrix->size) * (size_t)matrix->row_start[matrix->rows];
     OST_TRY(OST_NEW(matrix->ctx, &id->irn_loc, most));
     OST_TRY(OST_NEW(matrix->ctx, &id->jcn_loc, most));
     return OST_NEW(matrix->ctx, &id->a_loc, most);
 }
 
+/* By the analysis, which knows for each rank what the factorisation is going to take. */
+static OstStatus check_memory(OstMumps *mumps)
+{
+    OstContext *ctx = mumps->ctx;
+    const double foreseen = 1e6 * mumps->id.INFOG(17);
+    OstMemoryDemand demand;
+    OST_TRY(ost_memory_demand(ctx, 1e6 * mumps->id.INFO(15), &demand));
+    const double allowed = mumps->memory > 0.0 ? mumps->memory : demand.free;
+    const double wanted = mumps->memory > 0.0 ? foreseen : demand.wanted;
+    if (wanted <= allowed)
+        return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
+                     "factoring %lld unknowns would take %.0f MiB, but %s %.0f MiB; use more or larger machines, or an "
+                     "iterative recipe",
+                     (long long)mumps->all, wanted / mebibyte,
+                     mumps->memory > 0.0 ? "solver.factor_memory allows" : "there are", allowed / mebibyte);
+}
+
 static OstStatus factor(OstMumps *mumps)
 {
     DMUMPS_STRUC_C *id = &mumps->id;
+    int spare = SPARE_PERCENT;
+    id->ICNTL(14) = spare;
     call(mumps, JOB_ANALYSE);
     OST_TRY(check(mumps, "analysis"));
-    int spare = SPARE_PERCENT;
+    OST_TRY(check_memory(mumps));
     do {
         id->ICNTL(14) = spare;
         call(mumps, JOB_FACTOR);
@@ -171,14 +205,14 @@ static OstStatus factor(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-static OstStatus factor_matrix(OstMumps *mumps, const OstBlockMatrix *matrix)
+static OstStatus factor_matrix(OstMumps *mumps, const OstExactMatrix *matrix)
 {
     DMUMPS_STRUC_C *id = &mumps->id;
     OstGlobal *number = NULL;
     OstStatus status;
     OST_TRY_DONE(ost_agree(mumps->ctx, allocate_entries(matrix, id)));
-    OST_TRY_DONE(ost_agree(mumps->ctx, global_numbers(matrix, &number)));
-    id->n = (MUMPS_INT)(3 * matrix->global_rows);
+    OST_TRY_DONE(ost_agree(mumps->ctx, global_numbers(mumps, matrix, &number)));
+    id->n = (MUMPS_INT)mumps->all;
     fill_entries(matrix, number, id);
     OST_TRY_DONE(factor(mumps));
 done:
@@ -190,14 +224,13 @@ done:
 }
 
 /* Where each rank's unknowns are in the vectors on rank 0. */
-static OstStatus prepare_vectors(OstMumps *mumps, const OstBlockMatrix *matrix)
+static OstStatus prepare_vectors(OstMumps *mumps)
 {
     OstContext *ctx = mumps->ctx;
     const int size = ost_rank(ctx) == 0 ? ost_size(ctx) : 0;
-    mumps->unknowns = 3 * matrix->rows;
     OST_TRY(OST_NEW(ctx, &mumps->counts, size));
     OST_TRY(OST_NEW(ctx, &mumps->starts, size));
-    return OST_NEW(ctx, &mumps->vector, size > 0 ? 3 * matrix->global_rows : 0);
+    return OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0);
 }
 
 static OstStatus gather_counts(OstMumps *mumps)
@@ -210,16 +243,17 @@ static OstStatus gather_counts(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-OstStatus ost_mumps_create(const OstBlockMatrix *matrix, OstMumps **mumps)
+OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps **mumps)
 {
     OstContext *ctx = matrix->ctx;
     OstMumps *made = NULL;
     *mumps = NULL;
     OstStatus status;
-    OST_TRY_DONE(check_limit(matrix));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
     made->ctx = ctx;
-    OST_TRY_DONE(ost_agree(ctx, prepare_vectors(made, matrix)));
+    made->memory = memory;
+    OST_TRY_DONE(number_unknowns(made, matrix));
+    OST_TRY_DONE(ost_agree(ctx, prepare_vectors(made)));
     OST_TRY_DONE(gather_counts(made));
     OST_TRY_DONE(start(made));
     OST_TRY_DONE(factor_matrix(made, matrix));

@@ -154,12 +154,12 @@ static OstStatus cycle(void *data, const double *r, double *z)
     return plain->link->status;
 }
 
-OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, const OstSolverOptions *options,
-                          OstSolveReport *report)
+OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const OstPreconditioner v_cycle = {.data = plain, .apply = cycle, .flexible = 0};
     report->levels = plain->levels;
     memcpy(report->level_unknowns, plain->level_unknowns, sizeof plain->level_unknowns);
     report->operator_complexity = plain->operator_complexity;
-    return ost_aztec_solve(plain->matrix, &v_cycle, f, u, options, report);
+    report->condition_estimate = 0.0;
+    return ost_aztec_solve(plain->matrix, &v_cycle, f, u, goal);
 }

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_PLAIN_H
 #define ORTHOSTAT_ALGEBRA_PLAIN_H
 
+#include "algebra/refine.h"
 #include "algebra/solver.h"
 
 /* The plain recipe: AztecOO's conjugate gradients, preconditioned by a V-cycle of ML's smoothed aggregation as it
@@ -13,8 +14,7 @@ OstStatus ost_plain_create(const OstBlockMatrix *matrix, const OstSolverGeometry
                            const OstSolverOptions *options, OstPlain **plain);
 void ost_plain_destroy(OstPlain **plain);
 
-/* Collective. As ost_solver_solve; fills all of the report but recipe and seconds. */
-OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, const OstSolverOptions *options,
-                          OstSolveReport *report);
+/* Collective. As ost_aztec_solve; fills the report's levels and complexity. */
+OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
 #endif

@@ -6,10 +6,15 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-/* Solving again for the recomputed residual must gain this much, or rounding rules. */
+/* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may. */
 static const double least_gain = 0.5;
+enum { MOST_STALLS = 3 };
+
+/* The limit is an estimate for terms rounded at random: a residual this many times above it may still be rounding's. */
+static const double rounding_slack = 3.0;
 
 typedef struct Refinement {
     const OstBlockMatrix *matrix;
@@ -18,49 +23,137 @@ typedef struct Refinement {
     size_t n;           /* unknowns this rank owns */
     double *residual;   /* f - A u */
     double *correction; /* of u */
-    double *ghosted;    /* 3 × columns */
-    OstGoal goal;
+    double *candidate;  /* u + correction; 3 × columns */
+    double *left;       /* the residual of that */
+    OstGoal *goal;
 } Refinement;
 
-void ost_goal_progress(const OstGoal *goal, double norm)
+static void say_iterations(OstGoal *goal)
+{
+    goal->end = OST_END_ITERATIONS;
+    snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
+}
+
+int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
+    goal->iterations++;
+    ost_watch_add(&goal->watch, norm, weight);
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
+    if (norm <= goal->target)
+        return 0;
+    const double remaining = ost_watch_remaining(&goal->watch, goal->target);
+    if (goal->iterations >= goal->most_iterations) {
+        say_iterations(goal);
+    } else if (goal->patience > 0 && remaining > goal->patience) {
+        goal->end = OST_END_SLOW;
+        snprintf(goal->words, sizeof goal->words,
+                 "after %d iterations the residual fell by no more than %.4f a step: too slow", goal->watch.count,
+                 ost_watch_factor(&goal->watch));
+    }
+    return goal->end == OST_END_REACHED;
 }
 
-OstStatus ost_goal_require_positive(const OstGoal *goal, double value, const char *form, const char *what)
+static const char *what_is_wrong(double value)
 {
-    if (value > 0.0 && isfinite(value))
-        return OST_SUCCESS;
-    const char *sign = !isfinite(value) ? "is not finite" : value < 0.0 ? "is negative" : "is zero";
+    return !isfinite(value) ? "is not finite" : value < 0.0 ? "is negative" : "is zero";
+}
+
+int ost_goal_accepts(OstGoal *goal, double weight)
+{
+    if (weight > 0.0 && isfinite(weight))
+        return 1;
+    goal->end = OST_END_PRECONDITIONER;
+    snprintf(goal->words, sizeof goal->words,
+             "in iteration %d r·z = %g %s: the preconditioner is not positive definite", goal->iterations + 1, weight,
+             what_is_wrong(weight));
+    return 0;
+}
+
+OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy)
+{
     return OST_RAISE(goal->ctx, OST_NOT_CONVERGED,
-                     "iteration %d: %s = %g %s: %s is not positive definite; check supports and materials, or ask for "
-                     "the direct solver",
-                     goal->iterations + 1, form, value, sign, what);
+                     "iteration %d: p·Ap = %g %s: the stiffness is not positive definite; check supports and materials",
+                     goal->iterations + 1, energy, what_is_wrong(energy));
 }
 
-static OstStatus root_of_sum(OstContext *ctx, double square, double *norm)
+static OstStatus sum(OstContext *ctx, int count, double *values)
 {
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
-    *norm = sqrt(square);
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+}
+
+static double dot(size_t n, const double *restrict a, const double *restrict b)
+{
+    double total = 0.0;
+#pragma omp simd reduction(+ : total)
+    for (size_t i = 0; i < n; i++)
+        total += a[i] * b[i];
+    return total;
+}
+
+OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++)
+        largest = fabs(values[i]) <= largest ? largest : fabs(values[i]);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    *size = largest >= DBL_MIN && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
     return OST_SUCCESS;
 }
 
-static OstStatus norm_of(const Refinement *refinement, const double *values, double *norm)
+OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal)
 {
-    double square = 0.0;
-    for (size_t i = 0; i < refinement->n; i++)
-        square += values[i] * values[i];
-    return root_of_sum(refinement->matrix->ctx, square, norm);
+    OstContext *ctx = matrix->ctx;
+    const size_t n = 3 * (size_t)matrix->rows;
+    double square = dot(n, f, f);
+    memset(goal, 0, sizeof *goal);
+    goal->ctx = ctx;
+    goal->most_iterations = options->max_iterations;
+    goal->attainable_will_do = options->accept_attainable;
+    OST_TRY(sum(ctx, 1, &square));
+    goal->start = goal->norm = sqrt(square);
+    goal->target = options->relative_residual * goal->start;
+    ost_watch_start(&goal->watch, goal->start);
+    if (!isfinite(goal->start))
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
+    return OST_SUCCESS;
 }
 
-static OstStatus recompute_residual(Refinement *refinement, double *norm)
+/* left = f - A candidate, and what it says: its square, and twice the energy that the correction takes away. */
+static OstStatus examine(Refinement *work, double sums[2])
 {
-    memcpy(refinement->ghosted, refinement->u, refinement->n * sizeof(double));
-    OST_TRY(ost_block_matrix_apply(refinement->matrix, refinement->ghosted, refinement->residual));
-    for (size_t i = 0; i < refinement->n; i++)
-        refinement->residual[i] = refinement->f[i] - refinement->residual[i];
-    return norm_of(refinement, refinement->residual, norm);
+    OST_TRY(ost_block_matrix_apply(work->matrix, work->candidate, work->left));
+    for (size_t i = 0; i < work->n; i++)
+        work->left[i] = work->f[i] - work->left[i];
+    sums[0] = dot(work->n, work->left, work->left);
+    sums[1] = dot(work->n, work->correction, work->residual) + dot(work->n, work->correction, work->left);
+    return sum(work->matrix->ctx, 2, sums);
+}
+
+static OstStatus first_residual(Refinement *work)
+{
+    double sums[2];
+    memcpy(work->candidate, work->u, work->n * sizeof(double));
+    OST_TRY(examine(work, sums));
+    memcpy(work->residual, work->left, work->n * sizeof(double));
+    work->goal->norm = sqrt(sums[0]);
+    return OST_SUCCESS;
+}
+
+/* u + correction, if that is better. */
+static OstStatus take_correction(Refinement *work)
+{
+    double sums[2];
+    for (size_t i = 0; i < work->n; i++)
+        work->candidate[i] = work->u[i] + work->correction[i];
+    OST_TRY(examine(work, sums));
+    const double norm = sqrt(sums[0]);
+    if (!isfinite(norm) || !(norm < work->goal->norm || sums[1] > 0.0))
+        return OST_SUCCESS;
+    memcpy(work->u, work->candidate, work->n * sizeof(double));
+    memcpy(work->residual, work->left, work->n * sizeof(double));
+    work->goal->norm = norm;
+    return OST_SUCCESS;
 }
 
 /* Sum of the squares of the terms of (A u)_i, i being component c of a row. */
@@ -75,94 +168,102 @@ static double square_of_terms(const OstBlockMatrix *matrix, OstLocal row, int c,
     return total;
 }
 
-/* About how small ||f - A u|| / ||f|| can be in double precision, each term of A u being rounded at random. */
-static OstStatus attainable_residual(const Refinement *refinement, double *limit)
+/* About how small ||f - A u|| can be in double precision, each term of A u being rounded at random. */
+static OstStatus find_limit(Refinement *work)
 {
-    const OstBlockMatrix *matrix = refinement->matrix;
+    const OstBlockMatrix *matrix = work->matrix;
     double square = 0.0;
-    memcpy(refinement->ghosted, refinement->u, refinement->n * sizeof(double));
-    OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), refinement->ghosted));
+    memcpy(work->candidate, work->u, work->n * sizeof(double));
+    OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), work->candidate));
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (int c = 0; c < 3; c++)
-            square += square_of_terms(matrix, i, c, refinement->ghosted);
-    OST_TRY(root_of_sum(matrix->ctx, square, limit));
-    *limit *= DBL_EPSILON / refinement->goal.start;
+            square += square_of_terms(matrix, i, c, work->candidate);
+    OST_TRY(sum(matrix->ctx, 1, &square));
+    work->goal->limit = DBL_EPSILON * sqrt(square);
     return OST_SUCCESS;
 }
 
-static OstStatus raise_not_converged(const Refinement *refinement, double reached, double requested)
+/* The goal was missed: is it rounding? */
+static OstStatus judge(Refinement *work)
 {
-    OstContext *ctx = refinement->matrix->ctx;
-    const OstGoal *goal = &refinement->goal;
-    if (goal->iterations >= goal->most_iterations)
-        return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                         "after %d iterations, the most allowed, the relative residual is %.3g, not the requested "
-                         "%.3g; allow more iterations or ask for another recipe",
-                         goal->iterations, reached, requested);
-    double limit = 0.0;
-    OST_TRY(attainable_residual(refinement, &limit));
-    return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                     "after %d iterations the relative residual stays at %.3g, not the requested %.3g; rounding in "
-                     "double precision allows about %.1g here: ask for no less, or look for what makes the stiffness "
-                     "so uneven",
-                     goal->iterations, reached, requested, limit);
+    OstGoal *goal = work->goal;
+    OST_TRY(find_limit(work));
+    if (goal->norm <= rounding_slack * goal->limit) {
+        goal->end = OST_END_ROUNDING;
+        snprintf(goal->words, sizeof goal->words,
+                 "rounding in double precision allows about %.1g here: ask for no less, or look for what makes the "
+                 "stiffness so uneven",
+                 goal->limit / goal->start);
+    } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
+        say_iterations(goal);
+    } else if (goal->end == OST_END_REACHED) {
+        goal->end = OST_END_STALLED;
+        snprintf(goal->words, sizeof goal->words, "after %d iterations nothing more is gained", goal->watch.count);
+    }
+    return OST_SUCCESS;
 }
 
-static OstStatus refine(Refinement *refinement, OstInnerSolve inner, void *data, const OstSolverOptions *options,
-                        OstSolveReport *report)
+static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
-    OstGoal *goal = &refinement->goal;
-    double norm = goal->start;
-    double before;
-    memcpy(refinement->residual, refinement->f, refinement->n * sizeof(double));
+    OstGoal *goal = work->goal;
+    OST_TRY(first_residual(work));
+    ost_watch_start(&goal->watch, goal->norm);
+    int stalls = 0;
     do {
-        before = norm;
-        memset(refinement->correction, 0, refinement->n * sizeof(double));
-        const OstStatus status = inner(data, refinement->residual, refinement->correction, goal);
-        for (size_t i = 0; i < refinement->n; i++)
-            refinement->u[i] += refinement->correction[i];
-        OST_TRY(recompute_residual(refinement, &norm));
-        report->relative_residual = norm / goal->start;
+        const double before = goal->norm;
+        memset(work->correction, 0, work->n * sizeof(double));
+        const OstStatus status = inner(data, work->residual, work->correction, goal);
+        OST_TRY(take_correction(work));
         OST_TRY(status);
-    } while (norm > goal->target && norm < least_gain * before && goal->iterations < goal->most_iterations);
-    /* Not "norm > target": that would let a residual that is no number pass. */
-    return norm <= goal->target
-               ? OST_SUCCESS
-               : raise_not_converged(refinement, report->relative_residual, options->relative_residual);
+        stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
+    } while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS);
+    if (goal->norm > goal->target)
+        return judge(work);
+    goal->end = OST_END_REACHED;
+    return OST_SUCCESS;
 }
 
-static OstStatus prepare(Refinement *refinement)
+static OstStatus prepare(Refinement *work)
 {
-    OstContext *ctx = refinement->matrix->ctx;
-    OST_TRY(OST_NEW(ctx, &refinement->residual, refinement->n));
-    OST_TRY(OST_NEW(ctx, &refinement->correction, refinement->n));
-    return OST_NEW(ctx, &refinement->ghosted, 3 * (size_t)refinement->matrix->columns);
+    OstContext *ctx = work->matrix->ctx;
+    OST_TRY(OST_NEW(ctx, &work->residual, work->n));
+    OST_TRY(OST_NEW(ctx, &work->correction, work->n));
+    OST_TRY(OST_NEW(ctx, &work->left, work->n));
+    return OST_NEW(ctx, &work->candidate, 3 * (size_t)work->matrix->columns);
 }
 
 OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *data, const double *f, double *u,
-                     const OstSolverOptions *options, OstSolveReport *report)
+                     OstGoal *goal)
 {
     OstContext *ctx = matrix->ctx;
-    Refinement refinement = {.matrix = matrix, .f = f, .u = u, .n = 3 * (size_t)matrix->rows};
-    OstGoal *goal = &refinement.goal;
-    report->iterations = 0;
-    report->relative_residual = 0.0;
-    memset(u, 0, refinement.n * sizeof *u);
-    goal->ctx = ctx;
-    goal->most_iterations = options->max_iterations;
+    Refinement work = {.matrix = matrix, .f = f, .u = u, .n = 3 * (size_t)matrix->rows, .goal = goal};
+    goal->end = OST_END_REACHED;
+    if (goal->start == 0.0) {
+        memset(u, 0, work.n * sizeof *u);
+        return OST_SUCCESS;
+    }
     OstStatus status;
-    OST_TRY_DONE(ost_agree(ctx, prepare(&refinement)));
-    OST_TRY_DONE(norm_of(&refinement, f, &goal->start));
-    goal->target = options->relative_residual * goal->start;
-    if (!isfinite(goal->start))
-        OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite"));
-    if (goal->start > 0.0)
-        OST_TRY_DONE(refine(&refinement, inner, data, options, report));
+    OST_TRY_DONE(ost_agree(ctx, prepare(&work)));
+    OST_TRY_DONE(refine(&work, inner, data));
 done:
     ost_progress(ctx, "solve", -1.0);
-    report->iterations = goal->iterations;
-    OST_FREE(refinement.residual);
-    OST_FREE(refinement.correction);
-    OST_FREE(refinement.ghosted);
+    OST_FREE(work.residual);
+    OST_FREE(work.correction);
+    OST_FREE(work.left);
+    OST_FREE(work.candidate);
     return status;
+}
+
+OstStatus ost_goal_verdict(const OstGoal *goal)
+{
+    if (goal->end == OST_END_REACHED || (goal->end == OST_END_ROUNDING && goal->attainable_will_do))
+        return OST_SUCCESS;
+    const double reached = goal->norm / goal->start;
+    const double requested = goal->target / goal->start;
+    if (goal->end == OST_END_ROUNDING)
+        return OST_RAISE(goal->ctx, OST_NOT_CONVERGED,
+                         "after %d iterations the relative residual stays at %.3g, not the requested %.3g; %s",
+                         goal->iterations, reached, requested, goal->words);
+    return OST_RAISE(goal->ctx, OST_NOT_CONVERGED, "%s; the relative residual is %.3g, not the requested %.3g",
+                     goal->words, reached, requested);
 }

@@ -3,33 +3,66 @@
 #define ORTHOSTAT_ALGEBRA_REFINE_H
 
 #include "algebra/block_matrix.h"
+#include "algebra/watch.h"
 #include "orthostat/solver.h"
 
-/* What an iterative solver works towards, and how far it is; norms are of the unscaled residual. */
+/* How an iterative solver's work ended. */
+typedef enum {
+    OST_END_REACHED,
+    OST_END_SLOW,           /* it would take more than the patience there is */
+    OST_END_PRECONDITIONER, /* the preconditioner is not positive definite */
+    OST_END_STALLED,        /* solving for what is left gains nothing, and it is not rounding */
+    OST_END_ROUNDING,       /* double precision holds no more */
+    OST_END_ITERATIONS      /* the most allowed are done */
+} OstEnd;
+
+/* What a solver works towards, and how far it is; norms are of the unscaled residual. */
 typedef struct OstGoal {
     OstContext *ctx;
     double start;  /* ||f|| */
     double target; /* relative_residual × ||f|| */
+    double norm;   /* ||f - A u||, recomputed */
+    double limit;  /* about the least that rounding leaves of it; 0 where nobody asked */
     int iterations;
     int most_iterations;
+    int patience;           /* 0: endless */
+    int attainable_will_do; /* less than the target, where rounding holds no more */
+    OstWatch watch;
+    OstEnd end;
+    char words[200]; /* the end, unless reached */
 } OstGoal;
 
-/* Collective. Finds u with ||r - A u|| <= goal->target by the solver's own, recursive residual, or stops when
- * goal->iterations reaches the most; counts its iterations in the goal. r and u have 3 × rows numbers, u comes as 0. On
- * failure u holds what was reached. */
+/* Collective. Finds u with ||r - A u|| <= goal->target by the solver's own, recursive residual, or stops early and says
+ * so in goal->end and goal->words (which come as REACHED); counts its iterations by ost_goal_count. r and u have 3 ×
+ * rows numbers, u comes as 0 and holds what was reached, also on failure. Failures are what no other solver could do
+ * better. */
 typedef OstStatus (*OstInnerSolve)(void *data, const double *r, double *u, OstGoal *goal);
 
-/* Collective. Solves A u = f by `inner` to options->relative_residual, judged by f - A u as A, u and f give it: what a
- * recursive residual hid is solved for again. Fills the report's iterations and relative_residual, also on failure.
- * Returns OST_NOT_CONVERGED with the residual reached, and what rounding allows if it holds no more. */
+/* Collective. The goal of A u = f from u = 0. Raises OST_INVALID_INPUT if f is not finite. */
+OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal);
+
+/* Collective. Improves u by `inner` until f - A u, as A, u and f give it, is as small as the goal: what a recursive
+ * residual hid is solved for again. A correction counts if it lowers the energy or the residual, else u stays. How it
+ * ended is in the goal. */
 OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *data, const double *f, double *u,
-                     const OstSolverOptions *options, OstSolveReport *report);
+                     OstGoal *goal);
 
-/* Local. Shows how far a residual of this norm is on the way. */
-void ost_goal_progress(const OstGoal *goal, double norm);
+/* Collective. The power of two next below the largest number of all ranks, 1 if that is 0 or not finite: dividing by it
+ * is exact. */
+OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size);
 
-/* Local. Raises OST_NOT_CONVERGED unless `value`, the quadratic form `form` ("r·z"), is a positive number, as it must
- * be if `what` is positive definite. */
-OstStatus ost_goal_require_positive(const OstGoal *goal, double value, const char *form, const char *what);
+/* Local. OST_SUCCESS if the goal, or what will do, was reached, else OST_NOT_CONVERGED with its words and the residual
+ * reached. */
+OstStatus ost_goal_verdict(const OstGoal *goal);
+
+/* Local. Counts an iteration from r·z = weight that left a residual of this norm, and shows how far it is on the way.
+ * Returns whether to go on: not if the goal is reached, out of iterations or of patience. */
+int ost_goal_count(OstGoal *goal, double norm, double weight);
+
+/* Local. Is r·z a positive number? If not, the end is OST_END_PRECONDITIONER. */
+int ost_goal_accepts(OstGoal *goal, double weight);
+
+/* Local. Raises OST_NOT_CONVERGED: p·Ap, `energy`, is not what a positive definite stiffness makes of it. */
+OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy);
 
 #endif

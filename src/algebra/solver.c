@@ -1,100 +1,90 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/direct.h"
 #include "algebra/epetra.h"
-#include "algebra/metric_solver.h"
-#include "algebra/plain.h"
+#include "algebra/rung.h"
+#include "algebra/solver_options.h"
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <limits.h>
-#include <math.h>
+#include <stdio.h>
 #include <string.h>
-
-enum { DIRECT_BELOW = 3000 }; /* unknowns: factoring so few takes less than building a hierarchy */
 
 struct OstSolver {
     OstContext *ctx;
     const OstBlockMatrix *matrix;
-    OstSolverOptions options; /* with the recipe that was picked */
+    OstSolverGeometry geometry;
+    OstSolverPlan plan;
+    OstRung *rung; /* NULL if there are no unknowns */
     OstEpetraMap *map;
-    OstPlain *plain; /* one of these three, or none if there are no unknowns */
-    OstMetric *metric;
-    OstDirect *direct;
     double setup_seconds;
+    int steps; /* rungs that could not be built before the one that stands */
+    OstSolveStep step[OST_MAX_STEPS];
 };
 
-OstSolverOptions ost_solver_default_options(void)
+static int climbs(const OstSolver *solver)
 {
-    return (OstSolverOptions){.recipe = OST_RECIPE_AUTO,
-                              .relative_residual = 1e-8,
-                              .max_iterations = 1000,
-                              .aggregate_nodes = 40.0,
-                              .coarse_aggregate_nodes = 8.0,
-                              .smoother_block_nodes = 7.0,
-                              .smoother_degree = 3,
-                              .smoother_ratio = 20.0,
-                              .coarsest_unknowns = 1000};
+    return solver->plan.options.recipe == OST_RECIPE_AUTO;
 }
 
-const char *ost_recipe_name(OstRecipe recipe)
+/* Notes how a rung ended; the last place is kept for the one that reaches the goal. */
+static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstRecipe rung, const char *outcome)
 {
-    switch (recipe) {
-    case OST_RECIPE_AUTO:
-        return "auto";
-    case OST_RECIPE_PLAIN:
-        return "plain";
-    case OST_RECIPE_METRIC:
-        return "metric";
-    case OST_RECIPE_DIRECT:
-        return "direct";
+    OstSolveStep *noted = &step[*steps < OST_MAX_STEPS ? (*steps)++ : OST_MAX_STEPS - 1];
+    memset(noted, 0, sizeof *noted);
+    noted->rung = rung;
+    snprintf(noted->outcome, sizeof noted->outcome, "%s", outcome);
+    return noted;
+}
+
+/* What another rung may do better: not so a mistake in the input or a failure of MPI. */
+static int is_climbable(OstStatus status)
+{
+    return status == OST_NOT_CONVERGED || status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
+}
+
+/* Makes `recipe` the rung that stands, or, where it cannot be built and the ladder may climb, one above it. */
+static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *step, int *steps)
+{
+    OstSolverOptions options;
+    for (;; recipe++) {
+        const double start = ost_seconds();
+        ost_solver_rung_options(&solver->plan.options, recipe, &options);
+        ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
+        const OstStatus status = ost_rung_stand(solver->matrix, &solver->geometry, &options, &solver->rung);
+        ost_ledger_leave(solver->ctx);
+        solver->setup_seconds += ost_seconds() - start;
+        if (status == OST_SUCCESS || !climbs(solver) || !is_climbable(status))
+            return status;
+        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = ost_seconds() - start;
+        if (recipe == OST_RECIPE_DIRECT)
+            return status;
     }
-    return "unknown";
 }
 
-static OstStatus check_number(OstContext *ctx, const char *name, double value, double above, double most)
+/* All that was tried, where that was more than one rung; `status` and its text are those of the last. */
+static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
-    if (value > above && value <= most)
-        return OST_SUCCESS;
-    return OST_RAISE(ctx, OST_INVALID_INPUT, "solver option %s is %g; expected more than %g and at most %g", name,
-                     value, above, most);
+    char tried[1400] = "";
+    size_t length = 0;
+    char last[600];
+    if (steps < 2 || !is_climbable(status))
+        return status;
+    snprintf(last, sizeof last, "%s", ost_error_text(ctx));
+    for (int s = 0; s < steps && length < sizeof tried; s++)
+        length += (size_t)snprintf(tried + length, sizeof tried - length, "%s%s (%d iterations): %s", s ? "; " : "",
+                                   ost_recipe_name(step[s].rung), step[s].iterations, step[s].outcome);
+    return OST_RAISE(ctx, OST_NOT_CONVERGED, "%s. Tried: %s", last, tried);
 }
 
-static OstStatus check_options(OstContext *ctx, const OstSolverOptions *options)
+static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
 {
-    OST_TRY(check_number(ctx, "relative_residual", options->relative_residual, 0.0, 0.5));
-    OST_TRY(check_number(ctx, "max_iterations", options->max_iterations, 0.0, INT_MAX));
-    OST_TRY(check_number(ctx, "aggregate_nodes", options->aggregate_nodes, 1.0, 1e6));
-    OST_TRY(check_number(ctx, "coarse_aggregate_nodes", options->coarse_aggregate_nodes, 1.0, 1e6));
-    OST_TRY(check_number(ctx, "smoother_block_nodes", options->smoother_block_nodes, 0.0, 1e3));
-    OST_TRY(check_number(ctx, "smoother_degree", options->smoother_degree, 0.0, 20.0));
-    OST_TRY(check_number(ctx, "smoother_ratio", options->smoother_ratio, 1.0, 1e6));
-    return check_number(ctx, "coarsest_unknowns", options->coarsest_unknowns, 0.0, INT_MAX);
-}
-
-static OstRecipe pick_recipe(OstRecipe asked, const OstBlockMatrix *matrix)
-{
-    if (asked != OST_RECIPE_AUTO)
-        return asked;
-    return 3 * matrix->global_rows < DIRECT_BELOW ? OST_RECIPE_DIRECT : OST_RECIPE_METRIC;
-}
-
-static OstStatus build(OstSolver *solver, const OstSolverGeometry *geometry)
-{
-    OstContext *ctx = solver->ctx;
-    const OstBlockMatrix *matrix = solver->matrix;
-    OST_TRY(ost_epetra_map_create(ctx, 3 * matrix->rows, &solver->map));
-    if (matrix->global_rows == 0)
-        return OST_SUCCESS;
-    switch (solver->options.recipe) {
-    case OST_RECIPE_PLAIN:
-        return ost_plain_create(matrix, geometry, &solver->options, &solver->plain);
-    case OST_RECIPE_METRIC:
-        return ost_metric_create(ctx, matrix, geometry, &solver->options, &solver->metric);
-    default:
-        return ost_direct_create(matrix, &solver->direct);
-    }
+    OstSolverFacts facts = {0};
+    if (solver->geometry.facts)
+        facts = *solver->geometry.facts;
+    facts.unknowns = 3 * solver->matrix->global_rows;
+    ost_solver_plan(options, &facts, &solver->plan);
+    return ost_epetra_map_create(solver->ctx, 3 * solver->matrix->rows, &solver->map);
 }
 
 OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
@@ -102,20 +92,19 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
 {
     OstSolver *made = NULL;
     *solver = NULL;
-    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
-    const double start = ost_seconds();
-    OstStatus status = check_options(ctx, options);
+    OstStatus status = ost_solver_check_options(ctx, options);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &made, 1);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->ctx = ctx;
     made->matrix = matrix;
-    made->options = *options;
-    made->options.recipe = pick_recipe(options->recipe, matrix);
-    OST_TRY_DONE(build(made, geometry));
-    made->setup_seconds = ost_seconds() - start;
+    made->geometry = *geometry;
+    OST_TRY_DONE(make_plan(made, options));
+    if (matrix->global_rows > 0)
+        status = stand_on(made, made->plan.first, made->step, &made->steps);
+    if (status != OST_SUCCESS)
+        status = raise_all(ctx, made->step, made->steps, status);
 done:
-    ost_ledger_leave(ctx);
     if (status != OST_SUCCESS)
         ost_solver_destroy(&made);
     *solver = made;
@@ -126,22 +115,9 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    ost_plain_destroy(&(*solver)->plain);
-    ost_metric_destroy(&(*solver)->metric);
-    ost_direct_destroy(&(*solver)->direct);
+    ost_rung_destroy(&(*solver)->rung);
     ost_epetra_map_destroy(&(*solver)->map);
     OST_FREE(*solver);
-}
-
-static OstStatus run(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
-{
-    if (solver->plain)
-        return ost_plain_solve(solver->plain, f, u, &solver->options, report);
-    if (solver->metric)
-        return ost_metric_solve(solver->metric, f, u, report);
-    if (solver->direct)
-        return ost_direct_solve(solver->direct, f, u, &solver->options, report);
-    return OST_SUCCESS;
 }
 
 /* ||f - A u|| / ||f||, by Epetra's norms: no code in common with what the recipes stop by but the product. */
@@ -170,17 +146,129 @@ done:
     return status;
 }
 
+/* Works on the rung that stands, from the u that there is. */
+static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    const double start = ost_seconds();
+    const double setup = solver->setup_seconds;
+    const int before = goal->iterations;
+    OST_TRY(ost_rung_work(solver->rung, f, u, goal, report));
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung),
+                                   goal->end == OST_END_REACHED ? "reached the residual asked for" : goal->words);
+    step->iterations = goal->iterations - before;
+    step->factor = step->iterations > 0 ? ost_watch_whole_factor(&goal->watch) : 0.0;
+    step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
+    step->seconds = ost_seconds() - start + setup;
+    return OST_SUCCESS;
+}
+
+/* Is there a rung that could do better? */
+static int should_climb(const OstSolver *solver, const OstGoal *goal)
+{
+    const int mendable =
+        goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
+    return climbs(solver) && mendable && ost_rung_recipe(solver->rung) < OST_RECIPE_DIRECT;
+}
+
+/* The rung that came down fastest, to be gone on with where those above it ask for more memory than there is; AUTO if
+ * none did at all. */
+static OstRecipe fastest(const OstSolveReport *report)
+{
+    OstRecipe found = OST_RECIPE_AUTO;
+    double least = 0.9999;
+    for (int s = 0; s < report->steps; s++)
+        if (report->step[s].iterations >= OST_WATCH_WINDOW && report->step[s].factor < least) {
+            found = report->step[s].rung;
+            least = report->step[s].factor;
+        }
+    return found;
+}
+
+static OstStatus climb(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
+{
+    const OstRecipe from = ost_rung_recipe(solver->rung);
+    ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s; %s is next", ost_recipe_name(from), goal->words,
+            ost_recipe_name((OstRecipe)(from + 1)));
+    const OstStatus status = stand_on(solver, (OstRecipe)(from + 1), report->step, &report->steps);
+    if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
+        return status;
+    const OstRecipe best = fastest(report);
+    if (best == OST_RECIPE_AUTO)
+        return status;
+    goal->patience = 0; /* there is nothing above */
+    return stand_on(solver, best, report->step, &report->steps);
+}
+
+static OstStatus ascend(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    goal->patience = climbs(solver) ? solver->plan.options.patience : 0;
+    OST_TRY(work(solver, f, u, goal, report));
+    while (should_climb(solver, goal)) {
+        OST_TRY(climb(solver, goal, report));
+        OST_TRY(work(solver, f, u, goal, report));
+    }
+    return OST_SUCCESS;
+}
+
+static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
+{
+    report->recipe = solver->rung ? ost_rung_recipe(solver->rung) : solver->plan.first;
+    report->iterations = goal->iterations;
+    if (goal->start > 0.0) {
+        report->relative_residual = goal->norm / goal->start;
+        report->attainable_residual = goal->limit / goal->start;
+        report->rounding_limited = goal->end == OST_END_ROUNDING;
+    }
+}
+
+/* f and u of order 1 or so, whatever the units. */
+static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    OstGoal goal;
+    if (!solver->rung && solver->matrix->global_rows > 0)
+        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no rung of this solver is left: an earlier solve tried all");
+    OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
+    OstStatus status = OST_SUCCESS;
+    if (solver->rung)
+        status = ascend(solver, f, u, &goal, report);
+    report_goal(solver, &goal, report);
+    if (status == OST_SUCCESS)
+        status = ost_goal_verdict(&goal);
+    if (status != OST_SUCCESS)
+        return raise_all(solver->ctx, report->step, report->steps, status);
+    return measure_residual(solver, f, u, &report->relative_residual);
+}
+
+static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    const size_t n = 3 * (size_t)solver->matrix->rows;
+    double *scaled = NULL;
+    double size;
+    OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n)));
+    for (size_t i = 0; i < n; i++) {
+        scaled[i] = f[i] / size;
+        u[i] = 0.0;
+    }
+    const OstStatus status = solve_scaled(solver, scaled, u, report);
+    for (size_t i = 0; i < n; i++)
+        u[i] *= size;
+    OST_FREE(scaled);
+    return status;
+}
+
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     memset(report, 0, sizeof *report);
-    report->recipe = solver->options.recipe;
-    report->setup_seconds = solver->setup_seconds;
+    report->plan = solver->plan;
+    report->steps = solver->steps;
+    memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     const double start = ost_seconds();
-    OstStatus status = run(solver, f, u, report);
-    if (status == OST_SUCCESS)
-        status = measure_residual(solver, f, u, &report->relative_residual);
-    report->solve_seconds = ost_seconds() - start;
+    const double setup = solver->setup_seconds;
+    const OstStatus status = solve(solver, f, u, report);
+    report->setup_seconds = solver->setup_seconds;
+    report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
 }

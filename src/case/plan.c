@@ -7,9 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Below this a factorisation costs less than any hierarchy. */
-static const OstGlobal direct_unknowns = 3000;
-
 static void set(OstPlan *plan, OstPlanIndex effect, int on, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
@@ -111,24 +108,6 @@ static void plan_loads(const OstCase *c, OstPlan *plan)
         set(plan, OST_PLAN_BODY_FORCE, 0, "%s", none ? none : "no load acts in the volume");
 }
 
-static void plan_recipe(const OstCase *c, OstPlan *plan)
-{
-    const long long unknowns = (long long)plan->unknowns;
-    plan->recipe = c->solver.recipe;
-    if (plan->recipe != OST_RECIPE_AUTO) {
-        snprintf(plan->recipe_reason, sizeof plan->recipe_reason, "the case asks for it");
-    } else if (plan->unknowns < direct_unknowns) {
-        plan->recipe = OST_RECIPE_DIRECT;
-        snprintf(plan->recipe_reason, sizeof plan->recipe_reason,
-                 "%lld unknowns are fewer than %lld: a factorisation is at hand at once", unknowns,
-                 (long long)direct_unknowns);
-    } else {
-        plan->recipe = OST_RECIPE_METRIC;
-        snprintf(plan->recipe_reason, sizeof plan->recipe_reason,
-                 "%lld unknowns: multigrid on aggregates that are round in the material's metric", unknowns);
-    }
-}
-
 void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
                    OstPlan *plan)
 {
@@ -144,7 +123,9 @@ void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstF
     plan->nodes = nodes;
     plan->tets = tets;
     plan->unknowns = 3 * nodes;
-    plan_recipe(c, plan);
+    plan->facts = in_use.facts;
+    plan->facts.unknowns = plan->unknowns;
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     ost_plan_memory(c, ranks, plan);
 }
 

@@ -62,6 +62,22 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     }
 }
 
+/* Ratios of moduli and Poisson's ratio, for the solver's plan; `softest` and `stiffest` are those so far. */
+static void add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                      OstSolverFacts *facts)
+{
+    const double *e = k->youngs_modulus;
+    const double least = fmin(e[0], fmin(e[1], e[2]));
+    const double most = fmax(e[0], fmax(e[1], e[2]));
+    double eigenvalues[3] = {1.0, 1.0, 1.0};
+    if (ost_orthotropic_eigenvalues(ctx, k, eigenvalues) == OST_SUCCESS)
+        facts->poisson = fmax(facts->poisson, 0.5 * (1.0 - eigenvalues[0]));
+    *softest = *softest > 0.0 ? fmin(*softest, least) : least;
+    *stiffest = fmax(*stiffest, most);
+    facts->anisotropy = fmax(facts->anisotropy, most / least);
+    facts->contrast = *stiffest / *softest;
+}
+
 static void count_axes(const OstCaseMaterial *stated, OstPlanMaterials *m)
 {
     if (!ost_axes_vary(&stated->axes))
@@ -75,6 +91,8 @@ static void count_axes(const OstCaseMaterial *stated, OstPlanMaterials *m)
 
 void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, OstPlanMaterials *m)
 {
+    double softest = 0.0;
+    double stiffest = 0.0;
     memset(m, 0, sizeof *m);
     for (int i = 0; i < c->material_count; i++) {
         const OstCaseMaterial *stated = &c->materials[i];
@@ -82,6 +100,7 @@ void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, Ost
         if (is_replaced(c, i))
             continue;
         m->count++;
+        add_facts(c->ctx, &stated->constants, &softest, &stiffest, &m->facts);
         if (ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material) ==
                 OST_SUCCESS &&
             material.isotropic)
@@ -92,6 +111,7 @@ void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, Ost
     }
     for (int r = 0; from_file && r < from_file->count && !file_is_replaced(c); r++) {
         m->count++;
+        add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
         if (!from_file->material[r].isotropic && m->orthotropic++ == 0)
             say_why_orthotropic(from_file->material[r].name, &from_file->material[r].constants, m);
     }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver_plan.h"
 #include "case/plan_parts.h"
 
 #include <math.h>
@@ -15,9 +16,6 @@ static const double vectors = 10.0;                          /* of three doubles
 /* Times the matrix: level 0 in float blocks, the smoother's factors, and a hierarchy of half the matrix' size. */
 static const double metric_copies = 2.8;
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
-
-/* MUMPS on tubes: 505 MB at 74,340 unknowns, 6.8 GB at 556,920; in between a power law. */
-static const double direct_bytes = 505e6, direct_unknowns = 74340.0, direct_power = 1.29;
 
 /* Nodes and tets that ranks hold beside their own: a layer of nodes around each part. A part of n nodes has about
  * 6 n^(2/3) of them on its faces; half of the faces, in the middle of cuts, meet another part. */
@@ -38,9 +36,9 @@ static double matrix_blocks(double nodes, double tets)
 static double solver_bytes(const OstPlan *plan, double matrix_bytes)
 {
     const double vector_bytes = vectors * 24.0 * (double)plan->nodes;
-    switch (plan->recipe) {
+    switch (plan->solver.first) {
     case OST_RECIPE_DIRECT:
-        return vector_bytes + direct_bytes * pow((double)plan->unknowns / direct_unknowns, direct_power);
+        return vector_bytes + ost_solver_factor_bytes(plan->unknowns);
     case OST_RECIPE_PLAIN:
         return vector_bytes + plain_copies * matrix_bytes;
     default:

@@ -12,6 +12,7 @@ typedef struct OstPlanMaterials {
     const char *gradient_region;
     char orthotropic_reason[160];
     char varying_reason[160];
+    OstSolverFacts facts; /* of the materials */
 } OstPlanMaterials;
 
 void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, OstPlanMaterials *materials);

@@ -34,13 +34,18 @@ OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase
 
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    OstYamlKey keys[] = {{"relative_residual", OST_OPTIONAL, NULL}};
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
-    if (!keys[0].value)
+    static const char *const words[] = {"refuse", "accept"};
+    enum { RESIDUAL, OUT_OF_REACH };
+    OstYamlKey keys[] = {
+        [RESIDUAL] = {"relative_residual", OST_OPTIONAL, NULL}, [OUT_OF_REACH] = {"out_of_reach", OST_OPTIONAL, NULL}};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[OUT_OF_REACH].value)
+        OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
+    if (!keys[RESIDUAL].value)
         return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, keys[0].value, &c->solver.relative_residual));
+    OST_TRY(ost_yaml_number(yaml, keys[RESIDUAL].value, &c->solver.relative_residual));
     if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual <= 0.5))
-        return ost_yaml_raise_type(yaml, keys[0].value, "a number from 1e-15 to 0.5", "");
+        return ost_yaml_raise_type(yaml, keys[RESIDUAL].value, "a number from 1e-15 to 0.5", "");
     return OST_SUCCESS;
 }
 
@@ -66,10 +71,8 @@ static OstStatus read_count(const OstYaml *yaml, const OstYamlKey *key, int64_t 
 static OstStatus read_recipe(const OstYaml *yaml, const OstYamlKey *key, OstRecipe *recipe)
 {
     static const char *const words[] = {
-        [OST_RECIPE_AUTO] = "auto",
-        [OST_RECIPE_PLAIN] = "plain",
-        [OST_RECIPE_METRIC] = "metric",
-        [OST_RECIPE_DIRECT] = "direct",
+        [OST_RECIPE_AUTO] = "auto",     [OST_RECIPE_PLAIN] = "plain",         [OST_RECIPE_METRIC] = "metric",
+        [OST_RECIPE_STRONG] = "strong", [OST_RECIPE_TWO_LEVEL] = "two_level", [OST_RECIPE_DIRECT] = "direct",
     };
     int which;
     if (!key->value)
@@ -79,33 +82,64 @@ static OstStatus read_recipe(const OstYaml *yaml, const OstYamlKey *key, OstReci
     return OST_SUCCESS;
 }
 
+enum { RECIPE, ITERATIONS, PATIENCE, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST, LEVELS, MEMORY, SOLVER_KEYS };
+
+static OstStatus read_ratio(const OstYaml *yaml, const OstYamlKey *key, double *ratio)
+{
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, key->value, ratio));
+    return *ratio > 1.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number above 1", "");
+}
+
+static OstStatus read_memory(const OstYaml *yaml, const OstYamlKey *key, double *bytes)
+{
+    double mebibytes = 0.0;
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, key->value, &mebibytes));
+    *bytes = 1048576.0 * mebibytes;
+    return mebibytes > 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number of MiB above 0", "");
+}
+
+/* What plan and ladder are to leave alone. */
+static unsigned given(const OstYamlKey *keys)
+{
+    return (keys[AGGREGATE].value ? OST_GIVEN_AGGREGATE : 0U) | (keys[COARSE].value ? OST_GIVEN_COARSE_AGGREGATE : 0U) |
+           (keys[BLOCK].value ? OST_GIVEN_BLOCK : 0U) | (keys[DEGREE].value ? OST_GIVEN_DEGREE : 0U) |
+           (keys[RATIO].value ? OST_GIVEN_RATIO : 0U);
+}
+
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { RECIPE, ITERATIONS, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST };
-    OstYamlKey keys[] = {
+    OstYamlKey keys[SOLVER_KEYS] = {
         [RECIPE] = {"recipe", OST_OPTIONAL, NULL},
         [ITERATIONS] = {"max_iterations", OST_OPTIONAL, NULL},
+        [PATIENCE] = {"patience", OST_OPTIONAL, NULL},
         [AGGREGATE] = {"aggregate_nodes", OST_OPTIONAL, NULL},
         [COARSE] = {"coarse_aggregate_nodes", OST_OPTIONAL, NULL},
         [BLOCK] = {"smoother_block_nodes", OST_OPTIONAL, NULL},
         [DEGREE] = {"smoother_degree", OST_OPTIONAL, NULL},
         [RATIO] = {"smoother_ratio", OST_OPTIONAL, NULL},
         [COARSEST] = {"coarsest_unknowns", OST_OPTIONAL, NULL},
+        [LEVELS] = {"most_levels", OST_OPTIONAL, NULL},
+        [MEMORY] = {"factor_memory", OST_OPTIONAL, NULL},
     };
     OstSolverOptions *solver = &c->solver;
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, SOLVER_KEYS));
     OST_TRY(read_recipe(yaml, &keys[RECIPE], &solver->recipe));
     OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
+    OST_TRY(read_count(yaml, &keys[PATIENCE], 1000000, &solver->patience));
     OST_TRY(read_nodes(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));
     OST_TRY(read_nodes(yaml, &keys[COARSE], &solver->coarse_aggregate_nodes));
     OST_TRY(read_nodes(yaml, &keys[BLOCK], &solver->smoother_block_nodes));
     OST_TRY(read_count(yaml, &keys[DEGREE], 20, &solver->smoother_degree));
+    OST_TRY(read_ratio(yaml, &keys[RATIO], &solver->smoother_ratio));
     OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));
-    if (!keys[RATIO].value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, keys[RATIO].value, &solver->smoother_ratio));
-    return solver->smoother_ratio > 1.0 ? OST_SUCCESS
-                                        : ost_yaml_raise_type(yaml, keys[RATIO].value, "a number above 1", "");
+    OST_TRY(read_count(yaml, &keys[LEVELS], OST_MAX_LEVELS, &solver->most_levels));
+    OST_TRY(read_memory(yaml, &keys[MEMORY], &solver->factor_memory));
+    solver->given = given(keys);
+    return OST_SUCCESS;
 }
 
 static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsigned *fields)

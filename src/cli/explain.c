@@ -2,6 +2,7 @@
 #include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "orthostat/case.h"
 #include "orthostat/plan.h"
 #include "orthostat/solver.h"
@@ -29,6 +30,8 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
         ost_plan_file_size(c, chunk->nodes_per_tet, &nodes, &tets);
     }
     ost_plan_make(c, nodes, tets, materials, ost_size(ctx), plan);
+    OST_TRY_DONE(ost_memory_free(ctx, &plan->facts.free_memory));
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
 done:
     ost_chunk_destroy(&chunk);
     ost_file_materials_destroy(&materials);
@@ -49,12 +52,20 @@ static void print_bytes(const char *label, double bytes)
         printf("  %-20s %10.1f GiB\n", label, mebibytes / 1024.0);
 }
 
+static void print_solver(const OstSolverPlan *plan)
+{
+    printf("\nSolver\n  %-20s %s%s: %s\n", "recipe", ost_recipe_name(plan->first),
+           plan->options.recipe == OST_RECIPE_AUTO ? " first" : "", plan->reason[0]);
+    for (int r = 1; r < plan->reasons; r++)
+        printf("  %-20s %s\n", "", plan->reason[r]);
+}
+
 static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 {
     printf("%s: %s\n\nEffects\n", c->path, c->title);
     for (int e = 0; e < OST_PLAN_COUNT; e++)
         printf("  %-20s %-4s %s\n", plan->effect[e].label, plan->effect[e].on ? "on" : "off", plan->effect[e].reason);
-    printf("\nSolver\n  %-20s %s: %s\n", "recipe", ost_recipe_name(plan->recipe), plan->recipe_reason);
+    print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
@@ -68,12 +79,12 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
-    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:s, s:f}, s:I, s:I, s:I, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
+    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
                              "case", c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
-                             ost_recipe_name(plan->recipe), "reason", plan->recipe_reason, "relative_residual",
-                             c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets",
-                             (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks,
-                             "bytes", "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver",
+                             ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver),
+                             "relative_residual", c->solver.relative_residual, "vertices", (json_int_t)plan->nodes,
+                             "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks",
+                             ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver",
                              plan->bytes_solver, "in_all", total_bytes(plan), "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');

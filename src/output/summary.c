@@ -18,13 +18,28 @@ static void print_levels(const OstSolveReport *report)
     printf(" unknowns, operator complexity %.2f\n", report->operator_complexity);
 }
 
+/* Why the solver began where it did, and each rung it left, with the reason. */
+static void print_ladder(const OstSolveReport *report)
+{
+    for (int r = 0; r < report->plan.reasons; r++)
+        printf("  %-16s %s\n", r == 0 ? "plan" : "", report->plan.reason[r]);
+    for (int s = 0; report->steps > 1 && s < report->steps; s++)
+        printf("  %-16s %s, %d iteration%s in %.3f s: %s\n", s == 0 ? "climbed" : "",
+               ost_recipe_name(report->step[s].rung), report->step[s].iterations, plural(report->step[s].iterations),
+               report->step[s].seconds, report->step[s].outcome);
+}
+
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
+    print_ladder(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
+    if (report->rounding_limited)
+        printf("                   not what was asked for: double precision holds about %.1g here\n",
+               report->attainable_residual);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }

@@ -32,4 +32,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
 struct json_t;
 struct json_t *ost_effects_json(const OstPlan *plan);
 
+/* Local. The reasons of the solver's plan as a list of strings; likewise. */
+struct json_t *ost_solver_reasons_json(const OstSolverPlan *plan);
+
 #endif

@@ -13,16 +13,39 @@ static json_t *vector_json(const double v[3])
     return json_pack("[f, f, f]", v[0], v[1], v[2]);
 }
 
+json_t *ost_solver_reasons_json(const OstSolverPlan *plan)
+{
+    json_t *reasons = json_array();
+    for (int r = 0; r < plan->reasons; r++)
+        json_array_append_new(reasons, json_string(plan->reason[r]));
+    return reasons;
+}
+
+static json_t *steps_json(const OstSolveReport *report)
+{
+    json_t *steps = json_array();
+    for (int s = 0; s < report->steps; s++) {
+        const OstSolveStep *step = &report->step[s];
+        json_array_append_new(steps,
+                              json_pack("{s:s, s:i, s:f, s:f, s:f, s:s}", "rung", ost_recipe_name(step->rung),
+                                        "iterations", step->iterations, "factor", step->factor, "relative_residual",
+                                        step->relative_residual, "seconds", step->seconds, "outcome", step->outcome));
+    }
+    return steps;
+}
+
 static json_t *solver_json(const OstSolveReport *report)
 {
     json_t *levels = json_array();
     for (int l = 0; l < report->levels; l++)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
-    return json_pack("{s:s, s:i, s:f, s:f, s:f, s:o, s:f, s:f}", "recipe", ost_recipe_name(report->recipe),
-                     "iterations", report->iterations, "relative_residual", report->relative_residual, "setup_seconds",
-                     report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns", levels,
-                     "operator_complexity", report->operator_complexity, "condition_estimate",
-                     report->condition_estimate);
+    return json_pack("{s:s, s:i, s:f, s:f, s:b, s:f, s:f, s:o, s:f, s:f, s:o, s:o}", "recipe",
+                     ost_recipe_name(report->recipe), "iterations", report->iterations, "relative_residual",
+                     report->relative_residual, "attainable_residual", report->attainable_residual, "rounding_limited",
+                     report->rounding_limited, "setup_seconds", report->setup_seconds, "solve_seconds",
+                     report->solve_seconds, "level_unknowns", levels, "operator_complexity",
+                     report->operator_complexity, "condition_estimate", report->condition_estimate, "plan",
+                     ost_solver_reasons_json(&report->plan), "steps", steps_json(report));
 }
 
 static json_t *checks_json(const OstChecks *checks)

@@ -43,7 +43,8 @@ static OstStatus make_geometry(OstLinearSpace *space, const OstMaterialField *fi
         status = OST_NEW(ctx, &space->metric, 6 * rows);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_system_geometry(space->system, field, space->coordinates, space->metric, space->modes));
-    space->geometry = (OstSolverGeometry){space->coordinates, space->metric, space->modes, NULL};
+    space->geometry =
+        (OstSolverGeometry){.coordinates = space->coordinates, .metric = space->metric, .modes = space->modes};
     return OST_SUCCESS;
 }
 

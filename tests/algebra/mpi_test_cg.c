@@ -38,14 +38,30 @@ static OstStatus apply_changing(void *data, const double *r, double *z)
     return OST_SUCCESS;
 }
 
+static OstStatus solve_with(Implementation implementation, const OstCgSystem *system,
+                            const OstPreconditioner *preconditioner, const double *f, double *u,
+                            const OstSolverOptions *options, OstSolveReport *report)
+{
+    OstGoal goal;
+    memset(report, 0, sizeof *report);
+    OST_TRY(ost_goal_set(system->matrix, f, options, &goal));
+    memset(u, 0, 3 * (size_t)system->matrix->rows * sizeof *u);
+    OstStatus status = implementation == OWN
+                           ? ost_cg_solve(system, preconditioner, f, u, &goal, &report->condition_estimate)
+                           : ost_aztec_solve(system->matrix, preconditioner, f, u, &goal);
+    if (status == OST_SUCCESS)
+        status = ost_goal_verdict(&goal);
+    report->iterations = goal.iterations;
+    report->relative_residual = goal.start > 0.0 ? goal.norm / goal.start : 0.0;
+    return status;
+}
+
 static OstStatus solve(Implementation implementation, const OstBlockMatrix *matrix, Weighted *weighted, const double *f,
                        double *u, const OstSolverOptions *options, OstSolveReport *report)
 {
     const OstPreconditioner preconditioner = {.data = weighted, .apply = apply_weights};
     const OstCgSystem system = {.matrix = matrix};
-    memset(report, 0, sizeof *report);
-    return implementation == OWN ? ost_cg_solve(&system, &preconditioner, f, u, options, report)
-                                 : ost_aztec_solve(matrix, &preconditioner, f, u, options, report);
+    return solve_with(implementation, &system, &preconditioner, f, u, options, report);
 }
 
 static Weighted identity(const OstBlockMatrix *matrix)
@@ -123,7 +139,7 @@ static void scaling_gives_the_solution_of_the_unscaled_system(void **state)
     Weighted weighted = identity(problem.matrix);
     const OstPreconditioner preconditioner = {.data = &weighted, .apply = apply_weights};
     const OstCgSystem system = {.matrix = problem.matrix, .scaled_matrix = scaled, .scaling = scaling};
-    assert_success(ost_cg_solve(&system, &preconditioner, problem.force, u[0], &options, &report[0]));
+    assert_success(solve_with(OWN, &system, &preconditioner, problem.force, u[0], &options, &report[0]));
     assert_success(solve(AZTEC, problem.matrix, &weighted, problem.force, u[1], &options, &report[1]));
     for (size_t i = 0; i < n; i++)
         assert_close(u[0][i], u[1][i], 1e-9);
@@ -148,7 +164,7 @@ static void a_changing_preconditioner_is_allowed_where_flexible(void **state)
     for (int flexible = 0; flexible < 2; flexible++) {
         Weighted weighted = identity(problem.matrix);
         const OstPreconditioner changing = {.data = &weighted, .apply = apply_changing, .flexible = flexible};
-        const OstStatus status = ost_cg_solve(&system, &changing, problem.force, u, &options, &report[flexible]);
+        const OstStatus status = solve_with(OWN, &system, &changing, problem.force, u, &options, &report[flexible]);
         assert_true(!flexible || status == OST_SUCCESS);
         assert_int_equal(weighted.calls, report[flexible].iterations);
     }

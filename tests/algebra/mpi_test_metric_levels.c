@@ -207,7 +207,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     set_up(&held_block, &s);
     const OstLevelMatrix *a = s.levels.matrix[s.levels.count - 1];
     OstCoarsest *coarsest = NULL;
-    assert_success(ost_coarsest_create(s.levels.coarsest, &coarsest));
+    assert_success(ost_coarsest_create(s.levels.coarsest, 0.0, &coarsest));
     double *b = noise(a, 1), *x = noise(a, 2);
     assert_success(ost_coarsest_solve(coarsest, b, x));
     const double size = global_dot(owned(a), b, b);

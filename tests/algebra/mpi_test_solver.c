@@ -11,8 +11,9 @@ static const ElasticBlock slab = {
     .bricks = {4, 3, 2}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3, .held = 1};
 static const ElasticBlock afloat = {.bricks = {3, 3, 4}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3};
 
-static const OstRecipe recipes[] = {OST_RECIPE_PLAIN, OST_RECIPE_METRIC, OST_RECIPE_DIRECT, OST_RECIPE_AUTO};
-enum { RECIPES = 4 };
+static const OstRecipe recipes[] = {OST_RECIPE_PLAIN,     OST_RECIPE_METRIC, OST_RECIPE_STRONG,
+                                    OST_RECIPE_TWO_LEVEL, OST_RECIPE_DIRECT, OST_RECIPE_AUTO};
+enum { RECIPES = 6 };
 
 static OstSolverOptions options_for(OstRecipe recipe, double relative_residual)
 {
@@ -182,6 +183,12 @@ static void the_report_tells_what_was_done(void **state)
         double *u = solve(ctx, &problem, &options, &report);
         const OstRecipe used = recipes[k] == OST_RECIPE_AUTO ? OST_RECIPE_DIRECT : recipes[k];
         assert_int_equal(report.recipe, used);
+        assert_int_equal(report.steps, 1);
+        assert_int_equal(report.step[0].rung, used);
+        assert_int_equal(report.step[0].iterations, report.iterations);
+        assert_true(report.step[0].factor > 0.0 && report.step[0].factor < 0.9);
+        assert_string_equal(report.step[0].outcome, "reached the residual asked for");
+        assert_true(used != OST_RECIPE_TWO_LEVEL || report.levels == 2);
         assert_true(report.iterations >= 1 && report.iterations <= (used == OST_RECIPE_DIRECT ? 2 : 60));
         assert_int_equal(report.level_unknowns[0], unknowns);
         assert_true(used == OST_RECIPE_DIRECT ? report.levels == 1 : report.levels >= 2);

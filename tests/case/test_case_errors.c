@@ -208,8 +208,9 @@ static void bad_settings_are_refused(void **state)
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 9e-16}\n",
                    "3:31: accuracy.relative_residual: found '9e-16', expected a number from 1e-15 to 0.5");
-    assert_refused(CUBE STEEL "solver: {recipe: metrics}\n",
-                   "3:18: unknown recipe 'metrics'; did you mean 'metric'? Known: auto, plain, metric, direct");
+    assert_refused(
+        CUBE STEEL "solver: {recipe: metrics}\n",
+        "3:18: unknown recipe 'metrics'; did you mean 'metric'? Known: auto, plain, metric, strong, two_level, direct");
     assert_refused(CUBE STEEL "solver: {max_iterations: 0}\n",
                    "3:26: solver.max_iterations: found '0', expected a whole number from 1 to 1000000");
     assert_refused(CUBE STEEL "output: {file: a.vtk}\n",

@@ -133,12 +133,12 @@ static void the_recipe_follows_the_size_unless_the_case_says(void **state)
     (void)state;
     make_plan("mesh: {block: {size: [1, 1, 1], divisions: [8, 8, 8]}}\n" STEEL);
     assert_int_equal(plan.unknowns, 3 * 9 * 9 * 9);
-    assert_int_equal(plan.recipe, OST_RECIPE_DIRECT);
+    assert_int_equal(plan.solver.first, OST_RECIPE_DIRECT);
     make_plan(CUBE STEEL);
-    assert_int_equal(plan.recipe, OST_RECIPE_METRIC);
+    assert_int_equal(plan.solver.first, OST_RECIPE_METRIC);
     make_plan(CUBE STEEL "solver: {recipe: plain}\n");
-    assert_int_equal(plan.recipe, OST_RECIPE_PLAIN);
-    assert_string_equal(plan.recipe_reason, "the case asks for it");
+    assert_int_equal(plan.solver.first, OST_RECIPE_PLAIN);
+    assert_string_equal(plan.solver.reason[0], "the case asks for it");
 }
 
 /* The paper's tube: 25,620 vertices and 129,600 tets; an independent count of its edges gives 13.7 blocks a row. */

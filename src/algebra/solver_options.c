@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver_options.h"
+
+#include "core/error.h"
+
+#include <limits.h>
+
+/* Of strong smoothing: measured on tubes, plates and inclusions (README, "Solver"). */
+enum { STRONG_DEGREE = 6 };
+static const double strong_ratio = 60.0;
+
+/* More of the matrix goes into the coarse one where that is factored. */
+static const double two_level_aggregate = 20.0;
+
+OstSolverOptions ost_solver_default_options(void)
+{
+    return (OstSolverOptions){.recipe = OST_RECIPE_AUTO,
+                              .relative_residual = 1e-8,
+                              .max_iterations = 1000,
+                              .patience = 150,
+                              .aggregate_nodes = 40.0,
+                              .coarse_aggregate_nodes = 8.0,
+                              .smoother_block_nodes = 7.0,
+                              .smoother_degree = 3,
+                              .smoother_ratio = 20.0,
+                              .coarsest_unknowns = 1000,
+                              .most_levels = OST_MAX_LEVELS};
+}
+
+const char *ost_recipe_name(OstRecipe recipe)
+{
+    static const char *const names[] = {
+        [OST_RECIPE_AUTO] = "auto",     [OST_RECIPE_PLAIN] = "plain",         [OST_RECIPE_METRIC] = "metric",
+        [OST_RECIPE_STRONG] = "strong", [OST_RECIPE_TWO_LEVEL] = "two_level", [OST_RECIPE_DIRECT] = "direct"};
+    return recipe >= OST_RECIPE_AUTO && recipe <= OST_RECIPE_DIRECT ? names[recipe] : "unknown";
+}
+
+static OstStatus check_number(OstContext *ctx, const char *name, double value, double above, double most)
+{
+    if (value > above && value <= most)
+        return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_INVALID_INPUT, "solver option %s is %g; expected more than %g and at most %g", name,
+                     value, above, most);
+}
+
+OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *options)
+{
+    OST_TRY(check_number(ctx, "relative_residual", options->relative_residual, 0.0, 0.5));
+    OST_TRY(check_number(ctx, "max_iterations", options->max_iterations, 0.0, INT_MAX));
+    OST_TRY(check_number(ctx, "patience", options->patience, 0.0, INT_MAX));
+    OST_TRY(check_number(ctx, "aggregate_nodes", options->aggregate_nodes, 1.0, 1e6));
+    OST_TRY(check_number(ctx, "coarse_aggregate_nodes", options->coarse_aggregate_nodes, 1.0, 1e6));
+    OST_TRY(check_number(ctx, "smoother_block_nodes", options->smoother_block_nodes, 0.0, 1e3));
+    OST_TRY(check_number(ctx, "smoother_degree", options->smoother_degree, 0.0, 20.0));
+    OST_TRY(check_number(ctx, "smoother_ratio", options->smoother_ratio, 1.0, 1e6));
+    OST_TRY(check_number(ctx, "coarsest_unknowns", options->coarsest_unknowns, 0.0, INT_MAX));
+    OST_TRY(check_number(ctx, "most_levels", options->most_levels, 0.0, OST_MAX_LEVELS));
+    return check_number(ctx, "factor_memory", options->factor_memory, -1e-300, 1e300);
+}
+
+void ost_solver_rung_options(const OstSolverOptions *planned, OstRecipe rung, OstSolverOptions *options)
+{
+    *options = *planned;
+    options->recipe = rung;
+    if (rung != OST_RECIPE_STRONG && rung != OST_RECIPE_TWO_LEVEL)
+        return;
+    if (!(planned->given & OST_GIVEN_DEGREE) && planned->smoother_degree < STRONG_DEGREE)
+        options->smoother_degree = STRONG_DEGREE;
+    if (!(planned->given & OST_GIVEN_RATIO) && planned->smoother_ratio < strong_ratio)
+        options->smoother_ratio = strong_ratio;
+    if (rung == OST_RECIPE_STRONG)
+        return;
+    if (!(planned->given & OST_GIVEN_AGGREGATE))
+        options->aggregate_nodes = two_level_aggregate;
+    if (options->most_levels > 2)
+        options->most_levels = 2;
+}

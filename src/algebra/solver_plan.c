@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver_plan.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Factoring so few unknowns takes less than building a hierarchy. */
+static const OstGlobal direct_below = 3000;
+
+static void say(OstSolverPlan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void say(OstSolverPlan *plan, const char *format, ...)
+{
+    va_list arguments;
+    if (plan->reasons == OST_PLAN_REASONS)
+        return;
+    char *reason = plan->reason[plan->reasons++];
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof plan->reason[0], format, arguments);
+    va_end(arguments);
+}
+
+/* MUMPS on tubes: 505 MB at 74,340 unknowns, 6.8 GB at 556,920; in between a power law. */
+double ost_solver_factor_bytes(OstGlobal unknowns)
+{
+    return 505e6 * pow((double)unknowns / 74340.0, 1.29);
+}
+
+static void plan_rung(const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    const long long unknowns = (long long)facts->unknowns;
+    if (plan->options.recipe != OST_RECIPE_AUTO) {
+        plan->first = plan->options.recipe;
+        say(plan, "the case asks for it");
+    } else if (facts->unknowns < direct_below) {
+        plan->first = OST_RECIPE_DIRECT;
+        say(plan, "%lld unknowns are fewer than %lld: a factorisation is at hand at once", unknowns,
+            (long long)direct_below);
+    } else {
+        plan->first = OST_RECIPE_METRIC;
+        say(plan, "%lld unknowns: multigrid on aggregates that are round in the material's metric", unknowns);
+    }
+}
+
+static void plan_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    const double wanted = ost_solver_factor_bytes(facts->unknowns);
+    const double allowed = plan->options.factor_memory > 0.0 ? plan->options.factor_memory : facts->free_memory;
+    if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT || !(allowed > 0.0))
+        return;
+    say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the last rung is %s reach",
+        wanted / 1073741824.0, allowed / 1073741824.0, plan->options.factor_memory > 0.0 ? "allowed" : "free",
+        wanted <= allowed ? "in" : "out of");
+}
+
+void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    memset(plan, 0, sizeof *plan);
+    plan->options = *options;
+    plan_rung(facts, plan);
+    plan_memory(facts, plan);
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CORE_FREE_MEMORY_H
+#define ORTHOSTAT_CORE_FREE_MEMORY_H
+
+#include "orthostat/context.h"
+
+/* Bytes that the ranks of a machine want together, and that it has free: of the machine that is shortest of it. */
+typedef struct OstMemoryDemand {
+    double wanted, free;
+} OstMemoryDemand;
+
+/* Collective. `mine` is what this rank wants. */
+OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *demand);
+
+/* Collective. What all machines of the ranks have free, each counted once. */
+OstStatus ost_memory_free(OstContext *ctx, double *bytes);
+
+#endif
