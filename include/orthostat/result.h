@@ -8,7 +8,12 @@
 
 /* What the checks after the solve found; every number is over the whole body. */
 typedef struct OstChecks {
-    double relative_residual; /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
+    double relative_residual;  /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
+    double rounding;           /* what of it rounding may explain: a few 1e-16 of || |K| |u| || / ||f_rhs|| */
+    double rigid_motion;       /* most that a tet, or a row of the matrix, resisted rigid motion, over |K| |motion| */
+    double displacement_error; /* of the displacement, relative: condition_estimate (relative_residual + rounding); NAN
+                                  if the condition is not known */
+    double digits;             /* that this leaves, 0 to 16; NAN if not known */
     double load[3], reaction[3];
     double force_imbalance;  /* |sum of loads + reactions| over the sum of their magnitudes */
     double moment_imbalance; /* likewise about the body's centre */
@@ -17,6 +22,14 @@ typedef struct OstChecks {
     double energy_imbalance; /* |strain_energy - work| / larger */
     int finite;
 } OstChecks;
+
+/* Why a result is no answer. */
+enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = 600 };
+
+typedef struct OstObjections {
+    int count;
+    char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
+} OstObjections;
 
 /* One rank's piece of the answer. */
 typedef struct OstResult {
@@ -34,6 +47,9 @@ typedef struct OstResult {
     double largest_at[3];
     OstSolveReport solve;
     OstChecks checks;
+    int reached;              /* is there a displacement to speak of? Not so if no solver came to work */
+    int unfinished;           /* did the solver stop short of the requested residual? */
+    OstObjections objections; /* none: the result is an answer; the same on all ranks */
 } OstResult;
 
 #endif

@@ -27,12 +27,17 @@ OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene *
 void ost_scene_destroy(OstScene **scene);
 
 /* Collective. Supports, loads, stiffness, solve, checks, and the fields the case's output asks for. Raises
- * OST_NOT_CONVERGED or OST_CHECK_FAILED with the numbers; the result is filled then too, but is not an answer. The
- * scene outlives the result. */
+ * OST_NOT_CONVERGED or OST_CHECK_FAILED with the numbers; where result->reached, the result is filled then too, with
+ * what is held against it, but is not an answer. The scene outlives the result. */
 OstStatus ost_scene_solve(OstScene *scene, OstResult **result);
 void ost_result_destroy(OstResult **result);
 
-/* Collective. Writes the VTKHDF file of a result: the fields asked for by the case. */
+/* Local. "accepted"; "unfinished" where the solver stopped early; "refused" where a check failed. */
+const char *ost_result_status(const OstResult *result);
+
+/* Collective. Writes the VTKHDF file of a result: the fields asked for by the case. A result with objections is marked:
+ * attribute Status of /VTKHDF (as ost_result_status gives it), field data `refused`, the reasons in
+ * /Orthostat/Objections. */
 OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path);
 
 #endif

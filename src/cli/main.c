@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const OstCommand commands[] = {
@@ -71,21 +72,33 @@ static int take_level(int *argc, char ***argv)
     return level < 0 ? OST_LOG_NORMAL : level;
 }
 
+/* One of several ranks says what needs no MPI to be said: Open MPI tells a process its rank before it starts. */
+static int is_speaker(void)
+{
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
+    return !rank || strcmp(rank, "0") == 0;
+}
+
+/* Version and help come at once, without waiting for MPI; returns -1 if there is more to do. */
+static int answer_at_once(int argc, char **argv)
+{
+    const int asks_version = argc == 2 && is_one_of(argv[1], "--version", "-V");
+    const int asks_help = argc == 2 && is_one_of(argv[1], "--help", "-h");
+    if (argc > 1 && !asks_version && !asks_help)
+        return -1;
+    if (is_speaker() && asks_version)
+        puts("orthostat " ORTHOSTAT_VERSION);
+    else if (is_speaker())
+        print_help(asks_help ? stdout : stderr);
+    return argc > 1 ? 0 : ost_status_exit_code(OST_INVALID_USAGE);
+}
+
 int main(int argc, char **argv)
 {
     const int level = take_level(&argc, &argv);
-    if (argc == 2 && is_one_of(argv[1], "--version", "-V")) {
-        puts("orthostat " ORTHOSTAT_VERSION);
-        return 0;
-    }
-    if (argc == 2 && is_one_of(argv[1], "--help", "-h")) {
-        print_help(stdout);
-        return 0;
-    }
-    if (argc < 2) {
-        print_help(stderr);
-        return ost_status_exit_code(OST_INVALID_USAGE);
-    }
+    const int answered = answer_at_once(argc, argv);
+    if (answered >= 0)
+        return answered;
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS) {
         fputs("orthostat: error: MPI could not be started\n", stderr);
         return 1;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 #include "cli/destination.h"
+#include "core/error.h"
 
 #include "orthostat/scene.h"
 #include "output/summary.h"
@@ -14,11 +15,14 @@ typedef struct Arguments {
     const char *case_path;
     const char *output;
     const char *json;
+    int keep;
 } Arguments;
 
 static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Write the fields here (default: the case's output file)", 0},
     {"json", 'j', "FILE", 0, "Write the summary as JSON here; - for standard output", 0},
+    {"keep", 'k', 0, 0, "Write a result that the solver left unfinished, or that fails a check, too, marked as such",
+     0},
     {0},
 };
 
@@ -31,6 +35,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         return 0;
     case 'j':
         arguments->json = value;
+        return 0;
+    case 'k':
+        arguments->keep = 1;
         return 0;
     case ARGP_KEY_ARG:
         if (arguments->case_path) {
@@ -70,6 +77,32 @@ static OstStatus report(const OstScene *scene, const OstResult *result, const Ar
     return status;
 }
 
+/* Writes fields and summary. No file holds numbers that are not finite, whatever was asked for. */
+static OstStatus write_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
+                              const char *file)
+{
+    OstStatus status = OST_SUCCESS;
+    if (result->checks.finite)
+        status = ost_result_write(result, scene->c, file);
+    return status == OST_SUCCESS ? report(scene, result, arguments, result->checks.finite ? file : NULL) : status;
+}
+
+/* A result that is no answer is written if asked for; the failure it came with stays, unless there is another. */
+static OstStatus keep_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
+                             const char *file, OstStatus failure)
+{
+    OstContext *ctx = scene->ctx;
+    if (!result || !result->reached || result->objections.count == 0)
+        return failure;
+    char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)];
+    snprintf(text, sizeof text, "%s", ost_error_text(ctx));
+    if (!arguments->keep)
+        return OST_RAISE(ctx, failure, "%s; nothing was written (--keep would write it, marked as %s)", text,
+                         ost_result_status(result));
+    const OstStatus written = write_result(scene, result, arguments, file);
+    return written == OST_SUCCESS ? OST_RAISE(ctx, failure, "%s", text) : written;
+}
+
 static OstStatus solve(OstContext *ctx, const Arguments *arguments)
 {
     OstCase *c = NULL;
@@ -88,9 +121,9 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
     if (status == OST_SUCCESS)
         status = ost_scene_solve(scene, &result);
     if (status == OST_SUCCESS)
-        status = ost_result_write(result, c, file);
-    if (status == OST_SUCCESS)
-        status = report(scene, result, arguments, file);
+        status = write_result(scene, result, arguments, file);
+    else if (scene)
+        status = keep_result(scene, result, arguments, file, status);
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
@@ -99,7 +132,7 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
 
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {NULL, NULL, NULL};
+    Arguments arguments = {NULL, NULL, NULL, 0};
     int exit_code = 0;
     if (!ost_cli_parse(ctx, &solve_argp, argc, argv, &arguments, &exit_code))
         return exit_code;

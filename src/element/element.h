@@ -16,6 +16,7 @@ typedef struct OstMeans {
     OstLanes strain[6];
     OstLanes stress[6];
     OstLanes energy; /* strain energy density */
+    OstLanes volume; /* of the tets, positive */
     OstLanes stiff;  /* of m'strain, where C is split; else 0 */
 } OstMeans;
 

@@ -325,6 +325,7 @@ static void tet10_means(const OstLanes *x, const OstElasticity *elasticity, cons
         means->stress[p] /= volume;
     }
     means->energy = means->energy / volume + 0.5 * means->stiff * means->stiff;
+    means->volume = volume;
 }
 
 static void tet10_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *strain)

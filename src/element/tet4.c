@@ -164,21 +164,23 @@ static void tet4_magnitude(const OstLanes *x, const OstElasticity *elasticity, c
         ost_force_of_stress(g[a], stress, magnitude + 3 * a);
 }
 
-static void tet4_strain(const OstLanes *x, const OstLanes *u, OstLanes strain[6])
+static void tet4_strain(const OstLanes *x, const OstLanes *u, OstLanes strain[6], OstLanes *determinant)
 {
     OstLanes gradient[3][3];
     OstLanes factor;
     scaled_gradients(x, gradient, &factor);
-    const OstLanes determinant =
-        (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
+    *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
     scaled_strain(gradient, u, strain);
     for (int p = 0; p < 6; p++)
-        strain[p] /= determinant;
+        strain[p] /= *determinant;
 }
 
 static void tet4_means(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means)
 {
-    tet4_strain(x, u, means->strain);
+    OstLanes determinant;
+    tet4_strain(x, u, means->strain, &determinant);
+    ost_lanes_absolute(&determinant);
+    means->volume = determinant / 6.0;
     ost_lanes_stress(elasticity->c[0], means->strain, means->stress);
     means->energy = means->stiff = (OstLanes){0};
     for (int p = 0; p < 6; p++)
@@ -187,7 +189,8 @@ static void tet4_means(const OstLanes *x, const OstElasticity *elasticity, const
 
 static void tet4_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *strain)
 {
-    tet4_strain(x, u, strain);
+    OstLanes determinant;
+    tet4_strain(x, u, strain, &determinant);
     for (int n = 6; n < 24; n++)
         strain[n] = strain[n - 6];
 }

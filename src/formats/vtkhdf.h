@@ -17,16 +17,24 @@ typedef struct OstOutputArray {
     const void *values;
 } OstOutputArray;
 
+/* Says in the file that its fields are no answer: an attribute Status of /VTKHDF, the reasons as /Orthostat/Objections,
+ * and a field data array `refused` (1), which VTK's reader hands on. */
+typedef struct OstOutputMark {
+    const char *status; /* one word */
+    int reason_count;
+    char *const *reasons;
+} OstOutputMark;
+
 /* Letters of a path to write. Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does
  * not look whether they fit. */
 enum { OST_VTKHDF_LONGEST_PATH = 192 };
 
 /* Collective. Writes a VTKHDF 1.0 UnstructuredGrid, one piece per rank (its owned tets and their nodes), in parallel.
  * The file appears under its name only when complete: it is written beside it and renamed; on failure what was there
- * stays. Labels, region names and boundaries go along, so that the file can be read back as a mesh. Every array's
- * values must be finite. */
+ * stays. `mark` is NULL for an answer. Labels, region names and boundaries go along, so that the file can be read back
+ * as a mesh. Every array's values must be finite. */
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
-                           const OstOutputArray *arrays);
+                           const OstOutputArray *arrays, const OstOutputMark *mark);
 
 /* Collective. The mesh of a VTKHDF file of tets (types 10 and 24 only), each rank reading its share; nodes that pieces
  * share are merged by their labels, or where a file of another program has none, by exactly equal coordinates. */

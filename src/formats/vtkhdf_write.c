@@ -119,24 +119,37 @@ static OstStatus write_own_arrays(OstHdf5 *h5, OstPiece *piece, int count, const
     return OST_SUCCESS;
 }
 
-static OstStatus write_contents(OstHdf5 *h5, OstPiece *piece, int count, const OstOutputArray *arrays)
+static OstStatus write_mark(OstHdf5 *h5, const OstOutputMark *mark)
+{
+    const int32_t refused = 1;
+    const OstRows row = {.count = ost_rank(h5->ctx) == 0, .total = 1, .most = 1};
+    OST_TRY(ost_hdf5_write_text(h5, "/VTKHDF", "Status", mark->status));
+    OST_TRY(ost_hdf5_write_names(h5, "/Orthostat/Objections", mark->reason_count, mark->reasons));
+    return ost_hdf5_write_rows(h5, "/VTKHDF/FieldData/refused", H5T_NATIVE_INT32, 1, &row, &refused);
+}
+
+static OstStatus write_contents(OstHdf5 *h5, OstPiece *piece, int count, const OstOutputArray *arrays,
+                                const OstOutputMark *mark)
 {
     const int version[2] = {1, 0};
     OST_TRY(ost_piece_write_shape(h5, piece));
     OST_TRY(ost_hdf5_write_integers(h5, "/VTKHDF", "Version", 2, version));
     OST_TRY(ost_hdf5_write_text(h5, "/VTKHDF", "Type", "UnstructuredGrid")); /* VTK asks for 16 bytes, no end mark */
+    if (mark)
+        OST_TRY(write_mark(h5, mark));
     OST_TRY(write_own_arrays(h5, piece, count, arrays));
     for (int a = 0; a < count; a++)
         OST_TRY(write_array(h5, piece, &arrays[a]));
     return ost_groups_write(h5, piece->mesh);
 }
 
-static OstStatus write_file(const char *path, OstPiece *piece, int count, const OstOutputArray *arrays)
+static OstStatus write_file(const char *path, OstPiece *piece, int count, const OstOutputArray *arrays,
+                            const OstOutputMark *mark)
 {
     OstHdf5 h5;
     OstStatus status = ost_hdf5_create(piece->mesh->ctx, path, &h5);
     if (status == OST_SUCCESS)
-        status = write_contents(&h5, piece, count, arrays);
+        status = write_contents(&h5, piece, count, arrays, mark);
     const OstStatus closed = ost_hdf5_close(&h5);
     return ost_agree(piece->mesh->ctx, status != OST_SUCCESS ? status : closed);
 }
@@ -167,7 +180,7 @@ static OstStatus name_partial(OstContext *ctx, const char *path, char **partial)
 }
 
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
-                           const OstOutputArray *arrays)
+                           const OstOutputArray *arrays, const OstOutputMark *mark)
 {
     OstPiece piece = {0};
     char *partial = NULL;
@@ -179,7 +192,7 @@ OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mes
         status = name_partial(ctx, path, &partial);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_piece_create(mesh, largest_row, &piece));
-    status = write_file(partial, &piece, array_count, arrays);
+    status = write_file(partial, &piece, array_count, arrays, mark);
     status = finish_file(ctx, partial, path, status);
 done:
     ost_piece_free(&piece);

@@ -34,6 +34,21 @@ static double flat_volume(const double *coordinates, const OstLocal *nodes)
     return longest * longest * fmax(flat_share * longest, DBL_EPSILON * farthest) / 6.0;
 }
 
+/* Lengths below 1e-102 or above 1e102 have cubes that are not held. */
+static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad)
+{
+    if (!(flat >= DBL_MIN && isfinite(flat) && isfinite(volume)))
+        return OST_RAISE(
+            mesh->ctx, OST_INVALID_INPUT,
+            "tet %lld has a volume of %g, beyond what double precision holds; choose another unit of length",
+            (long long)label, volume);
+    return OST_RAISE(
+        mesh->ctx, OST_INVALID_INPUT,
+        "tet %lld is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
+        "rounding of coordinates takes); mend the mesh (%lld of its tets are inverted or flat)",
+        (long long)label, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
+}
+
 /* The mesh's bad tet with the lowest label is named by the rank that owns it. */
 static OstStatus check_volumes(const OstMesh *mesh)
 {
@@ -57,12 +72,8 @@ static OstStatus check_volumes(const OstMesh *mesh)
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && lowest == first) {
         const OstLocal *nodes = mesh->tet_nodes + (size_t)worst * (size_t)mesh->nodes_per_tet;
-        const double volume = ost_tet_volume(mesh->coordinates, nodes);
-        const char *fault = volume < -flat_volume(mesh->coordinates, nodes) ? "inverted" : "flat";
-        status = OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
-                           "tet %lld is %s: its volume is %g, expected a positive one; mend the mesh (%lld of its "
-                           "tets are inverted or flat)",
-                           (long long)lowest, fault, volume, (long long)bad);
+        status = raise_bad_tet(mesh, lowest, ost_tet_volume(mesh->coordinates, nodes),
+                               flat_volume(mesh->coordinates, nodes), bad);
     }
     return ost_agree(mesh->ctx, status);
 }

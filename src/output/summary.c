@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "output/summary.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const char *plural(OstGlobal count)
@@ -44,6 +45,19 @@ static void print_solve(const OstResult *result)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }
 
+static void print_digits(const OstChecks *checks)
+{
+    if (isfinite(checks->digits))
+        printf("  digits           about %.0f of the displacement hold (condition times residual and rounding: %.1e)\n",
+               floor(checks->digits), checks->displacement_error);
+}
+
+static void print_objections(const OstResult *result)
+{
+    for (int i = 0; i < result->objections.count; i++)
+        printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->objections.text[i]);
+}
+
 static void print_checks(const OstChecks *checks)
 {
     printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
@@ -62,8 +76,11 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
     print_checks(&result->checks);
+    print_digits(&result->checks);
     printf("  strain energy    %.10g\n", result->checks.strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
+    print_objections(result);
     if (file)
-        printf("  written to       %s\n", file);
+        printf("  written to       %s%s%s\n", file, result->objections.count > 0 ? ", marked as " : "",
+               result->objections.count > 0 ? ost_result_status(result) : "");
 }

@@ -5,12 +5,19 @@
 
 #include <errno.h>
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* JSON has no word for what is no number. */
+static json_t *number_json(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
 static json_t *vector_json(const double v[3])
 {
-    return json_pack("[f, f, f]", v[0], v[1], v[2]);
+    return json_pack("[o, o, o]", number_json(v[0]), number_json(v[1]), number_json(v[2]));
 }
 
 json_t *ost_solver_reasons_json(const OstSolverPlan *plan)
@@ -50,11 +57,22 @@ static json_t *solver_json(const OstSolveReport *report)
 
 static json_t *checks_json(const OstChecks *checks)
 {
-    return json_pack("{s:f, s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:b}", "relative_residual", checks->relative_residual,
-                     "load", vector_json(checks->load), "reaction", vector_json(checks->reaction), "force_imbalance",
-                     checks->force_imbalance, "moment_imbalance", checks->moment_imbalance, "strain_energy",
-                     checks->strain_energy, "work", checks->work, "energy_imbalance", checks->energy_imbalance,
-                     "finite", checks->finite);
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "relative_residual",
+                     number_json(checks->relative_residual), "rounding", number_json(checks->rounding), "rigid_motion",
+                     number_json(checks->rigid_motion), "displacement_error", number_json(checks->displacement_error),
+                     "digits", number_json(checks->digits), "load", vector_json(checks->load), "reaction",
+                     vector_json(checks->reaction), "force_imbalance", number_json(checks->force_imbalance),
+                     "moment_imbalance", number_json(checks->moment_imbalance), "strain_energy",
+                     number_json(checks->strain_energy), "work", number_json(checks->work), "energy_imbalance",
+                     number_json(checks->energy_imbalance), "finite", checks->finite);
+}
+
+static json_t *objections_json(const OstObjections *objections)
+{
+    json_t *reasons = json_array();
+    for (int i = 0; i < objections->count; i++)
+        json_array_append_new(reasons, json_string(objections->text[i]));
+    return reasons;
 }
 
 static json_t *account_json(const OstLedgerSummary *summary, int account)
@@ -86,13 +104,14 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                         const char *file)
 {
     const OstMesh *mesh = result->mesh;
-    return json_pack("{s:s, s:s?, s:i, s:I, s:I, s:I, s:o, s:o, s:f, s:o, s:o, s:o, s:s?}", "case", scene->c->path,
-                     "title", scene->c->title, "ranks", ost_size(scene->ctx), "vertices",
-                     (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
-                     (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
-                     checks_json(&result->checks), "largest_displacement", result->largest_displacement, "largest_at",
-                     vector_json(result->largest_at), "effects", ost_effects_json(&scene->plan), "ledger",
-                     ledger_json(summary), "output", file);
+    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
+                     scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0, "status",
+                     ost_result_status(result), "reasons", objections_json(&result->objections), "ranks",
+                     ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes, "tets",
+                     (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
+                     solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
+                     number_json(result->largest_displacement), "largest_at", vector_json(result->largest_at),
+                     "effects", ost_effects_json(&scene->plan), "ledger", ledger_json(summary), "output", file);
 }
 
 static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)

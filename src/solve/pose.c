@@ -11,7 +11,9 @@
 #include "solve/coarse_space.h"
 #include "solve/free_body.h"
 #include "solve/freedom.h"
+#include "solve/number_range.h"
 #include "solve/recovery.h"
+#include "solve/rigid_motion.h"
 
 #include <string.h>
 
@@ -91,7 +93,18 @@ static OstStatus assemble(const OstScene *scene, const OstResult *result, Work *
         status = OST_NEW(ctx, &work->v, 3 * rows);
     if (status == OST_SUCCESS)
         status = ost_system_right_hand_side(work->system, scene->field, result->force, work->rhs);
-    return ost_agree(ctx, status);
+    OST_TRY(ost_agree(ctx, status));
+    return ost_number_range_check(work->system, work->rhs, scene->c->path);
+}
+
+/* Before anything is built on it: is rigid motion free of force, tet by tet and in the matrix? */
+static OstStatus test_rigid_motion(const OstScene *scene, OstResult *result, const Work *work)
+{
+    double of_tets, of_rows;
+    OST_TRY(ost_rigid_motion_of_tets(scene->mesh, scene->field, &of_tets));
+    OST_TRY(ost_rigid_motion_of_rows(work->system, work->modes, &of_rows));
+    result->checks.rigid_motion = fmax(of_tets, of_rows);
+    return OST_SUCCESS;
 }
 
 /* What the plan knows, and what the mesh and the machines add to it. */
@@ -126,6 +139,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
         status = find_facts(scene, work, &facts);
     ost_ledger_leave(ctx);
     OST_TRY(status);
+    OST_TRY(test_rigid_motion(scene, result, work));
     ost_solver_plan(options, &facts, &plan);
     if (is_multigrid(plan.first))
         OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
@@ -137,6 +151,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     OST_TRY(ost_solver_create(ctx, work->system->matrix, &geometry, options, &work->solver));
     const OstStatus solved = ost_solver_solve(work->solver, work->rhs, work->v, &result->solve);
     OST_TRY(ost_system_displacement(work->system, work->v, result->displacement));
+    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     return solved;
 }
 
@@ -171,7 +186,7 @@ static OstStatus find_largest_displacement(OstResult *result)
     double at[3] = {0.0};
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const double size = ost_norm3(result->displacement + 3 * (size_t)n);
-        if (size <= largest.value)
+        if (!(size > largest.value)) /* nor what is no number */
             continue;
         largest.value = size;
         memcpy(at, mesh->coordinates + 3 * (size_t)n, sizeof at);
@@ -181,6 +196,32 @@ static OstStatus find_largest_displacement(OstResult *result)
     result->largest_displacement = largest.value;
     memcpy(result->largest_at, at, sizeof at);
     return OST_SUCCESS;
+}
+
+/* Checks what the solver reached, finished or not, and adds the fields asked for. */
+static OstStatus examine(const OstScene *scene, OstResult *result, const OstSupports *supports, double rhs_norm)
+{
+    if (scene->c->free_body)
+        OST_TRY(ost_free_body_centre(scene->mesh, result->displacement));
+    OST_TRY(ost_result_check(result, supports, residual_to_hold(scene, result), rhs_norm));
+    OST_TRY(find_largest_displacement(result));
+    return ost_agree(result->ctx, ost_result_recover(result, scene->c->output_fields));
+}
+
+/* What is held against the result, as a failure. */
+static OstStatus raise_objections(const OstResult *result, OstStatus solved)
+{
+    const OstObjections *objections = &result->objections;
+    char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)] = "";
+    if (objections->count == 0)
+        return OST_SUCCESS;
+    if (solved != OST_SUCCESS)
+        return OST_RAISE(result->ctx, solved, "%s", objections->text[0]);
+    for (int i = 0; i < objections->count; i++) {
+        strcat(text, i > 0 ? "; " : "");
+        strcat(text, objections->text[i]);
+    }
+    return OST_RAISE(result->ctx, OST_CHECK_FAILED, "%s", text);
 }
 
 OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
@@ -199,14 +240,17 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
         OST_TRY_DONE(ost_free_body_check_loads(scene->mesh, result->force, scene->c->path));
     OST_TRY_DONE(assemble(scene, result, &work));
     result->unknowns = 3 * work.system->matrix->global_rows;
-    OST_TRY_DONE(solve_system(scene, result, &work));
+    status = solve_system(scene, result, &work);
+    if (!result->reached)
+        goto done;
+    const OstStatus solved = status;
+    result->unfinished = solved != OST_SUCCESS;
+    if (result->unfinished)
+        ost_object(result, "%s", ost_error_text(ctx));
     OST_TRY_DONE(norm_of_rhs(&work, &rhs_norm));
     release_system(&work);
-    if (scene->c->free_body)
-        OST_TRY_DONE(ost_free_body_centre(scene->mesh, result->displacement));
-    OST_TRY_DONE(ost_result_check(result, work.supports, residual_to_hold(scene, result), rhs_norm));
-    OST_TRY_DONE(find_largest_displacement(result));
-    OST_TRY_DONE(ost_agree(ctx, ost_result_recover(result, scene->c->output_fields)));
+    OST_TRY_DONE(examine(scene, result, work.supports, rhs_norm));
+    status = raise_objections(result, solved);
 done:
     release_system(&work);
     ost_supports_destroy(&work.supports);

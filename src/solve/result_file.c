@@ -83,20 +83,30 @@ static int has_field(const OstResult *result, const OstCase *c, OstOutputFieldBi
     return field != OST_FIELD_AXES || result->field->region_axes != NULL || result->field->tet_axes != NULL;
 }
 
+const char *ost_result_status(const OstResult *result)
+{
+    return result->objections.count == 0 ? "accepted" : result->unfinished ? "unfinished" : "refused";
+}
+
 OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path)
 {
     OstContext *ctx = result->ctx;
     OstOutputArray arrays[OST_FIELD_COUNT];
     Derived derived = {NULL, NULL};
+    const OstObjections *objections = &result->objections;
+    char *reasons[OST_MOST_OBJECTIONS];
+    const OstOutputMark mark = {ost_result_status(result), objections->count, reasons};
     int count = 0;
     ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
     OstStatus status = OST_SUCCESS;
+    for (int i = 0; i < objections->count; i++)
+        reasons[i] = (char *)objections->text[i];
     for (int field = 0; field < OST_FIELD_COUNT && status == OST_SUCCESS; field++)
         if (has_field(result, c, (OstOutputFieldBit)field))
             status = describe_field(result, (OstOutputFieldBit)field, &derived, &arrays[count++]);
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
-        status = ost_vtkhdf_write(ctx, path, result->mesh, count, arrays);
+        status = ost_vtkhdf_write(ctx, path, result->mesh, count, arrays, objections->count > 0 ? &mark : NULL);
     OST_FREE(derived.axes);
     OST_FREE(derived.rank);
     ost_ledger_leave(ctx);

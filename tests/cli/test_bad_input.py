@@ -28,6 +28,19 @@ TET
 0 CORNERS
 """
 
+TWICE = """*VERTICES
+4 3 0 0
+0 0 0 0
+1 1 0 0
+2 0 1 0
+3 0 0 1
+*ELEMENTS
+TET
+2 4 0
+0 0 1 2 3
+1 SECOND
+"""
+
 MSH = """$MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -120,6 +133,19 @@ MISTAKES = [
      ["case.yaml:4: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
       "needs them apart"]),
     ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
+    ("one tet twice", with_mesh("m.veg"), {"m.veg": TWICE.replace("SECOND", "1 2 0 3")}, ["tets 0 and 1", "doubled or overlapping"]),
+    ("a tet with a vertex twice", with_mesh("m.veg"), {"m.veg": veg(tet="0 1 2 2")}, ["tet 0", "same node twice"]),
+    ("infinite coordinate", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 0 0 inf")}, ["m.veg:6:", "finite"]),
+    ("a volume beyond numbers", GOOD.replace("[2, 1, 1]", "[2e150, 1e150, 1e150]"), {}, ["tet 1", "volume of inf", "unit of length"]),
+    ("left-handed axes", GOOD.replace("1000,", "[10, 20, 30],").replace(
+        "0.3}", "0.3, axes: {fixed: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]}}"), {}, ["case.yaml:4:", "left-handed"]),
+    ("axes that are no numbers", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: a.txt}}"),
+     {"a.txt": "nan 0 0 0 1 0 0 0 1\n" * 96}, ["a.txt:1:", "nan"]),
+    ("no stiffness", GOOD.replace("1000,", "0,"), {}, ["case.yaml:4:", "above 0"]),
+    ("stiffness beyond squares", GOOD.replace("1000,", "1e300,"), {}, ["stiffest", "units"]),
+    ("softness beyond squares", GOOD.replace("1000,", "1e-300,"), {}, ["stiffest", "units"]),
+    ("a load whose square vanishes", GOOD.replace("-1]", "-1e-300]"), {}, ["loads", "units"]),
+    ("a load whose square overflows", GOOD.replace("-1]", "-1e300]"), {}, ["loads", "units"]),
     ("quadratic elements", GOOD + "element: {order: 3}\n", {}, ["order"]),
 ]
 

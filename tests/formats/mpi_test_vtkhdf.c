@@ -91,7 +91,7 @@ static void write_tube(OstContext *context, const char *name)
     OstMesh *mesh = distribute_tube(context);
     Fields fields;
     make_fields(mesh, &fields);
-    assert_success(ost_vtkhdf_write(context, name, mesh, 3, fields.arrays));
+    assert_success(ost_vtkhdf_write(context, name, mesh, 3, fields.arrays, NULL));
     free_fields(&fields);
     ost_mesh_destroy(&mesh);
 }
@@ -129,7 +129,7 @@ static void what_was_read_can_be_distributed_and_written_again(void **state)
     OstMesh *mesh = NULL;
     assert_success(ost_vtkhdf_read(ctx, path, &read));
     assert_success(ost_mesh_distribute(ctx, &read, &mesh));
-    assert_success(ost_vtkhdf_write(ctx, path, mesh, 0, NULL));
+    assert_success(ost_vtkhdf_write(ctx, path, mesh, 0, NULL, NULL));
     ost_mesh_destroy(&mesh);
     assert_success(ost_vtkhdf_read(ctx, path, &read));
     expect_tube(ctx, &read);
@@ -264,7 +264,7 @@ static void an_infinite_value_leaves_the_old_file_alone(void **state)
     OstGlobal label = mesh->tet_label[mesh->owned_tets - 1];
     MPI_Bcast(&label, 1, MPI_INT64_T, ost_size(ctx) - 1, MPI_COMM_WORLD);
     snprintf(tet, sizeof tet, "nan at tet %lld (component 3 of 6)", (long long)label);
-    assert_failure(ost_vtkhdf_write(ctx, path, mesh, 3, fields.arrays), OST_CHECK_FAILED, tet);
+    assert_failure(ost_vtkhdf_write(ctx, path, mesh, 3, fields.arrays, NULL), OST_CHECK_FAILED, tet);
     assert_non_null(strstr(ost_error_text(ctx), "'stress'"));
     free_fields(&fields);
     ost_mesh_destroy(&mesh);
@@ -278,7 +278,7 @@ static void a_folder_that_is_not_there_is_named(void **state)
 {
     (void)state;
     OstMesh *mesh = distribute_tube(ctx);
-    assert_failure(ost_vtkhdf_write(ctx, "no-such-folder/tube.vtkhdf", mesh, 0, NULL), OST_FILE_FAILED,
+    assert_failure(ost_vtkhdf_write(ctx, "no-such-folder/tube.vtkhdf", mesh, 0, NULL, NULL), OST_FILE_FAILED,
                    "no-such-folder/tube.vtkhdf.partial: could not be created: No such file or directory");
     ost_mesh_destroy(&mesh);
 }
@@ -292,7 +292,7 @@ static void a_name_that_cannot_be_given_leaves_nothing_behind(void **state)
     if (ost_rank(ctx) == 0)
         mkdir(path, 0777);
     OstMesh *mesh = distribute_tube(ctx);
-    assert_failure(ost_vtkhdf_write(ctx, path, mesh, 0, NULL), OST_FILE_FAILED, "Is a directory");
+    assert_failure(ost_vtkhdf_write(ctx, path, mesh, 0, NULL, NULL), OST_FILE_FAILED, "Is a directory");
     ost_mesh_destroy(&mesh);
     assert_false(file_exists(partial));
     remove_file();
@@ -330,8 +330,10 @@ static void names_that_the_file_uses_itself_are_refused(void **state)
     OstMesh *mesh = distribute_tube(ctx);
     const OstOutputArray vertex = {"vertex", OST_ON_NODES, OST_VALUES_DOUBLE, 3, mesh->coordinates};
     const OstOutputArray slash = {"a/b", OST_ON_NODES, OST_VALUES_DOUBLE, 3, mesh->coordinates};
-    assert_failure(ost_vtkhdf_write(ctx, "names.vtkhdf", mesh, 1, &vertex), OST_INVALID_INPUT, "'vertex' already");
-    assert_failure(ost_vtkhdf_write(ctx, "names.vtkhdf", mesh, 1, &slash), OST_INVALID_INPUT, "'a/b' cannot name");
+    assert_failure(ost_vtkhdf_write(ctx, "names.vtkhdf", mesh, 1, &vertex, NULL), OST_INVALID_INPUT,
+                   "'vertex' already");
+    assert_failure(ost_vtkhdf_write(ctx, "names.vtkhdf", mesh, 1, &slash, NULL), OST_INVALID_INPUT,
+                   "'a/b' cannot name");
     assert_false(file_exists("names.vtkhdf"));
     ost_mesh_destroy(&mesh);
 }

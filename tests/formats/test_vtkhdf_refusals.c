@@ -46,7 +46,7 @@ static void write_tet(int nodes_per_tet)
                     .regions = {1, region_names},
                     .boundary_count = nodes_per_tet == 10 ? 4 : 0,
                     .boundaries = boundaries};
-    assert_success(ost_vtkhdf_write(ctx, path, &mesh, 0, NULL));
+    assert_success(ost_vtkhdf_write(ctx, path, &mesh, 0, NULL, NULL));
 }
 
 static void a_tet_of_ten_nodes_comes_back_with_its_boundaries_and_axes(void **state)

@@ -1,0 +1,49 @@
+"""The digits that a run states hold: two solvers that share no preconditioner agree to them, on 1 rank and on 2."""
+from program import check, read_points, solve
+
+CASE = """
+mesh:
+  tube: {axis: y, length: 4, radii: [0.9, 1.5], divisions: {around: 24, radial: 3, axial: 12}}
+element: {order: ORDER}
+materials:
+  - region: all
+    youngs_modulus: MODULI
+    poissons_ratio: POISSON
+    axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 1, 0], order: [axial, radial, tangential]}}
+constraints:
+  - {on: {boundary: ends}, displacement: [0, 0, 0]}
+loads:
+  - {on: {nearest: [1.5, 2, 0]}, point_force: [1000, 0, 0]}
+accuracy: {relative_residual: 1e-8}
+solver: {recipe: RECIPE}
+"""
+
+HARD = [("1e6, 1e6, 1e6", "0.3", 1), ("1e6, 1e9, 1e6", "0.3", 2), ("1e6, 1e12, 1e6", "0.3", 1), ("1e12, 1e6, 1e6", "0.3", 1),
+        ("1e6, 1e6, 1e12", "0.3", 1), ("1e6, 1e9, 1e6", "0.49", 1)]
+
+
+def relative_difference(points, others):
+    square = sum(((points[k] - others[k]) ** 2).sum() for k in points)
+    return (square / sum((others[k] ** 2).sum() for k in points)) ** 0.5
+
+
+def main():
+    for moduli, poisson, order in HARD:
+        text = CASE.replace("MODULI", f"[{moduli}]").replace("POISSON", poisson).replace("ORDER", str(order))
+        found = []
+        for recipe, ranks in (("direct", 1), ("direct", 2), ("metric", 1), ("metric", 2)):
+            where = f"{recipe} on {ranks} ranks, moduli {moduli}, nu {poisson}, order {order}"
+            finished, report, path = solve(text.replace("RECIPE", recipe), ranks=ranks)
+            check(finished.exit_code == 0, f"{where}: {finished.errors}")
+            checks = report["checks"]
+            check(checks["rigid_motion"] < 1e-13, f"{where}: rigid motion meets a force of {checks['rigid_motion']:.1e}")
+            check(checks["digits"] >= 3.0, f"{where}: {checks['digits']:.1f} digits")
+            check("digits" in finished.output, f"{where}: the summary does not state the digits")
+            found.append((where, checks["displacement_error"], read_points(path)))
+        for where, error, points in found[1:]:
+            difference = relative_difference(points, found[0][2])
+            allowed = error + found[0][1]
+            check(difference <= allowed, f"{where}: differs by {difference:.1e}, where {allowed:.1e} was stated")
+
+
+main()

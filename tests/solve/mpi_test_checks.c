@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "../assembly/body.h"
+
+#include "orthostat/refine.h"
+#include "solve/checks.h"
+
+/* A right answer has nothing held against it; each wrong one has, in words. */
+
+typedef struct Solved {
+    OstMesh *mesh;
+    OstMaterialField *field;
+    OstSupports *supports;
+    OstResult result;
+    double rhs_norm;
+} Solved;
+
+static const double requested = 1e-12;
+
+static OstMesh *make_mesh(int order)
+{
+    OstMesh *linear = make_body(ctx);
+    OstMesh *mesh = NULL;
+    if (order == 1)
+        return linear;
+    assert_success(ost_mesh_raise(linear, NULL, &mesh));
+    ost_mesh_destroy(&linear);
+    return mesh;
+}
+
+/* Held at one end, moved there, and loaded at every other node. */
+static Solved make(int order)
+{
+    static const double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const OstMaterial material = make_material(ctx, 1);
+    Solved solved = {.mesh = make_mesh(order)};
+    OstMesh *mesh = solved.mesh;
+    OstResult *result = &solved.result;
+    const size_t size = 3 * (size_t)mesh->node_count;
+    solved.field = make_field(mesh, &material, AXES_RANDOM_BY_TET);
+    *result = (OstResult){.ctx = ctx, .mesh = mesh, .field = solved.field};
+    result->displacement = numbers(size);
+    result->force = numbers(size);
+    result->reaction = numbers(size);
+    result->solve.condition_estimate = 10.0;
+    assert_success(ost_supports_create(mesh, &solved.supports));
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        for (int i = 0; i < 3; i++) {
+            if (mesh->coordinates[3 * node] < 1e-12)
+                assert_success(ost_supports_hold(solved.supports, node, unit[i], 0.01 * i));
+            else
+                result->force[3 * node + i] = random_of(mesh->node_label[node], 40 + i);
+        }
+    assert_success(ost_supports_complete(solved.supports));
+    OstSystem *system = make_system(mesh, solved.supports, solved.field);
+    const OstLocal length = 3 * system->matrix->rows;
+    double *rhs = numbers((size_t)length), *v = numbers((size_t)length);
+    assert_success(ost_system_right_hand_side(system, solved.field, result->force, rhs));
+    solve(ctx, system->matrix, rhs, v);
+    assert_success(ost_system_displacement(system, v, result->displacement));
+    result->unknowns = 3 * system->matrix->global_rows;
+    solved.rhs_norm = sqrt(dot(ctx, length, rhs, rhs));
+    free(rhs);
+    free(v);
+    ost_system_destroy(&system);
+    return solved;
+}
+
+static void destroy(Solved *solved)
+{
+    free(solved->result.displacement);
+    free(solved->result.force);
+    free(solved->result.reaction);
+    ost_supports_destroy(&solved->supports);
+    ost_field_destroy(&solved->field);
+    ost_mesh_destroy(&solved->mesh);
+}
+
+static void check(Solved *solved)
+{
+    solved->result.objections.count = 0;
+    assert_success(ost_result_check(&solved->result, solved->supports, requested, solved->rhs_norm));
+}
+
+static int objects_to(const Solved *solved, const char *words)
+{
+    for (int i = 0; i < solved->result.objections.count; i++)
+        if (strstr(solved->result.objections.text[i], words))
+            return 1;
+    return 0;
+}
+
+static void an_answer_passes(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        Solved solved = make(order);
+        const OstChecks *checks = &solved.result.checks;
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        assert_true(checks->finite);
+        assert_true(checks->strain_energy > 0.0);
+        assert_close(checks->work / checks->strain_energy, 1.0, 1e-10);
+        assert_close(checks->displacement_error, 10.0 * (checks->relative_residual + checks->rounding), 1e-20);
+        assert_close(checks->digits, -log10(checks->displacement_error), 1e-12);
+        destroy(&solved);
+    }
+}
+
+static void a_slip_in_the_displacement_is_seen(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        Solved solved = make(order);
+        for (OstLocal i = 0; i < 3 * solved.mesh->node_count; i++)
+            solved.result.displacement[i] *= 1.0 + 1e-6;
+        check(&solved);
+        assert_true(objects_to(&solved, "true residual"));
+        destroy(&solved);
+    }
+}
+
+/* Loads that the answer does not belong to: what the right-hand side is said to be does not count. */
+static void a_load_that_nothing_carries_is_seen(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    for (OstLocal node = 0; node < solved.mesh->owned_nodes; node++)
+        solved.result.force[3 * node] += 0.5;
+    check(&solved);
+    assert_true(objects_to(&solved, "true residual"));
+    destroy(&solved);
+}
+
+static void what_is_no_number_is_seen(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    if (ost_rank(ctx) == ost_size(ctx) - 1)
+        solved.result.displacement[4] = NAN;
+    check(&solved);
+    assert_false(solved.result.checks.finite);
+    assert_int_equal(solved.result.objections.count, 1);
+    assert_true(objects_to(&solved, "not finite"));
+    destroy(&solved);
+}
+
+static void a_condition_that_leaves_no_digit_is_seen(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    check(&solved);
+    solved.result.solve.condition_estimate = 0.09 / solved.result.checks.rounding;
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 0);
+    solved.result.solve.condition_estimate = 0.11 / solved.result.checks.rounding;
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 1);
+    assert_true(objects_to(&solved, "less than one digit"));
+    assert_true(solved.result.checks.digits < 1.0);
+    solved.result.solve.condition_estimate = 0.0;
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 0);
+    assert_true(isnan(solved.result.checks.digits));
+    destroy(&solved);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(an_answer_passes),
+    cmocka_unit_test(a_slip_in_the_displacement_is_seen),
+    cmocka_unit_test(a_load_that_nothing_carries_is_seen),
+    cmocka_unit_test(what_is_no_number_is_seen),
+    cmocka_unit_test(a_condition_that_leaves_no_digit_is_seen),
+};
+
+OST_TEST_MAIN(tests)
