@@ -98,7 +98,11 @@ static OstStatus factor(Direct *direct)
     const OstBlockMatrix *matrix = direct->system->matrix;
     OST_TRY(ost_scaling_create(matrix, &direct->scaling));
     OST_TRY(ost_scaling_apply_matrix(direct->scaling, matrix, &direct->scaled));
-    return ost_mumps_create(direct->scaled, &direct->factors);
+    OstExactMatrix *view = NULL;
+    OST_TRY(ost_agree(direct->ctx, ost_exact_matrix_borrow(direct->scaled, &view)));
+    const OstStatus status = ost_mumps_create(view, 0.0, &direct->factors);
+    ost_exact_matrix_destroy(&view);
+    return status;
 }
 
 static OstStatus norm_of(const Direct *direct, const double *v, double *norm)
