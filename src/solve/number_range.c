@@ -12,6 +12,9 @@ static OstStatus check(OstContext *ctx, const char *where, const char *what, dou
 {
     if (size >= least && size <= most)
         return OST_SUCCESS;
+    if (!isfinite(size))
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: the %s are not finite everywhere; look for what is no number",
+                         where, what);
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "%s: the %s are of size %.2g in the case's units; beyond %g to %g, squares leave the range of "
                      "double precision: choose units of length and force that bring them nearer to 1",

@@ -37,8 +37,8 @@ typedef struct OstHardPoint {
 
 typedef enum {
     OST_HARD_SOLVED,
-    OST_HARD_SOLVED_TO_ROUNDING, /* to what double precision holds, after 1e-8 was refused as out of reach */
-    OST_HARD_REFUSED,            /* rightly: it had to be */
+    OST_HARD_SOLVED_TO_ROUNDING, /* to what double precision holds, which is less than 1e-8 */
+    OST_HARD_REFUSED,            /* rightly: it is flawed, or double precision holds not one digit of it */
     OST_HARD_GIVEN_UP,           /* refused, and should have been solved */
     OST_HARD_FALSE,              /* said to be solved, and is not; or solved where it had to be refused */
     OST_HARD_OUTCOMES
@@ -61,11 +61,11 @@ typedef struct OstHardReading {
     char reason[512]; /* of a refusal, or of the verdict */
     OstGlobal unknowns;
     OstRecipe recipe;
-    int iterations;
-    double asked;              /* the relative residual asked for, at last */
-    double residual;           /* and reached: true, relative */
-    double condition_estimate; /* of the preconditioned matrix */
-    double digits;             /* of the displacement, against the direct solution; NAN if there is none */
+    int iterations, steps; /* in all, over so many rungs of the ladder */
+    double residual;       /* true, relative */
+    int rounding_limited;  /* is that what double precision holds, and not 1e-8? */
+    double stated_error;   /* of the displacement, relative, as the program says; NAN if it does not */
+    double digits;         /* of the displacement, against the direct solution; NAN if there is none */
     OstHardTruth truth;
     double seconds; /* of the solve, the direct one left out */
 } OstHardReading;

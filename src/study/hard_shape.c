@@ -104,6 +104,7 @@ OstStatus ost_hard_make_case(OstContext *ctx, const OstHardPoint *point, OstHard
     static char path[] = "hard grid";
     *hard = (OstHardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
     hard->c.solver = ost_solver_default_options();
+    hard->c.solver.accept_attainable = 1;
     hard->c.constraint_count = hard->c.load_count = 1;
     hard->c.constraints = &hard->constraint;
     hard->c.loads = &hard->load;

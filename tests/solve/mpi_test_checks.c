@@ -149,10 +149,13 @@ static void a_condition_that_leaves_no_digit_is_seen(void **state)
     (void)state;
     Solved solved = make(1);
     check(&solved);
-    solved.result.solve.condition_estimate = 0.09 / solved.result.checks.rounding;
+    const OstChecks *checks = &solved.result.checks;
+    const double rounded = fmin(checks->rounding, checks->relative_residual);
+    assert_true(rounded > 0.0);
+    solved.result.solve.condition_estimate = 0.09 / rounded;
     check(&solved);
     assert_int_equal(solved.result.objections.count, 0);
-    solved.result.solve.condition_estimate = 0.11 / solved.result.checks.rounding;
+    solved.result.solve.condition_estimate = 0.11 / rounded;
     check(&solved);
     assert_int_equal(solved.result.objections.count, 1);
     assert_true(objects_to(&solved, "less than one digit"));
