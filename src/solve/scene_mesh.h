@@ -3,11 +3,12 @@
 #define ORTHOSTAT_SOLVE_SCENE_MESH_H
 
 #include "orthostat/case.h"
-#include "orthostat/mesh_file.h"
+#include "solve/scene_materials.h"
 
 /* Collective. This rank's piece of the case's mesh: read or made, given the axes that the case has in tables, cut and
  * distributed, refined as often as the case says, and in tets of the case's order (new nodes of shapes lie on the true
- * surface). `materials` are those that came with the file, or NULL; the caller's to free. */
-OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **materials);
+ * surface). `from_file` are the materials that came with the file, or NULL, and `materials` one for each region, along
+ * whose stiff directions the mesh is not cut if that can be had; both the caller's to free. */
+OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file, OstSceneMaterials *materials);
 
 #endif
