@@ -138,9 +138,9 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
         goto done;
     made->ctx = ctx;
     made->c = c;
-    OST_TRY_DONE(chunk ? ost_scene_distribute(c, chunk, &made->mesh) : ost_scene_mesh(c, &made->mesh, &from_file));
+    OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
+                       : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
     ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
-    OST_TRY_DONE(ost_scene_materials(c, made->mesh, from_file, &materials));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
