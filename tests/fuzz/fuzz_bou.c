@@ -7,9 +7,9 @@
 static void read_vertices(OstContext *ctx, const char *path)
 {
     OstGlobal count = 0;
-    OstGlobal *labels = NULL;
-    ost_vertex_list_read(ctx, path, &count, &labels);
-    OST_FREE(labels);
+    OstLabelRange *ranges = NULL;
+    ost_vertex_list_read(ctx, path, &count, &ranges);
+    OST_FREE(ranges);
 }
 
 const FuzzTarget fuzz_target = {.file = "vertices.bou", .read = read_vertices, .constant = 256 << 10};
