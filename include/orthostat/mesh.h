@@ -23,6 +23,12 @@ typedef struct OstNames {
     char **name;
 } OstNames;
 
+/* Labels of vertices from first to last, both included; at most OST_LARGEST_LABEL. */
+typedef struct OstLabelRange {
+    OstGlobal first, last;
+} OstLabelRange;
+#define OST_LARGEST_LABEL INT64_C(999999999999999999)
+
 /* This rank's share of a mesh before it is partitioned. Numbers are global, from 0. Ranges are contiguous over ranks;
  * a reader of a serial format gives everything to rank 0. Boundaries are the same list, in the same order, on every
  * rank, with this rank's share of the items. */

@@ -226,9 +226,9 @@ static void selections_by_name_and_number_are_read(void **state)
     ost_case_destroy(&c);
     on = read_selection("vertices: [5, 1, 27]");
     assert_int_equal(on->kind, OST_SELECT_VERTICES);
-    assert_int_equal(on->vertex_count, 3);
-    assert_int_equal(on->vertices[0], 1);
-    assert_int_equal(on->vertices[2], 27);
+    assert_int_equal(on->range_count, 3);
+    assert_int_equal(on->ranges[0].first, 1);
+    assert_int_equal(on->ranges[2].last, 27);
     ost_case_destroy(&c);
     on = read_selection("nearest: [1, 2, 3]");
     assert_int_equal(on->kind, OST_SELECT_NEAREST);
