@@ -75,7 +75,32 @@ static void trouble_is_foretold(void **state)
     assert_true(has_reason(&short_of_memory, "out of reach"));
 }
 
+static void near_incompressibility_asks_for_small_aggregates_unless_the_case_says_otherwise(void **state)
+{
+    (void)state;
+    const OstSolverOptions usual = ost_solver_default_options();
+    OstSolverFacts facts = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.45};
+    OstSolverPlan plan = plan_of(OST_RECIPE_METRIC, &facts);
+    assert_close(plan.options.aggregate_nodes, usual.aggregate_nodes, 0.0);
+    facts.poisson = 0.49;
+    plan = plan_of(OST_RECIPE_METRIC, &facts);
+    const double small = plan.options.aggregate_nodes;
+    assert_true(small < 0.5 * usual.aggregate_nodes);
+    assert_int_equal(plan.options.smoother_degree, usual.smoother_degree);
+    assert_true(has_reason(&plan, "0.49 is above 0.45"));
+    facts.poisson = 0.499;
+    plan = plan_of(OST_RECIPE_METRIC, &facts);
+    assert_true(plan.options.aggregate_nodes < small);
+    assert_true(plan.options.smoother_degree > usual.smoother_degree);
+    OstSolverOptions pinned = usual;
+    pinned.given = OST_GIVEN_AGGREGATE | OST_GIVEN_DEGREE;
+    ost_solver_plan(&pinned, &facts, &plan);
+    assert_close(plan.options.aggregate_nodes, usual.aggregate_nodes, 0.0);
+    assert_int_equal(plan.options.smoother_degree, usual.smoother_degree);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(near_incompressibility_asks_for_small_aggregates_unless_the_case_says_otherwise),
     cmocka_unit_test(few_unknowns_are_factored),
     cmocka_unit_test(the_metric_comes_first_and_extreme_ratios_start_on_two_levels),
     cmocka_unit_test(what_the_case_asks_for_is_planned),
