@@ -17,9 +17,10 @@ typedef struct OstSolverOptions {
     OstRecipe recipe;
     double relative_residual; /* of the true, unscaled residual */
     int max_iterations;
-    double aggregate_nodes;        /* METRIC: nodes per aggregate on the finest level */
+    double aggregate_nodes;        /* METRIC: nodes per aggregate on the finest level; fewer, down to 10, where Young's
+                                      moduli differ by more than 1000 (metric_levels.c) */
     double coarse_aggregate_nodes; /* METRIC: on the levels below */
-    double smoother_block_nodes;   /* METRIC: nodes per smoother block */
+    double smoother_block_nodes;   /* METRIC: nodes per smoother block; more, up to 10, there */
     int smoother_degree;           /* Chebyshev degree */
     double smoother_ratio;         /* Chebyshev covers [lambda / ratio, 1.1 lambda] */
     int coarsest_unknowns;         /* stop coarsening below this many */
