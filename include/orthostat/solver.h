@@ -31,9 +31,10 @@ typedef struct OstSolverOptions {
     int accept_attainable;         /* take what double precision holds where that is less */
     int max_iterations;            /* over all rungs */
     int patience;                  /* AUTO leaves a rung that needs more iterations than this, as far as it can tell */
-    double aggregate_nodes;        /* METRIC to TWO_LEVEL: nodes per aggregate on the finest level */
+    double aggregate_nodes;        /* METRIC to TWO_LEVEL: nodes per aggregate on the finest level; fewer, down to 10,
+                                      where Young's moduli differ by more than 1000 (metric_levels.c) */
     double coarse_aggregate_nodes; /* on the levels below */
-    double smoother_block_nodes;   /* nodes per smoother block */
+    double smoother_block_nodes;   /* nodes per smoother block; more, up to 10, there */
     int smoother_degree;           /* Chebyshev degree */
     double smoother_ratio;         /* Chebyshev covers [lambda / ratio, 1.1 lambda] */
     int coarsest_unknowns;         /* stop coarsening below this many */

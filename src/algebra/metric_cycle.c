@@ -13,7 +13,6 @@ static const double inner_tolerance = 0.1, coarsest_tolerance = 0.01;
 
 static void destroy_level(OstCycleLevel *level)
 {
-    ost_smoother_destroy(&level->smoother);
     OST_FREE(level->right_side);
     OST_FREE(level->solution);
     OST_FREE(level->residual);
@@ -66,8 +65,9 @@ static OstStatus set_up_level(OstCycle *cycle, int l, const OstSolverOptions *op
     if (l > 0 && levels->prolongator[l - 1]->columns > columns)
         columns = levels->prolongator[l - 1]->columns;
     OST_TRY(ost_agree(cycle->ctx, allocate_level(cycle->ctx, level, columns, l > 0)));
-    if (l < levels->count - 1 || !cycle->coarsest)
-        OST_TRY(ost_smoother_create(level->matrix, levels->graph[l], options, &level->smoother));
+    if (l == levels->count - 1 && !cycle->coarsest)
+        OST_TRY(ost_smoother_create(level->matrix, levels->graph[l], options, &levels->smoother[l]));
+    level->smoother = levels->smoother[l];
     ost_metric_graph_destroy(&levels->graph[l]);
     return OST_SUCCESS;
 }

@@ -10,7 +10,7 @@
 typedef struct OstCycleLevel {
     const OstLevelMatrix *matrix;
     const OstProlongator *prolongator; /* to this level from the next; NULL on the coarsest */
-    OstSmoother *smoother;             /* NULL where the coarsest level is solved directly */
+    OstSmoother *smoother;             /* of the levels; NULL where the coarsest level is solved directly */
     double *right_side, *solution;
     double *residual;
     /* of the inner conjugate gradients; NULL on the finest level */

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/small.h"
 
+#include <float.h>
 #include <string.h>
 
 void ost_metric_graph_destroy(OstMetricGraph **graph)
@@ -129,6 +130,22 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(graph);
     return status;
+}
+
+OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most)
+{
+    double least = 1.0; /* metric over plain length, squared */
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+            const double *a = graph->position + 3 * (size_t)i;
+            const double *b = graph->position + 3 * (size_t)graph->neighbour[k];
+            const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+            const double plain = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            if (plain > 0.0)
+                least = fmin(least, (double)graph->length[k] * (double)graph->length[k] / plain);
+        }
+    *most = 1.0 / fmax(least, DBL_EPSILON);
+    return OST_MPI(graph->ctx, MPI_Allreduce(MPI_IN_PLACE, most, 1, MPI_DOUBLE, MPI_MAX, ost_comm(graph->ctx)));
 }
 
 static void average_members(const OstMetricGraph *fine, const OstLocal *start, const OstLocal *member,

@@ -32,6 +32,11 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
  * where any of their nodes are. */
 OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregates *aggregates,
                                    OstMetricGraph **coarse);
+/* Collective. How much shorter the metric makes edges, squared: the most over all ranks, and about √(E_max / E_min)
+ * where an edge lies along what is stiff. Where the axes turn within a node's tets their mean metric, and so this, is
+ * less. */
+OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most);
+
 void ost_metric_graph_destroy(OstMetricGraph **graph);
 
 void ost_aggregates_destroy(OstAggregates **aggregates);

@@ -7,26 +7,48 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A level with more than this part of the unknowns of the one above is not worth having. */
 static const double least_gain = 0.8;
 
+/* Up to a ratio of 1000 between Young's moduli (its root below this) the options hold as they are. Beyond, what is
+ * stiff keeps its length to ever more digits: six modes an aggregate follow that only over few nodes, and the smoother
+ * must reach them. Found on the tube of cases/tube with a ratio of 1e6: 25, 108 and over 300 iterations (along, through
+ * the wall, around) by the options as they are, 12, 18 and 53 by 12 nodes an aggregate and 10 a block. */
+static const double unhurt_shortening = 32.0, fewest_nodes = 10.0;
+
 /* The building of levels, from the finest down. */
 typedef struct Coarsening {
     OstContext *ctx;
-    const OstSolverOptions *options;
+    OstSolverOptions options;
     OstMetricLevels *levels;
     const double *modes;  /* near-null space of the coarsest level so far */
     double *coarse_modes; /* the same, once it is ours */
     OstGlobal unknowns;   /* on all ranks */
 } Coarsening;
 
+static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
+{
+    double shortening;
+    OST_TRY(ost_metric_graph_shortening(graph, &shortening));
+    if (shortening <= unhurt_shortening)
+        return OST_SUCCESS;
+    const double factor = shortening / unhurt_shortening;
+    const double aggregate = options->aggregate_nodes, block = options->smoother_block_nodes;
+    if (!(options->given & OST_GIVEN_AGGREGATE))
+        options->aggregate_nodes = fmin(aggregate, fmax(aggregate / factor, fewest_nodes));
+    if (!(options->given & OST_GIVEN_BLOCK))
+        options->smoother_block_nodes = fmax(block, fmin(block * factor, fewest_nodes));
+    return OST_SUCCESS;
+}
+
 /* Aggregates of the coarsest level so far, the graph of the next, and its unknowns over all ranks. */
 static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlobal *unknowns)
 {
     const int l = work->levels->count - 1;
-    const OstSolverOptions *options = work->options;
+    const OstSolverOptions *options = &work->options;
     const OstMetricGraph *graph = work->levels->graph[l];
     /* Two nodes or fewer cannot show the six modes; a coarse node carries all six. */
     const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
@@ -58,7 +80,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     OstStatus status = ost_tentative_create(levels->coarsest, aggregates, work->modes, &tentative);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->matrix[l], &levels->prolongator[l]));
+    OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
+    OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
     const OstGlobal first = tentative->first_coarse;
     take_modes(work, tentative);
     ost_tentative_destroy(&tentative);
@@ -78,7 +101,7 @@ static OstStatus coarsen(Coarsening *work)
     OstMetricLevels *levels = work->levels;
     OstAggregates *aggregates = NULL;
     OstStatus status = OST_SUCCESS;
-    while (work->unknowns > work->options->coarsest_unknowns && levels->count < work->options->most_levels) {
+    while (work->unknowns > work->options.coarsest_unknowns && levels->count < work->options.most_levels) {
         OstGlobal unknowns = 0;
         OST_TRY_DONE(aggregate(work, &aggregates, &unknowns));
         if (unknowns == 0 || (double)unknowns > least_gain * (double)work->unknowns) {
@@ -99,7 +122,7 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *m
                                    const OstSolverOptions *options, OstMetricLevels *levels)
 {
     Coarsening work = {
-        .ctx = matrix->ctx, .options = options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
+        .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
     memset(levels, 0, sizeof *levels);
     levels->count = 1;
     levels->graph[0] = *finest_graph;
@@ -107,6 +130,8 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *m
     OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &levels->coarsest));
     if (status == OST_SUCCESS)
         status = ost_level_matrix_create(levels->coarsest, &levels->matrix[0]);
+    if (status == OST_SUCCESS)
+        status = adapt_options(levels->graph[0], &work.options);
     if (status == OST_SUCCESS)
         status = coarsen(&work);
     if (status != OST_SUCCESS)
@@ -117,6 +142,7 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *m
 void ost_metric_levels_clear(OstMetricLevels *levels)
 {
     for (int l = 0; l < OST_MAX_LEVELS; l++) {
+        ost_smoother_destroy(&levels->smoother[l]);
         ost_level_matrix_destroy(&levels->matrix[l]);
         ost_prolongator_destroy(&levels->prolongator[l]);
         ost_metric_graph_destroy(&levels->graph[l]);

@@ -5,6 +5,7 @@
 #include "algebra/metric_graph.h"
 #include "algebra/metric_matrix.h"
 #include "algebra/metric_prolongator.h"
+#include "algebra/metric_smoother.h"
 
 /* What smoothed aggregation makes of a matrix: matrices of all levels, prolongators between them, graphs of the levels'
  * nodes. Level 0 is the finest. */
@@ -12,6 +13,7 @@ typedef struct OstMetricLevels {
     int count;
     OstLevelMatrix *matrix[OST_MAX_LEVELS];
     OstProlongator *prolongator[OST_MAX_LEVELS]; /* [l]: from level l + 1 to level l */
+    OstSmoother *smoother[OST_MAX_LEVELS];       /* of all but the last level */
     OstMetricGraph *graph[OST_MAX_LEVELS];
     OstExactMatrix *coarsest; /* the last of the matrices in double precision */
 } OstMetricLevels;

@@ -2,7 +2,6 @@
 #include "algebra/metric_smoothing.h"
 
 #include "algebra/metric_index.h"
-#include "algebra/metric_spectrum.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -14,18 +13,20 @@ static const double damping = 4.0 / 3.0;
 typedef struct Smoothing {
     const OstExactMatrix *matrix;
     const OstTentative *tentative;
+    const OstMetricBlocks *blocks;
     OstProlongator *p;
     double omega;
-    double *inverse;  /* rows × size: 1 over the diagonal */
-    OstLocal *column; /* fine columns: the coarse column of each node, or -1 */
-    OstLocal *place;  /* coarse columns: where its block is in the row at hand, if >= the row's start */
-    OstDouble8 *sum;  /* the row's blocks */
+    OstLocal *column;                     /* fine columns: the coarse column of each node, or -1 */
+    OstLocal *block_start, *block_column; /* of each block: the coarse columns that its rows reach, ascending */
+    OstLocal *place;                      /* coarse columns: where each is in the block at hand, or -1 */
+    OstDouble8 *sum;                      /* the block's part of A T, node by node, column by column */
 } Smoothing;
 
 static void destroy_smoothing(Smoothing *s)
 {
-    OST_FREE(s->inverse);
     OST_FREE(s->column);
+    OST_FREE(s->block_start);
+    OST_FREE(s->block_column);
     OST_FREE(s->place);
     OST_FREE(s->sum);
 }
@@ -53,114 +54,129 @@ static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
     return OST_SUCCESS;
 }
 
-/* The columns of each row, ascending. */
-static void list_row(Smoothing *s, OstLocal i)
+/* The columns that a block's rows reach, ascending. B^-1 mixes them: they are the columns of each of its rows. */
+static void list_block(Smoothing *s, OstLocal b)
 {
     const OstExactMatrix *a = s->matrix;
-    OstProlongator *p = s->p;
-    const OstLocal start = p->row_start[i];
+    const OstLocal start = s->block_start[b];
     OstLocal end = start;
-    for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
-        const OstLocal column = s->column[a->column[k]];
-        if (column < 0 || s->place[column] >= start)
-            continue;
-        OstLocal to = end++;
-        s->place[column] = start; /* seen; put right below */
-        for (; to > start && p->column[to - 1] > column; to--)
-            p->column[to] = p->column[to - 1];
-        p->column[to] = column;
+    for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++) {
+        const OstLocal i = s->blocks->node[m];
+        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
+            const OstLocal column = s->column[a->column[k]];
+            if (column < 0 || s->place[column] == b)
+                continue;
+            OstLocal to = end++;
+            s->place[column] = b; /* seen */
+            for (; to > start && s->block_column[to - 1] > column; to--)
+                s->block_column[to] = s->block_column[to - 1];
+            s->block_column[to] = column;
+        }
     }
-    p->row_start[i + 1] = end;
+    s->block_start[b + 1] = end;
+}
+
+static OstStatus list_blocks(Smoothing *s)
+{
+    const OstExactMatrix *a = s->matrix;
+    OST_TRY(OST_NEW(a->ctx, &s->block_start, s->blocks->count + 1));
+    OST_TRY(OST_NEW(a->ctx, &s->block_column, a->row_start[a->rows]));
+    OST_TRY(OST_NEW(a->ctx, &s->place, s->p->columns));
+    for (OstLocal c = 0; c < s->p->columns; c++)
+        s->place[c] = -1;
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        list_block(s, b);
+    for (OstLocal c = 0; c < s->p->columns; c++)
+        s->place[c] = -1;
+    return OST_RESIZE(a->ctx, &s->block_column, s->block_start[s->blocks->count]);
 }
 
 static OstStatus list_rows(Smoothing *s)
 {
-    const OstExactMatrix *a = s->matrix;
+    OstContext *ctx = s->matrix->ctx;
     OstProlongator *p = s->p;
-    OST_TRY(OST_NEW(a->ctx, &p->row_start, a->rows + 1));
-    OST_TRY(OST_NEW(a->ctx, &p->column, a->row_start[a->rows]));
-    OST_TRY(OST_NEW(a->ctx, &s->place, p->columns));
-    for (OstLocal c = 0; c < p->columns; c++)
-        s->place[c] = -1;
-    for (OstLocal i = 0; i < a->rows; i++)
-        list_row(s, i);
-    return OST_RESIZE(a->ctx, &p->column, p->row_start[a->rows]);
+    OST_TRY(OST_NEW(ctx, &p->row_start, p->rows + 1));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++)
+            p->row_start[s->blocks->node[m] + 1] = s->block_start[b + 1] - s->block_start[b];
+    for (OstLocal i = 0; i < p->rows; i++)
+        p->row_start[i + 1] += p->row_start[i];
+    OST_TRY(OST_NEW(ctx, &p->column, p->row_start[p->rows]));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++)
+            memcpy(p->column + p->row_start[s->blocks->node[m]], s->block_column + s->block_start[b],
+                   (size_t)(s->block_start[b + 1] - s->block_start[b]) * sizeof *p->column);
+    return OST_SUCCESS;
 }
 
-/* Row i of T - omega D^-1 A T. */
-OST_UNROLLED void smooth_row(Smoothing *s, int size, OstLocal i)
+/* The block's rows of A T. */
+OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
 {
     const OstExactMatrix *a = s->matrix;
     const size_t square = (size_t)(size * size), block = (size_t)(size * OST_MODES);
-    OstProlongator *p = s->p;
-    const OstLocal start = p->row_start[i], count = p->row_start[i + 1] - start;
-    const float *tentative = s->tentative->block;
-    memset(s->sum, 0, (size_t)count * (size_t)size * sizeof *s->sum);
-    for (OstLocal m = 0; m < count; m++)
-        s->place[p->column[start + m]] = m;
-    for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
-        const OstLocal column = s->column[a->column[k]];
-        if (column >= 0)
-            ost_block_multiply(size, a->value + square * (size_t)k, tentative + block * (size_t)a->column[k],
-                               s->sum + (size_t)size * (size_t)s->place[column]);
-    }
-    for (OstLocal m = 0; m < count; m++) {
-        float *value = p->value + block * (size_t)(start + m);
-        const int own = p->column[start + m] == s->column[i];
-        for (int r = 0; r < size; r++) {
-            const double factor = -s->omega * s->inverse[(size_t)size * (size_t)i + (size_t)r];
-            for (int c = 0; c < OST_MODES; c++) {
-                const double t = own ? (double)tentative[block * (size_t)i + (size_t)(OST_MODES * r + c)] : 0.0;
-                value[OST_MODES * r + c] = (float)(t + factor * s->sum[(size_t)m * (size_t)size + (size_t)r][c]);
-            }
+    const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
+    const OstLocal first = s->blocks->node_start[b], nodes = s->blocks->node_start[b + 1] - first;
+    memset(s->sum, 0, (size_t)nodes * (size_t)size * (size_t)count * sizeof *s->sum);
+    for (OstLocal c = 0; c < count; c++)
+        s->place[s->block_column[start + c]] = c;
+    for (OstLocal m = 0; m < nodes; m++) {
+        const OstLocal i = s->blocks->node[first + m];
+        OstDouble8 *row = s->sum + (size_t)m * (size_t)count * (size_t)size;
+        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
+            const OstLocal column = s->column[a->column[k]];
+            if (column >= 0)
+                ost_block_multiply(size, a->value + square * (size_t)k,
+                                   s->tentative->block + block * (size_t)a->column[k],
+                                   row + (size_t)size * (size_t)s->place[column]);
         }
     }
 }
 
-static OstStatus smooth_rows(Smoothing *s)
+/* The block's rows of T - omega B^-1 A T. */
+OST_UNROLLED void smooth_block(Smoothing *s, int size, OstLocal b)
+{
+    const OstMetricBlocks *blocks = s->blocks;
+    OstProlongator *p = s->p;
+    const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
+    const OstLocal first = blocks->node_start[b], nodes = blocks->node_start[b + 1] - first;
+    const float *inverse = blocks->value + blocks->value_start[b];
+    const int side = size * nodes;
+    sum_block(s, size, b);
+    for (int row = 0; row < side; row++) {
+        const OstLocal i = blocks->node[first + row / size];
+        const int r = row % size;
+        float *value = p->value + (size_t)(size * OST_MODES) * (size_t)p->row_start[i] + (size_t)(OST_MODES * r);
+        const float *tentative = s->tentative->block + (size_t)(size * OST_MODES) * (size_t)i + OST_MODES * r;
+        for (OstLocal c = 0; c < count; c++, value += size * OST_MODES) {
+            OstDouble8 total = {0};
+            for (int k = 0; k < side; k++)
+                total += (double)inverse[row * side + k] *
+                         s->sum[((size_t)(k / size) * (size_t)count + (size_t)c) * (size_t)size + (size_t)(k % size)];
+            const int own = s->block_column[start + c] == s->column[i];
+            for (int mode = 0; mode < OST_MODES; mode++)
+                value[mode] = (float)((own ? (double)tentative[mode] : 0.0) - s->omega * total[mode]);
+        }
+    }
+}
+
+static OstStatus smooth_blocks(Smoothing *s)
 {
     OstContext *ctx = s->matrix->ctx;
     const int size = s->matrix->size;
     OstProlongator *p = s->p;
-    OstLocal longest = 0;
-    for (OstLocal i = 0; i < p->rows; i++)
-        longest = p->row_start[i + 1] - p->row_start[i] > longest ? p->row_start[i + 1] - p->row_start[i] : longest;
-    OST_TRY(OST_NEW(ctx, &s->sum, (size_t)longest * (size_t)size));
-    OST_TRY(OST_NEW(ctx, &p->value, (size_t)p->row_start[p->rows] * (size_t)(size * OST_MODES) + OST_PADDING));
-    for (OstLocal i = 0; i < p->rows; i++)
-        if (size == 3)
-            smooth_row(s, 3, i);
-        else
-            smooth_row(s, 6, i);
-    return OST_SUCCESS;
-}
-
-static OstStatus invert_diagonal(Smoothing *s)
-{
-    const OstExactMatrix *a = s->matrix;
-    const size_t size = (size_t)a->size;
-    OST_TRY(OST_NEW(a->ctx, &s->inverse, size * (size_t)a->rows));
-    for (OstLocal i = 0; i < a->rows; i++) {
-        const double *block = ost_exact_matrix_diagonal(a, i);
-        for (size_t r = 0; r < size; r++)
-            s->inverse[size * (size_t)i + r] = 1.0 / block[(size + 1) * r];
+    size_t largest = 0;
+    for (OstLocal b = 0; b < s->blocks->count; b++) {
+        const size_t blocks = (size_t)(s->block_start[b + 1] - s->block_start[b]) *
+                              (size_t)(s->blocks->node_start[b + 1] - s->blocks->node_start[b]);
+        largest = blocks > largest ? blocks : largest;
     }
-    return OST_SUCCESS;
-}
-
-static void divide_by_diagonal(const void *data, const double *r, double *z)
-{
-    const Smoothing *s = data;
-    const size_t n = (size_t)s->matrix->size * (size_t)s->matrix->rows;
-    for (size_t i = 0; i < n; i++)
-        z[i] = s->inverse[i] * r[i];
-}
-
-static OstStatus choose_damping(Smoothing *s, const OstLevelMatrix *rounded)
-{
-    double largest;
-    OST_TRY(ost_largest_eigenvalue(rounded, divide_by_diagonal, s, &largest));
-    s->omega = damping / largest;
+    OST_TRY(OST_NEW(ctx, &s->sum, largest * (size_t)size));
+    OST_TRY(OST_NEW(ctx, &p->value, (size_t)p->row_start[p->rows] * (size_t)(size * OST_MODES) + OST_PADDING));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        if (size == 3)
+            smooth_block(s, 3, b);
+        else
+            smooth_block(s, 6, b);
     return OST_SUCCESS;
 }
 
@@ -172,15 +188,16 @@ static OstStatus prepare(Smoothing *s, OstGlobal **ghost)
     s->p->height = a->size;
     s->p->rows = a->rows;
     OST_TRY(number_columns(s, ghost));
-    OST_TRY(list_rows(s));
-    return invert_diagonal(s);
+    OST_TRY(list_blocks(s));
+    return list_rows(s);
 }
 
-OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix,
-                               const OstLevelMatrix *rounded, OstProlongator **prolongator)
+OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix, const OstSmoother *smoother,
+                               OstProlongator **prolongator)
 {
     OstContext *ctx = matrix->ctx;
-    Smoothing s = {.matrix = matrix, .tentative = tentative};
+    Smoothing s = {
+        .matrix = matrix, .tentative = tentative, .blocks = smoother->blocks, .omega = damping / smoother->largest};
     OstGlobal *ghost = NULL;
     *prolongator = NULL;
     OstStatus status = ost_agree(ctx, prepare(&s, &ghost));
@@ -188,8 +205,7 @@ OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatr
         goto done;
     OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse,
                                  s.p->columns - tentative->coarse_nodes, ghost, &s.p->halo));
-    OST_TRY_DONE(choose_damping(&s, rounded));
-    OST_TRY_DONE(ost_agree(ctx, smooth_rows(&s)));
+    OST_TRY_DONE(ost_agree(ctx, smooth_blocks(&s)));
 done:
     OST_FREE(ghost);
     destroy_smoothing(&s);

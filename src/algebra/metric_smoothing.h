@@ -4,11 +4,12 @@
 
 #include "algebra/metric_matrix.h"
 #include "algebra/metric_prolongator.h"
+#include "algebra/metric_smoother.h"
 #include "algebra/metric_tentative.h"
 
-/* Collective. One step of damped Jacobi on the tentative prolongator: P = (I - omega D^-1 A) T, D the diagonal of A and
- * omega 4/3 over the largest eigenvalue of D^-1 A (Vaněk, Mandel, Brezina 1996). `rounded` is the same A. */
-OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix,
-                               const OstLevelMatrix *rounded, OstProlongator **prolongator);
+/* Collective. One step of damped block Jacobi on the tentative prolongator: P = (I - omega B^-1 A) T, B the smoother's
+ * blocks and omega 4/3 over the largest eigenvalue of B^-1 A (Vaněk, Mandel, Brezina 1996, with blocks for points). */
+OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix, const OstSmoother *smoother,
+                               OstProlongator **prolongator);
 
 #endif

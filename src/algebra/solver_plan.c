@@ -9,13 +9,6 @@
 /* Factoring so few unknowns takes less than building a hierarchy. */
 static const OstGlobal direct_below = 3000;
 
-/* Measured on the paper's tube at ratio 1e6, 74,340 unknowns: METRIC 111 and 471 iterations (radial, tangential),
- * TWO_LEVEL 25 and 143, at two thirds of the work. At ratio 1000 METRIC is the cheaper by half. */
-static const double extreme_anisotropy = 1e5;
-
-/* About what the coarse matrix of TWO_LEVEL may come from before its factorisation rules. */
-static const OstGlobal two_level_below = 500000;
-
 /* Above: measured at 0.4999, where METRIC took 288 iterations for 14, and no other multigrid rung less time. */
 static const double nearly_incompressible = 0.49;
 /* Beyond these values of Poisson's ratio rigid aggregates are poor at showing fields that keep their volume: what they
@@ -59,12 +52,6 @@ static void plan_rung(const OstSolverFacts *facts, OstSolverPlan *plan)
         plan->first = OST_RECIPE_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: a factorisation is at hand at once", unknowns,
             (long long)direct_below);
-    } else if (facts->anisotropy >= extreme_anisotropy && facts->unknowns < two_level_below) {
-        plan->first = OST_RECIPE_TWO_LEVEL;
-        say(plan,
-            "moduli differ by a factor of %.3g at one place: two levels, as their coarse matrix is still small (%lld "
-            "unknowns in all)",
-            facts->anisotropy, unknowns);
     } else {
         plan->first = OST_RECIPE_METRIC;
         say(plan, "%lld unknowns: multigrid on aggregates that are round in the material's metric", unknowns);
@@ -92,7 +79,7 @@ static void plan_trouble(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT)
         return;
-    if (facts->anisotropy > 1.0 && facts->anisotropy < extreme_anisotropy)
+    if (facts->anisotropy > 1.0)
         say(plan, "moduli differ by a factor of %.3g at one place, which the metric takes care of", facts->anisotropy);
     if (facts->poisson > nearly_incompressible)
         say(plan, "Poisson's ratio of %.6g is close to 1/2: slow, and likely to climb", facts->poisson);

@@ -25,8 +25,10 @@ static const ElasticBlock soft_and_stiff = {
 static void make_coarse(const ElasticBlock *block, double target, const OstAggregates *given, Coarse *c)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 1};
+    const OstSolverOptions options = ost_solver_default_options();
     OstMetricGraph *graph = NULL;
     OstAggregates *aggregates = NULL;
+    OstSmoother *smoother = NULL;
     memset(c, 0, sizeof *c);
     assert_success(elastic_create(ctx, block, &c->problem));
     assert_success(ost_exact_matrix_borrow(c->problem.matrix, &c->exact));
@@ -36,7 +38,9 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
         assert_success(ost_aggregates_create(graph, &shape, &aggregates));
     assert_success(
         ost_tentative_create(c->exact, given ? given : aggregates, c->problem.geometry.modes, &c->tentative));
-    assert_success(ost_tentative_smooth(c->tentative, c->exact, c->level, &c->prolongator));
+    assert_success(ost_smoother_create(c->level, graph, &options, &smoother));
+    assert_success(ost_tentative_smooth(c->tentative, c->exact, smoother, &c->prolongator));
+    ost_smoother_destroy(&smoother);
     assert_success(ost_galerkin_create(c->exact, c->prolongator, c->tentative->first_coarse, &c->coarse));
     ost_aggregates_destroy(&aggregates);
     ost_metric_graph_destroy(&graph);
