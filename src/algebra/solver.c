@@ -17,8 +17,9 @@ struct OstSolver {
     OstSolverPlan plan;
     OstRung *rung; /* NULL if there are no unknowns */
     OstEpetraMap *map;
-    double setup_seconds;
-    int steps; /* rungs that could not be built before the one that stands */
+    double setup_seconds; /* of all rungs so far */
+    double rung_seconds;  /* of the one that stands, until it has been booked to a step */
+    int steps;            /* rungs that could not be built before the one that stands */
     OstSolveStep step[OST_MAX_STEPS];
 };
 
@@ -53,10 +54,11 @@ static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *ste
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = ost_rung_stand(solver->matrix, &solver->geometry, &options, &solver->rung);
         ost_ledger_leave(solver->ctx);
-        solver->setup_seconds += ost_seconds() - start;
+        solver->rung_seconds = ost_seconds() - start;
+        solver->setup_seconds += solver->rung_seconds;
         if (status == OST_SUCCESS || !climbs(solver) || !is_climbable(status))
             return status;
-        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = ost_seconds() - start;
+        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = solver->rung_seconds;
         if (recipe == OST_RECIPE_DIRECT)
             return status;
     }
@@ -150,7 +152,6 @@ done:
 static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const double start = ost_seconds();
-    const double setup = solver->setup_seconds;
     const int before = goal->iterations;
     OST_TRY(ost_rung_work(solver->rung, f, u, goal, report));
     OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung),
@@ -158,7 +159,8 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_watch_whole_factor(&goal->watch) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
-    step->seconds = ost_seconds() - start + setup;
+    step->seconds = ost_seconds() - start + solver->rung_seconds;
+    solver->rung_seconds = 0.0;
     return OST_SUCCESS;
 }
 

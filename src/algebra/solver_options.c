@@ -5,7 +5,7 @@
 
 #include <limits.h>
 
-/* Of strong smoothing: measured on tubes, plates and inclusions (README, "Solver"). */
+/* Of strong smoothing: 334 iterations for 471 on the tube at ratio 1e6 (around), 221 for 288 at nu 0.4999. */
 enum { STRONG_DEGREE = 6 };
 static const double strong_ratio = 60.0;
 

@@ -5,7 +5,7 @@
 
 /* More than the 3000 unknowns below which AUTO is direct, and nothing easy. */
 static const ElasticBlock hard = {
-    .bricks = {9, 9, 14}, .size = {1.0, 1.0, 1.0}, .modulus = 1e3, .poisson = 0.3, .contrast = 100.0, .held = 1};
+    .bricks = {7, 7, 16}, .size = {1.0, 1.0, 1.0}, .modulus = 1e3, .poisson = 0.3, .contrast = 100.0, .held = 1};
 
 static OstSolverOptions options_of(OstRecipe recipe)
 {
@@ -17,7 +17,7 @@ static OstSolverOptions options_of(OstRecipe recipe)
 
 /* Flat bricks, and a metric that takes the far neighbours for the near ones: METRIC at its worst. */
 static const ElasticBlock flat = {
-    .bricks = {9, 9, 14}, .size = {1.0, 1.0, 0.05}, .modulus = 1e3, .poisson = 0.3, .contrast = 100.0, .held = 1};
+    .bricks = {7, 7, 16}, .size = {1.0, 1.0, 0.05}, .modulus = 1e3, .poisson = 0.3, .contrast = 100.0, .held = 1};
 
 static void create_misled(ElasticProblem *problem, double **metric)
 {
@@ -281,7 +281,7 @@ static void units_make_no_difference(void **state)
     const OstBlockMatrix *matrix = problem.matrix;
     const size_t values = 9 * (size_t)matrix->row_start[matrix->rows], n = 3 * (size_t)matrix->rows;
     double *u[2] = {new_vector(&problem), new_vector(&problem)};
-    for (OstRecipe recipe = OST_RECIPE_METRIC; recipe <= OST_RECIPE_DIRECT; recipe++) {
+    for (OstRecipe recipe = OST_RECIPE_METRIC; recipe <= OST_RECIPE_DIRECT; recipe += 3) {
         const OstSolverOptions options = options_of(recipe);
         OstSolveReport report[2];
         assert_success(create_and_solve(&problem, &options, u[0], &report[0]));
@@ -314,7 +314,8 @@ static void a_large_coarse_level_is_factored(void **state)
     ElasticBlock large = hard;
     ElasticProblem problem;
     OstSolveReport report;
-    large.bricks[2] = 40;
+    large.bricks[0] = large.bricks[1] = 9;
+    large.bricks[2] = 32;
     assert_success(elastic_create(ctx, &large, &problem));
     double *u = new_vector(&problem), *expected = reference(&problem);
     OstSolverOptions options = options_of(OST_RECIPE_TWO_LEVEL);
