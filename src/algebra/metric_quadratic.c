@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* What linear tets cannot show is wider than what aggregates cannot: one more degree pays. */
-enum { MORE_SMOOTHING = 1 };
+/* What linear tets cannot show is wider than what aggregates cannot: two more degrees pay. */
+enum { MORE_SMOOTHING = 2 };
 
 void ost_quadratic_level_destroy(OstQuadraticLevel **level)
 {
