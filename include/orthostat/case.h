@@ -31,8 +31,8 @@ typedef struct OstSelection {
     double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
     double
         tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
-    OstGlobal vertex_count; /* VERTICES: labels, ascending, each once; read from vertices_file where that is named */
-    OstGlobal *vertices;
+    OstGlobal range_count;  /* VERTICES: labels, ranges ascending and apart; of vertices_file where that is named */
+    OstLabelRange *ranges;
     char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
 

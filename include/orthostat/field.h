@@ -31,6 +31,10 @@ void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double sti
 /* Local. Axes of a tet (the world's where the body carries none). */
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9]);
 
+/* Local. The metric in which a tet is isotropic, R' diag(√(E_min / E_k)) R, as 11 22 33 12 23 31: short along what is
+ * stiff, Euclid's along the softest direction. */
+void ost_field_metric(const OstMaterialField *field, OstLocal tet, double metric[6]);
+
 /* Local. Does a region's axes come from a formula, so that they can be had at any point? */
 int ost_field_has_formula(const OstMaterialField *field, int32_t region);
 

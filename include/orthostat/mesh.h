@@ -23,6 +23,12 @@ typedef struct OstNames {
     char **name;
 } OstNames;
 
+/* Labels of vertices from first to last, both included; at most OST_LARGEST_LABEL. */
+typedef struct OstLabelRange {
+    OstGlobal first, last;
+} OstLabelRange;
+#define OST_LARGEST_LABEL INT64_C(999999999999999999)
+
 /* This rank's share of a mesh before it is partitioned. Numbers are global, from 0. Ranges are contiguous over ranks;
  * a reader of a serial format gives everything to rank 0. Boundaries are the same list, in the same order, on every
  * rank, with this rank's share of the items. */
@@ -121,10 +127,22 @@ void ost_chunk_destroy(OstMeshChunk **chunk);
  * that each vertex is used by a tet. The chunk is consumed: destroyed, and the pointer nulled. Raises OST_INVALID_INPUT
  * naming the tet or vertex by its label, and OST_LIMIT_EXCEEDED where METIS' 32-bit numbers would overflow. */
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh);
+
+/* Where the borders between ranks had better not run: `fill` (local; called where there is more than one rank) gives
+ * the material's metric in each of the chunk's tets, 6 numbers (11 22 33 12 23 31) whose largest eigenvalue is 1, short
+ * along what is stiff, from the tets' centroids (3 numbers each). */
+typedef struct OstTetMetric {
+    const void *data;
+    OstStatus (*fill)(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric);
+} OstTetMetric;
+
+/* Collective. As ost_mesh_distribute, with edges as heavy as they are stiff (`tets` NULL: all alike). */
+OstStatus ost_mesh_distribute_by(OstContext *ctx, OstMeshChunk **chunk, const OstTetMetric *tets, OstMesh **mesh);
 void ost_mesh_destroy(OstMesh **mesh);
 
-/* Local. Number of a region or boundary by name, or -1; and the names in one line, for messages (cut
+/* Local. Number of a name, region or boundary, or -1; and the names in one line, for messages (cut
  * with dots where they do not fit). */
+int ost_names_find(const OstNames *names, const char *name);
 int ost_mesh_find_region(const OstMesh *mesh, const char *name);
 int ost_mesh_find_boundary(const OstMesh *mesh, const char *name);
 void ost_names_list(const OstNames *names, char *text, size_t size);

@@ -32,6 +32,8 @@ typedef enum {
 
 typedef enum { OST_NORM_DISPLACEMENT, OST_NORM_ENERGY } OstFieldNorm; /* L2 of u; energy norm */
 
+#define OST_RATE_LOCKED 0.0
+
 enum { OST_MOST_VERIFY_STEPS = 4, OST_MOST_VERIFY_LEVELS = 8, OST_MOST_FORMULA_PARAMETERS = 8 };
 
 typedef struct OstVerifyQuantity {
@@ -47,9 +49,10 @@ typedef struct OstVerifyQuantity {
     char *expected_name;                 /* a value of the formula, or NULL */
     double expected;                     /* unless expected_name or FIELD */
     double error[OST_MOST_VERIFY_STEPS]; /* relative, on the finest mesh; one for each step of the ladder */
-    double rate[OST_MOST_VERIFY_STEPS];  /* least order of convergence; NAN (the word exact): the elements hold the
-                                            solution, and the error is within its limit on every mesh; 0 (the word any):
-                                            not judged, and the limit holds for quick runs too */
+    double rate[OST_MOST_VERIFY_STEPS];  /* order of convergence in theory, of which 0.9 must be seen; NAN (the word
+                                            exact): the elements hold the solution, and the error is within its limit on
+                                            every mesh; OST_RATE_LOCKED (the word locks): the program warns of locking,
+                                            and the error falls to within half its limit and its limit */
 } OstVerifyQuantity;
 
 /* One order of elements, on ever finer meshes. */

@@ -23,16 +23,6 @@ void ost_direct_destroy(OstDirect **direct)
     OST_FREE(*direct);
 }
 
-/* The view lives as long as the call. */
-static OstStatus factor(const OstBlockMatrix *matrix, double memory, OstMumps **factors)
-{
-    OstExactMatrix *view = NULL;
-    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &view)));
-    const OstStatus status = ost_mumps_create(view, memory, factors);
-    ost_exact_matrix_destroy(&view);
-    return status;
-}
-
 OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDirect **direct)
 {
     OstDirect *made = NULL;
@@ -41,7 +31,7 @@ OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDire
     OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
     OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
-    OST_TRY_DONE(factor(made->scaled, memory, &made->factors));
+    OST_TRY_DONE(ost_mumps_create_of_rows(made->scaled, memory, &made->factors));
     made->system = (OstCgSystem){.matrix = matrix, .scaled_matrix = made->scaled, .scaling = made->scaling};
 done:
     if (status != OST_SUCCESS)

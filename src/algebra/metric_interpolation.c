@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { PARENTS = 4 };
+
 OstStatus ost_interpolation_create(const OstCoarseSpace *space, const OstScaling *quadratic, const OstScaling *linear,
                                    OstInterpolation **interpolation)
 {
@@ -17,6 +19,7 @@ OstStatus ost_interpolation_create(const OstCoarseSpace *space, const OstScaling
     made->quadratic = quadratic;
     made->linear = linear;
     made->parents = space->parents;
+    made->weights = space->weights;
     made->halo = space->matrix->halo;
     OstStatus status = OST_NEW(ctx, &made->fine, 3 * (size_t)quadratic->rows);
     if (status == OST_SUCCESS)
@@ -44,10 +47,10 @@ OstStatus ost_interpolation_add(OstInterpolation *interpolation, const double *c
     OST_TRY(ost_halo_import(interpolation->halo, 3 * sizeof *coarse, coarse));
     memset(fine, 0, 3 * (size_t)rows * sizeof *fine);
     for (OstLocal row = 0; row < rows; row++)
-        for (int k = 0; k < 2; k++) {
-            const OstLocal parent = interpolation->parents[2 * (size_t)row + (size_t)k];
+        for (size_t k = PARENTS * (size_t)row; k < PARENTS * ((size_t)row + 1); k++) {
+            const OstLocal parent = interpolation->parents[k];
             for (size_t i = 0; i < 3 && parent >= 0; i++)
-                fine[3 * (size_t)row + i] += 0.5 * coarse[3 * (size_t)parent + i];
+                fine[3 * (size_t)row + i] += interpolation->weights[k] * coarse[3 * (size_t)parent + i];
         }
     ost_scaling_to_scaled_mode(interpolation->quadratic, fine, fine);
     for (size_t i = 0; i < 3 * (size_t)rows; i++)
@@ -63,10 +66,10 @@ OstStatus ost_interpolation_restrict(OstInterpolation *interpolation, const doub
     ost_scaling_unscale_residual(interpolation->quadratic, x, fine);
     memset(coarse, 0, 3 * ((size_t)halo->owned + (size_t)halo->ghosts) * sizeof *coarse);
     for (OstLocal row = 0; row < rows; row++)
-        for (int k = 0; k < 2; k++) {
-            const OstLocal parent = interpolation->parents[2 * (size_t)row + (size_t)k];
+        for (size_t k = PARENTS * (size_t)row; k < PARENTS * ((size_t)row + 1); k++) {
+            const OstLocal parent = interpolation->parents[k];
             for (size_t i = 0; i < 3 && parent >= 0; i++)
-                coarse[3 * (size_t)parent + i] += 0.5 * fine[3 * (size_t)row + i];
+                coarse[3 * (size_t)parent + i] += interpolation->weights[k] * fine[3 * (size_t)row + i];
         }
     OST_TRY(ost_halo_add_to_owners(interpolation->halo, 3, coarse));
     ost_scaling_to_scaled(interpolation->linear, coarse, c);

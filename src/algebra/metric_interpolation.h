@@ -5,12 +5,13 @@
 #include "algebra/scaling.h"
 #include "algebra/solver.h"
 
-/* Between linear and quadratic tets of one body, in the scaled unknowns of both: a quadratic node takes the mean of its
- * two parents, P' = S_q^-T P S_l^T. It needs no matrix: two numbers a row say all. */
+/* Between linear and quadratic tets of one body, in the scaled unknowns of both: a quadratic node takes the weighted
+ * sum of its parents, P' = S_q^-T P S_l^T. It needs no matrix: four parents and weights a row say all. */
 typedef struct OstInterpolation {
     OstContext *ctx;
     const OstScaling *quadratic, *linear; /* the caller's, which outlive it */
     const OstLocal *parents;              /* likewise; as in OstCoarseSpace */
+    const double *weights;                /* of the parents */
     OstHalo *halo;                        /* over linear columns; the linear matrix' */
     double *fine;                         /* 3 × quadratic rows, unscaled */
     double *coarse;                       /* 3 × linear columns, unscaled */

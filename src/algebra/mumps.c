@@ -264,6 +264,16 @@ done:
     return status;
 }
 
+OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, double memory, OstMumps **mumps)
+{
+    OstExactMatrix *view = NULL;
+    *mumps = NULL;
+    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &view)));
+    const OstStatus status = ost_mumps_create(view, memory, mumps);
+    ost_exact_matrix_destroy(&view);
+    return status;
+}
+
 OstStatus ost_mumps_solve(OstMumps *mumps, const double *b, double *x)
 {
     OstContext *ctx = mumps->ctx;

@@ -18,11 +18,13 @@ typedef struct OstSolverGeometry {
 } OstSolverGeometry;
 
 /* A coarser discretisation of the same body on the same ranks: linear tets under quadratic ones (p-multigrid). A fine
- * row takes the mean of its two parents, projected on what the fine row's supports leave free. */
+ * row takes the weighted sum of its four parents, projected on what the fine row's supports leave free. */
 typedef struct OstCoarseSpace {
     const OstBlockMatrix *matrix;      /* assembled on its own; unscaled */
     const OstSolverGeometry *geometry; /* of its rows */
-    const OstLocal *parents; /* fine rows × 2: columns of the coarse matrix (owned or ghost), -1: held, so zero */
+    const OstLocal
+        *parents; /* fine rows × 4: columns of the coarse matrix (owned or ghost), -1: none, or held, so zero */
+    const double *weights; /* fine rows × 4 */
 } OstCoarseSpace;
 
 typedef struct OstSolver OstSolver;

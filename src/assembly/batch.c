@@ -11,6 +11,12 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
         }
 }
 
+static inline void place_centroids(const OstLanes *x, OstLanes places[3])
+{
+    for (int i = 0; i < 3; i++)
+        places[i] = 0.25 * (x[i] + x[3 + i] + x[6 + i] + x[9 + i]);
+}
+
 void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh *mesh, const OstMaterialField *field,
                       int count, const OstLocal *tets)
 {
@@ -23,9 +29,12 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
         ost_order_nodes(nodes, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[lane]);
     }
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
-    if (element->points > 0 && field->region_formula)
+    if (field->region_formula && element->points > 0)
         element->places(batch->x, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points, places);
+    else if (field->region_formula)
+        place_centroids(batch->x, places);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points,
+                          field->region_formula ? places : NULL);
 }
 
 void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,

@@ -6,21 +6,13 @@
 #include "core/error.h"
 #include "element/element.h"
 
-#include <string.h>
-
 /* Of one tet's blocks, rounded up to whole lanes. */
 enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_LANES };
 
 static inline void add_block(double *sum, const double *block)
 {
-    for (int i = 0; i < 8; i += OST_LANES) {
-        OstLanes a;
-        OstLanes b;
-        memcpy(&a, sum + i, sizeof a);
-        memcpy(&b, block + i, sizeof b);
-        a += b;
-        memcpy(sum + i, &a, sizeof a);
-    }
+    for (int i = 0; i < 8; i += OST_LANES)
+        *(OstAnyLanes *)(sum + i) += *(const OstAnyLanes *)(block + i);
     sum[8] += block[8];
 }
 
@@ -39,7 +31,7 @@ static int blocks_by_tet(const OstLanes *blocks, int count, double *numbers)
         OstLanes turned[OST_LANES];
         ost_lanes_transpose(blocks + i, turned);
         for (int lane = 0; lane < OST_LANES; lane++)
-            memcpy(numbers + lane * width + i, &turned[lane], sizeof(OstLanes));
+            *(OstAnyLanes *)(numbers + lane * width + i) = turned[lane];
     }
     return width;
 }

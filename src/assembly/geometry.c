@@ -7,24 +7,6 @@
 
 #include <string.h>
 
-/* R' diag(sqrt(E_min / E_k)) R of a tet, added to a node's six numbers. */
-static void tet_metric(const OstMaterialField *field, OstLocal tet, double metric[6])
-{
-    const double *modulus = field->material[field->tet_region[tet]].constants.youngs_modulus;
-    const double least = fmin(modulus[0], fmin(modulus[1], modulus[2]));
-    double axes[9];
-    ost_field_axes(field, tet, axes);
-    memset(metric, 0, 6 * sizeof *metric);
-    for (int k = 0; k < 3; k++) {
-        const double *e = axes + 3 * k;
-        const double weight = sqrt(least / modulus[k]);
-        for (int i = 0; i < 3; i++) {
-            metric[i] += weight * e[i] * e[i];
-            metric[3 + i] += weight * e[i] * e[(i + 1) % 3];
-        }
-    }
-}
-
 /* Mean over each row's tets; every tet of an owned node is here. */
 static OstStatus mean_metric(const OstSystem *system, const OstMaterialField *field, double *metric)
 {
@@ -35,7 +17,7 @@ static OstStatus mean_metric(const OstSystem *system, const OstMaterialField *fi
     memset(metric, 0, 6 * (size_t)rows * sizeof *metric);
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
         double of_tet[6];
-        tet_metric(field, tet, of_tet);
+        ost_field_metric(field, tet, of_tet);
         for (int a = 0; a < mesh->nodes_per_tet; a++) {
             const OstLocal node = mesh->tet_nodes[(size_t)mesh->nodes_per_tet * (size_t)tet + (size_t)a];
             const OstLocal row = system->row_of_node[node];

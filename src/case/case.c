@@ -122,27 +122,14 @@ static OstStatus read_bytes(OstCase *c, const char *bytes, size_t size)
     return status;
 }
 
-/* Ranges of a file may overlap. */
-static void keep_distinct(OstSelection *selection)
-{
-    OstGlobal kept = 0;
-    ost_sort_labels(selection->vertex_count, selection->vertices);
-    for (OstGlobal i = 0; i < selection->vertex_count; i++)
-        if (i == 0 || selection->vertices[i] != selection->vertices[kept - 1])
-            selection->vertices[kept++] = selection->vertices[i];
-    selection->vertex_count = kept;
-}
-
 static OstStatus read_vertex_file(OstCase *c, OstSelection *selection)
 {
     if (!selection->vertices_file)
         return OST_SUCCESS;
     const OstStatus status =
-        ost_vertex_list_read(c->ctx, selection->vertices_file, &selection->vertex_count, &selection->vertices);
-    if (status == OST_SUCCESS) {
-        keep_distinct(selection);
+        ost_vertex_list_read(c->ctx, selection->vertices_file, &selection->range_count, &selection->ranges);
+    if (status == OST_SUCCESS)
         return OST_SUCCESS;
-    }
     char *text = NULL;
     OST_TRY(ost_copy_string(c->ctx, ost_error_text(c->ctx), &text));
     OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, selection->line, text);

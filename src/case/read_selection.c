@@ -3,7 +3,7 @@
 #include "case/yaml_message.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/sort.h"
+#include "mesh/label_ranges.h"
 
 #include <string.h>
 
@@ -111,11 +111,6 @@ static OstStatus read_cylinder(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-void ost_sort_labels(OstGlobal count, OstGlobal *labels)
-{
-    ost_sort_numbers((size_t)count, labels);
-}
-
 static OstStatus read_vertices(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
 {
     int count;
@@ -128,16 +123,18 @@ static OstStatus read_vertices(const OstYaml *yaml, const OstYamlNode *node, Ost
     OST_TRY(ost_yaml_list(yaml, node, "a list of vertex labels, or the name of a .bou file", &count));
     if (count == 0)
         return ost_yaml_raise(yaml, node, "found an empty list, expected vertex labels");
-    OST_TRY(OST_NEW(yaml->ctx, &selection->vertices, count));
-    selection->vertex_count = count;
+    OST_TRY(OST_NEW(yaml->ctx, &selection->ranges, count));
+    OstLabelRange *ranges = selection->ranges;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
-    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(ost_yaml_integer(yaml, item, 0, INT64_C(999999999999999999), &selection->vertices[i]));
-    ost_sort_labels(count, selection->vertices);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item)) {
+        OST_TRY(ost_yaml_integer(yaml, item, 0, OST_LARGEST_LABEL, &ranges[i].first));
+        ranges[i].last = ranges[i].first;
+    }
+    ost_ranges_sort(count, ranges);
     for (int i = 1; i < count; i++)
-        if (selection->vertices[i] == selection->vertices[i - 1])
-            return ost_yaml_raise(yaml, node, "vertex %lld stands twice in the list",
-                                  (long long)selection->vertices[i]);
+        if (ranges[i].first == ranges[i - 1].first)
+            return ost_yaml_raise(yaml, node, "vertex %lld stands twice in the list", (long long)ranges[i].first);
+    selection->range_count = ost_ranges_join(count, ranges);
     return OST_SUCCESS;
 }
 
@@ -180,6 +177,6 @@ void ost_selection_release(OstSelection *selection)
     for (int i = 0; selection->boundaries.name && i < selection->boundaries.count; i++)
         OST_FREE(selection->boundaries.name[i]);
     OST_FREE(selection->boundaries.name);
-    OST_FREE(selection->vertices);
+    OST_FREE(selection->ranges);
     OST_FREE(selection->vertices_file);
 }

@@ -129,7 +129,8 @@ static OstStatus read_norm(const OstYaml *yaml, const OstYamlNode *node, OstVeri
     return OST_SUCCESS;
 }
 
-/* One positive number for each step of the ladder; where words are allowed, `exact` stands for NAN and `any` for 0. */
+/* One positive number for each step of the ladder; where words are allowed, `exact` stands for NAN and `locks` for
+ * OST_RATE_LOCKED. */
 static OstStatus read_limits(const OstYaml *yaml, const OstYamlNode *node, const OstVerify *verify, int words_allowed,
                              double *limits)
 {
@@ -143,8 +144,8 @@ static OstStatus read_limits(const OstYaml *yaml, const OstYamlNode *node, const
         const char *text = "";
         if (words_allowed && ost_yaml_is(yaml, item, OST_YAML_SCALAR))
             OST_TRY(ost_yaml_text(yaml, item, &text));
-        limits[i] = strcmp(text, "exact") == 0 ? NAN : 0.0;
-        if (strcmp(text, "exact") != 0 && strcmp(text, "any") != 0)
+        limits[i] = strcmp(text, "exact") == 0 ? NAN : OST_RATE_LOCKED;
+        if (strcmp(text, "exact") != 0 && strcmp(text, "locks") != 0)
             OST_TRY(ost_yaml_positive(yaml, item, &limits[i]));
     }
     return OST_SUCCESS;

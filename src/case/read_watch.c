@@ -100,6 +100,10 @@ OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase
         return ost_yaml_raise_type(yaml, node,
                                    "a name for each quantity, as in tip: {displacement: {nearest: [1, 0, 0]}}", "");
     const int count = (int)ost_yaml_follow(yaml, node)->value;
+    if (count < 1)
+        return ost_yaml_raise(yaml, node,
+                              "nothing is named to watch; leave 'watch' out, or name a quantity, as in tip: "
+                              "{displacement: {nearest: [1, 0, 0]}}");
     if (count > OST_MOST_WATCHES)
         return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);
     OST_TRY(OST_NEW(yaml->ctx, &c->watches, count));

@@ -30,9 +30,6 @@ OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **pat
 /* Does a file's name end so, in any case of letters? */
 int ost_has_ending(const char *path, const char *ending);
 
-/* Ascending, as a selection keeps its labels. */
-void ost_sort_labels(OstGlobal count, OstGlobal *labels);
-
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
 struct OstVerify;

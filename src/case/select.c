@@ -6,7 +6,7 @@
 #include "core/halo.h"
 #include "core/memory.h"
 #include "core/small.h"
-#include "core/sort.h"
+#include "mesh/label_ranges.h"
 
 #include <float.h>
 #include <stdarg.h>
@@ -171,39 +171,64 @@ static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection
     return OST_SUCCESS;
 }
 
-static OstStatus check_all_found(const OstCase *c, const OstSelection *selection, const unsigned char *found)
+/* Is a label up to `last` missing from a range, of those on all ranks? */
+static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last, int *missing)
 {
-    OstGlobal missing = 0;
-    OstGlobal first = -1;
-    for (OstGlobal i = 0; i < selection->vertex_count; i++) {
-        first = !found[i] && missing == 0 ? i : first;
-        missing += !found[i];
+    OstGlobal found = 0;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        found += mesh->node_label[n] >= first && mesh->node_label[n] <= last;
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
+    *missing = found < last - first + 1;
+    return OST_SUCCESS;
+}
+
+/* The first label of a range that no vertex has, where there is one: by halving. */
+static OstStatus first_missing(const OstMesh *mesh, OstLabelRange range, OstGlobal *label)
+{
+    OstGlobal low = range.first, high = range.last;
+    while (low < high) {
+        const OstGlobal middle = low + (high - low) / 2;
+        int missing = 0;
+        OST_TRY(is_missing(mesh, range.first, middle, &missing));
+        *(missing ? &high : &low) = missing ? middle : middle + 1;
     }
+    *label = low;
+    return OST_SUCCESS;
+}
+
+/* `found`: vertices in each range, on all ranks. */
+static OstStatus check_all_found(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
+                                 const OstGlobal *found)
+{
+    const OstLabelRange *range = selection->ranges;
+    const OstGlobal listed = ost_ranges_total(selection->range_count, range);
+    OstGlobal missing = listed, label = 0, first = 0;
+    for (OstGlobal i = 0; i < selection->range_count; i++)
+        missing -= found[i];
     if (missing == 0)
         return OST_SUCCESS;
+    while (found[first] == range[first].last - range[first].first + 1)
+        first++;
+    OST_TRY(first_missing(mesh, range[first], &label));
     return ost_select_raise(c, selection, "%lld of %lld listed vertices are not in the mesh, the first is %lld",
-                            (long long)missing, (long long)selection->vertex_count,
-                            (long long)selection->vertices[first]);
+                            (long long)missing, (long long)listed, (long long)label);
 }
 
 static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
 {
     OstContext *ctx = mesh->ctx;
-    unsigned char *found = NULL;
-    const size_t count = (size_t)selection->vertex_count;
-    OstStatus status = OST_NEW(ctx, &found, count);
+    OstGlobal *found = NULL;
+    OstStatus status = OST_NEW(ctx, &found, selection->range_count);
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstGlobal *at =
-            bsearch(&mesh->node_label[n], selection->vertices, count, sizeof *at, ost_compare_numbers);
-        if (!at)
-            continue;
-        flags[n] = 1;
-        found[at - selection->vertices] = 1;
+        const OstGlobal range = ost_ranges_find(selection->range_count, selection->ranges, mesh->node_label[n]);
+        flags[n] = range >= 0;
+        if (range >= 0)
+            found[range]++;
     }
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, found, (int)count, MPI_UNSIGNED_CHAR, MPI_MAX, ost_comm(ctx))));
-    status = check_all_found(c, selection, found);
+    OST_TRY_DONE(OST_MPI(
+        ctx, MPI_Allreduce(MPI_IN_PLACE, found, (int)selection->range_count, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    status = check_all_found(c, mesh, selection, found);
 done:
     OST_FREE(found);
     return status;

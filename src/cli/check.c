@@ -7,6 +7,7 @@
 #include "orthostat/scene.h"
 #include "solve/boundary_conditions.h"
 #include "solve/freedom.h"
+#include "study/watch.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -179,6 +180,7 @@ static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(check_conditions(scene, findings));
     OST_TRY_DONE(check_freedom(scene));
+    OST_TRY_DONE(ost_watch_check(scene));
     look_for_oddities(scene, findings);
     if (ost_rank(ctx) == 0 && arguments->json)
         status = print_json(scene, findings);

@@ -4,20 +4,26 @@
 #include "cli/script.h"
 #include "core/error.h"
 
+#include <errno.h>
 #include <stdio.h>
-
-enum { LONGEST_PATH = 4096 };
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 OstStatus ost_cli_draw_cost(const OstCost *cost, const char *picture)
 {
-    char prices[LONGEST_PATH];
+    char folder[] = "/tmp/orthostat-prices-XXXXXX"; /* of its own: beside the picture it might meet a user's file */
+    char prices[sizeof folder + 16];
     if (ost_rank(cost->ctx) != 0)
         return OST_SUCCESS;
-    const int length = snprintf(prices, sizeof prices, "%s.prices.json", picture);
-    if (length < 0 || (size_t)length >= sizeof prices)
-        return OST_RAISE(cost->ctx, OST_FILE_FAILED, "the path of the picture is too long: %.200s...", picture);
-    OST_TRY(ost_cost_write_json(cost, prices));
-    const OstStatus status = ost_cli_run_script(cost->ctx, "plot-cost", prices, picture);
+    if (!mkdtemp(folder))
+        return OST_RAISE(cost->ctx, OST_FILE_FAILED, "cannot make a folder in /tmp for the picture's numbers: %s",
+                         strerror(errno));
+    snprintf(prices, sizeof prices, "%s/prices.json", folder);
+    OstStatus status = ost_cost_write_json(cost, prices);
+    if (status == OST_SUCCESS)
+        status = ost_cli_run_script(cost->ctx, "plot-cost", prices, picture);
     remove(prices);
+    rmdir(folder);
     return status;
 }

@@ -5,6 +5,7 @@
 
 #include "orthostat/scene.h"
 #include "output/summary.h"
+#include "study/watch.h"
 
 #include <argp.h>
 #include <errno.h>
@@ -70,6 +71,7 @@ static OstStatus report(const OstScene *scene, const OstResult *result, const Ar
     const int json_on_stdout = arguments->json && strcmp(arguments->json, "-") == 0;
     if (ost_log_level(scene->ctx) != OST_LOG_QUIET && !json_on_stdout) {
         ost_summary_print(scene, result, file);
+        OST_TRY(ost_watch_print(scene, result));
         ost_ledger_print(scene, &ledger);
     }
     if (arguments->json)
@@ -116,6 +118,8 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
         status = ost_check_destinations(c, file, arguments->json);
     if (status == OST_SUCCESS)
         status = ost_scene_create(c, &scene);
+    if (status == OST_SUCCESS)
+        status = ost_watch_check(scene);
     if (status == OST_SUCCESS && !ost_plan_acts(c, &scene->plan))
         ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
     if (status == OST_SUCCESS)

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { LONGEST_PATH = 4096, MOST_CASES = 256 };
 
@@ -108,6 +109,27 @@ static OstStatus list_folder(OstContext *ctx, const char *folder, CaseList *list
     return status;
 }
 
+/* A name that no case of the folder has is answered with those there are. */
+static OstStatus check_name(OstContext *ctx, const char *folder, const char *name, const char *path)
+{
+    struct dirent **entries = NULL;
+    char names[LONGEST_PATH] = "";
+    size_t length = 0;
+    if (access(path, F_OK) == 0)
+        return OST_SUCCESS;
+    const int count = scandir(folder, &entries, is_case, alphasort);
+    for (int i = 0; i < count; i++) {
+        const int stem = (int)strlen(entries[i]->d_name) - 5;
+        if (length < sizeof names)
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%.*s", i > 0 ? ", " : "", stem,
+                                       entries[i]->d_name);
+        free(entries[i]);
+    }
+    free(entries);
+    return OST_RAISE(ctx, OST_FILE_FAILED, "there is no case '%s' in '%s', which has: %s", name, folder,
+                     count > 0 ? names : "none");
+}
+
 static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
 {
     char folder[LONGEST_PATH];
@@ -124,6 +146,8 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
             snprintf(path, LONGEST_PATH, "%s", name);
         else
             snprintf(path, LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
+        if (!is_path)
+            OST_TRY(check_name(ctx, folder, name, path));
     }
     return OST_SUCCESS;
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/elasticity.h"
 
+#include "core/small.h"
+#include "material/axes_formula.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -99,9 +102,6 @@ static void fill_lanes(const double stiffness[36], OstLanes *c)
                 c[n][lane] = stiffness[6 * p + q];
 }
 
-/* Lanes at any address. (By memcpy the compiler may move them in halves through the stack, and wait for both.) */
-typedef double AnyLanes __attribute__((vector_size(OST_LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
-
 /* Each tet's own axes. */
 static inline void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_LANES], OstLanes axes[9])
 {
@@ -109,8 +109,8 @@ static inline void gather_axes(const OstMaterialField *field, const OstLocal tet
     const double *of_tet[OST_LANES];
     for (int lane = 0; lane < OST_LANES; lane++) {
         of_tet[lane] = field->tet_axes + 9 * (size_t)tets[lane];
-        rows[0][lane] = *(const AnyLanes *)of_tet[lane];
-        rows[1][lane] = *(const AnyLanes *)(of_tet[lane] + 4);
+        rows[0][lane] = *(const OstAnyLanes *)of_tet[lane];
+        rows[1][lane] = *(const OstAnyLanes *)(of_tet[lane] + 4);
     }
     ost_lanes_transpose(rows[0], axes);
     ost_lanes_transpose(rows[1], axes + 4);
@@ -145,12 +145,55 @@ static void split(const double mode[3], const OstLanes axes[9], OstLanes *c, Ost
             c[n++] -= m[p] * m[q];
 }
 
+/* Two directions turn about the axis and one does not: A = t I + (a - t) axis axis' + (r - t) d d' / d'd, with the
+ * stretches r, t and a. */
+static void examine_axes(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
+{
+    elasticity->cylindrical = elasticity->stretched && ost_field_has_formula(field, region) &&
+                              field->region_formula[region]->spec.kind == OST_AXES_CYLINDRICAL;
+    if (!elasticity->cylindrical)
+        return;
+    const OstAxesSpec *spec = &field->region_formula[region]->spec;
+    const double length = ost_norm3(spec->axis);
+    double along[3] = {0.0}; /* radial, tangential, axial */
+    for (int a = 0; a < 3; a++)
+        along[spec->order[a] == OST_RADIAL ? 0 : spec->order[a] == OST_TANGENTIAL ? 1 : 2] = elasticity->stretch[a];
+    for (int i = 0; i < 3; i++) {
+        elasticity->origin[i] = spec->origin[i];
+        elasticity->axis[i] = spec->axis[i] / length;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double *axis = elasticity->axis;
+        elasticity->about_axis[i] = along[1] + (along[2] - along[1]) * axis[i] * axis[i];
+        elasticity->about_axis[3 + i] = (along[2] - along[1]) * axis[i] * axis[(i + 1) % 3];
+    }
+    elasticity->radial = along[0] - along[1];
+}
+
+static inline void cylindrical_metric(OstElasticity *elasticity, const OstLanes place[3])
+{
+    const double *axis = elasticity->axis;
+    OstLanes d[3];
+    for (int i = 0; i < 3; i++)
+        d[i] = place[i] - elasticity->origin[i];
+    const OstLanes height = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
+    for (int i = 0; i < 3; i++)
+        d[i] -= height * axis[i];
+    const OstLanes share = elasticity->radial / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int i = 0; i < 3; i++) {
+        const OstLanes part = share * d[i];
+        elasticity->metric[i] = elasticity->about_axis[i] + part * d[i];
+        elasticity->metric[3 + i] = elasticity->about_axis[3 + i] + part * d[(i + 1) % 3];
+    }
+}
+
 static void examine(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
 {
     if (elasticity->examined == region)
         return;
     elasticity->examined = region;
     elasticity->stretched = is_stretched(field->material[region].stiffness, elasticity->stretch, &elasticity->shear);
+    examine_axes(elasticity, field, region);
 }
 
 /* C at a point where the tets have these axes: A in place of it where that will do. */
@@ -184,6 +227,11 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
                            const OstLocal tets[OST_LANES], int points, const OstLanes *places)
 {
     OstLanes axes[9];
+    if (elasticity->by_metric && elasticity->cylindrical && places) {
+        elasticity->points = 1;
+        cylindrical_metric(elasticity, places);
+        return;
+    }
     elasticity->points = points > 0 && ost_field_has_formula(field, region) ? points : 1;
     for (int point = 0; point < elasticity->points; point++) {
         if (elasticity->points > 1)

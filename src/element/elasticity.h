@@ -32,6 +32,9 @@ typedef struct OstElasticity {
     int stretched;    /* is it of the family? */
     double stretch[3];
     double shear;
+    int cylindrical; /* is A that of axes about a line, so that it comes from the place alone? */
+    double origin[3], axis[3];
+    double about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the place's distance from the axis */
 
     OstLanes c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstLanes m[OST_MAX_POINTS][6]; /* zero in the lanes that are not split; not set if by_mean is 0 */
@@ -47,8 +50,9 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
 }
 
 /* Local. Takes up the tets in the lanes. `places` are `points` points in each of them (3 numbers a point): C is
- * evaluated there if the axes of any of the tets come from a formula. Linear tets pass 0 and NULL: C is that at their
- * centroids, and never split, since their strain is its own mean. */
+ * evaluated there if the axes of any of the tets come from a formula. Linear tets pass 0: C is that at their centroids,
+ * and never split, since their strain is its own mean. Their `places` are NULL or the centroids: where A suffices and
+ * the axes are cylindrical it is had from them, which is cheaper than to read the axes from memory. */
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES],
                            int points, const OstLanes *places);
 

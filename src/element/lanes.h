@@ -7,6 +7,11 @@
 enum { OST_LANES = 4 };
 typedef double OstLanes __attribute__((vector_size(OST_LANES * sizeof(double))));
 
+/* Lanes at any address of doubles. (By memcpy the compiler may move them in halves through the stack, and wait for
+ * both.)
+ */
+typedef double OstAnyLanes __attribute__((vector_size(OST_LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 /* Turns four vectors into the four numbers of each lane, side by side. */
 static inline void ost_lanes_transpose(const OstLanes in[OST_LANES], OstLanes out[OST_LANES])
 {

@@ -1,40 +1,45 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/sort.h"
 #include "formats/line_reader.h"
+#include "mesh/label_ranges.h"
 #include "orthostat/mesh_file.h"
 
 #include <inttypes.h>
 
-/* A range of a few characters can name any number of vertices. */
-static const OstGlobal most_labels = (OstGlobal)1 << 24;
-
-typedef struct LabelList {
+typedef struct RangeList {
     OstGlobal count, capacity;
-    OstGlobal *label;
-} LabelList;
+    OstLabelRange *range;
+} RangeList;
 
-static OstStatus add_range(OstLineReader *reader, LabelList *list, OstGlobal first, OstGlobal last)
+enum { FIRST_CAPACITY = 64 };
+
+/* A full list is joined before it grows, so that a file cannot fill it with the same few numbers again and again. */
+static OstStatus make_room(OstLineReader *reader, RangeList *list)
 {
-    if (first < 0 || last < first)
-        return OST_RAISE_LINE(reader, "vertices %" PRId64 " to %" PRId64 " found, expected numbers from 0 that ascend",
-                              first, last);
-    if (last - first >= most_labels - list->count)
-        return OST_RAISE_LINE(
-            reader, "the list names more than %" PRId64 " vertices; select them by their place instead", most_labels);
-    const OstGlobal count = list->count + last - first + 1;
-    if (count > list->capacity) {
-        const OstGlobal capacity = count > 2 * list->capacity ? count : 2 * list->capacity;
-        OST_TRY(OST_RESIZE(reader->ctx, &list->label, capacity));
-        list->capacity = capacity;
-    }
-    for (OstGlobal label = first; label <= last; label++)
-        list->label[list->count++] = label;
+    if (list->count < list->capacity)
+        return OST_SUCCESS;
+    list->count = ost_ranges_join(list->count, list->range);
+    if (list->capacity > 0 && list->count <= list->capacity / 2)
+        return OST_SUCCESS;
+    const OstGlobal capacity = list->capacity > 0 ? 2 * list->capacity : FIRST_CAPACITY;
+    OST_TRY(OST_RESIZE(reader->ctx, &list->range, capacity));
+    list->capacity = capacity;
     return OST_SUCCESS;
 }
 
-static OstStatus read_line(OstLineReader *reader, LabelList *list)
+static OstStatus add_range(OstLineReader *reader, RangeList *list, OstGlobal first, OstGlobal last)
+{
+    if (first < 0 || last < first || last > OST_LARGEST_LABEL)
+        return OST_RAISE_LINE(
+            reader, "vertices %" PRId64 " to %" PRId64 " found, expected numbers from 0 to %" PRId64 " that ascend",
+            first, last, OST_LARGEST_LABEL);
+    OST_TRY(make_room(reader, list));
+    list->range[list->count++] = (OstLabelRange){first, last};
+    return OST_SUCCESS;
+}
+
+static OstStatus read_line(OstLineReader *reader, RangeList *list)
 {
     while (!ost_lines_ended(reader)) {
         OstGlobal first = 0;
@@ -47,17 +52,7 @@ static OstStatus read_line(OstLineReader *reader, LabelList *list)
     return OST_SUCCESS;
 }
 
-static void sort_labels(LabelList *list)
-{
-    OstGlobal kept = 0;
-    ost_sort_numbers((size_t)list->count, list->label);
-    for (OstGlobal i = 0; i < list->count; i++)
-        if (kept == 0 || list->label[i] != list->label[kept - 1])
-            list->label[kept++] = list->label[i];
-    list->count = kept;
-}
-
-static OstStatus read_list(OstContext *ctx, const char *path, LabelList *list)
+static OstStatus read_list(OstContext *ctx, const char *path, RangeList *list)
 {
     OstLineReader reader;
     OstStatus status = OST_SUCCESS;
@@ -71,28 +66,28 @@ static OstStatus read_list(OstContext *ctx, const char *path, LabelList *list)
     if (list->count == 0)
         status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: names no vertex", path);
     else
-        sort_labels(list);
+        list->count = ost_ranges_join(list->count, list->range);
 done:
     ost_lines_close(&reader);
     return status;
 }
 
-OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstGlobal **labels)
+OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstLabelRange **ranges)
 {
-    LabelList list = {0};
+    RangeList list = {0};
     OstStatus status = OST_SUCCESS;
     if (ost_rank(ctx) == 0)
         status = read_list(ctx, path, &list);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&list.count, 1, MPI_INT64_T, 0, ost_comm(ctx))));
-    OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &list.label, list.count)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(list.label, (int)list.count, MPI_INT64_T, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &list.range, list.count)));
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(list.range, 2 * (int)list.count, MPI_INT64_T, 0, ost_comm(ctx))));
 done:
     if (status != OST_SUCCESS) {
-        OST_FREE(list.label);
+        OST_FREE(list.range);
         list.count = 0;
     }
     *count = list.count;
-    *labels = list.label;
+    *ranges = list.range;
     return status;
 }

@@ -182,14 +182,6 @@ OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text)
     return OST_SUCCESS;
 }
 
-int ost_names_find(const OstNames *names, const char *text)
-{
-    for (int i = 0; i < names->count; i++)
-        if (strcmp(names->name[i], text) == 0)
-            return i;
-    return -1;
-}
-
 OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text)
 {
     char numbered[64];

@@ -16,7 +16,4 @@ OstStatus ost_file_materials_share(OstContext *ctx, OstFileMaterials **materials
 OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text);
 OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text);
 
-/* Local. Number of a name in a list, or -1. */
-int ost_names_find(const OstNames *names, const char *text);
-
 #endif

@@ -128,9 +128,10 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
     Table table = {.width = width, .lines = lines};
     OstStatus status = check_labels(ctx, path, lines, count, labels);
     if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
-        status = OST_NEW(ctx, &table.wanted, PIECE_ROWS);
+        const size_t room = ost_size(ctx) > 1 ? PIECE_ROWS : 0; /* nobody asks a rank that is alone */
+        status = OST_NEW(ctx, &table.wanted, room);
         if (status == OST_SUCCESS)
-            status = OST_NEW(ctx, &table.piece, (size_t)PIECE_ROWS * (size_t)width);
+            status = OST_NEW(ctx, &table.piece, room * (size_t)width);
         if (status == OST_SUCCESS)
             status = read_table(ctx, path, &table);
     }

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "formats/vtkhdf_groups.h"
 #include "formats/vtkhdf_points.h"
+#include "formats/vtkhdf_rehearsal.h"
 
 #include <string.h>
 
@@ -281,11 +282,21 @@ static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader
     return read_points(reader);
 }
 
+/* Local. What this rank reads before and between what ranks do together; leaves its memory to the end of the process.
+ */
+static OstStatus read_alone(OstContext *ctx, const char *path)
+{
+    Reader reader = {.h5.file = H5I_INVALID_HID};
+    OST_TRY(open_and_look(ctx, path, &reader));
+    return read_tets(&reader);
+}
+
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     Reader reader = {.h5.file = H5I_INVALID_HID};
-    OstStatus status = OST_SUCCESS;
+    OstStatus status = ost_rank(ctx) == 0 ? ost_hdf5_rehearse(ctx, path, read_alone) : OST_SUCCESS;
     *chunk = NULL;
+    OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, open_and_look(ctx, path, &reader)));
     OST_TRY_DONE(agree_on_kind(&reader));
     OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));

@@ -31,6 +31,23 @@ void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
     memcpy(axes, source, sizeof world);
 }
 
+void ost_field_metric(const OstMaterialField *field, OstLocal tet, double metric[6])
+{
+    const double *modulus = field->material[field->tet_region[tet]].constants.youngs_modulus;
+    const double least = fmin(modulus[0], fmin(modulus[1], modulus[2]));
+    double axes[9];
+    ost_field_axes(field, tet, axes);
+    memset(metric, 0, 6 * sizeof *metric);
+    for (int k = 0; k < 3; k++) {
+        const double *e = axes + 3 * k;
+        const double weight = sqrt(least / modulus[k]);
+        for (int i = 0; i < 3; i++) {
+            metric[i] += weight * e[i] * e[i];
+            metric[3 + i] += weight * e[i] * e[(i + 1) % 3];
+        }
+    }
+}
+
 int ost_field_has_formula(const OstMaterialField *field, int32_t region)
 {
     return field->region_formula && field->region_formula[region];

@@ -5,9 +5,11 @@
 #include "core/memory.h"
 
 enum {
-    CLUSTERS_PER_RANK = 64, /* fine enough to balance parts to a few percent */
-    SMALLEST_CLUSTER = 4,   /* below this a cluster is not worth its name: nodes stay by themselves */
-    METIS_SEED = 20140721   /* any fixed number: the same mesh is always cut the same way */
+    CLUSTERS_PER_RANK = 64,  /* fine enough to balance parts to a few percent */
+    SMALLEST_CLUSTER = 4,    /* below this a cluster is not worth its name: nodes stay by themselves */
+    PART_IMBALANCE = 30,     /* per mille over the mean: METIS' own choice */
+    CLUSTER_IMBALANCE = 300, /* clusters are put together anyway, and are shaped better by what holds their nodes */
+    METIS_SEED = 20140721    /* any fixed number: the same mesh is always cut the same way */
 };
 
 void ost_clusters_clear(Clusters *clusters)
@@ -25,7 +27,7 @@ static int cut_without_metis(const Graph *graph, idx_t parts, idx_t *part)
     return 1;
 }
 
-OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
+static OstStatus metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part)
 {
     if (cut_without_metis(graph, parts, part))
         return OST_SUCCESS;
@@ -33,6 +35,7 @@ OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t 
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = METIS_SEED;
     options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_UFACTOR] = imbalance;
     idx_t rows = graph->rows;
     idx_t constraints = 1;
     idx_t cut = 0;
@@ -47,6 +50,11 @@ OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t 
     return OST_SUCCESS;
 }
 
+OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
+{
+    return metis_cut(ctx, graph, parts, PART_IMBALANCE, part);
+}
+
 /* How many clusters this rank makes of its nodes. */
 static idx_t cluster_target(const Slab *slab)
 {
@@ -57,20 +65,28 @@ static idx_t cluster_target(const Slab *slab)
     return wanted * SMALLEST_CLUSTER >= n ? n : (idx_t)wanted + 1;
 }
 
-/* The graph of this rank's nodes among themselves. */
+/* The graph of this rank's nodes among themselves, with weights that METIS can sum. */
 static OstStatus drop_ghosts(OstContext *ctx, const Graph *nodes, Graph *inner)
 {
     const OstLocal n = nodes->rows;
     inner->rows = n;
     OST_TRY(OST_NEW(ctx, &inner->start, (size_t)n + 1));
     OST_TRY(OST_NEW(ctx, &inner->neighbour, nodes->start[n]));
+    if (nodes->edge_weight)
+        OST_TRY(OST_NEW(ctx, &inner->edge_weight, nodes->start[n]));
     idx_t entries = 0;
     for (OstLocal i = 0; i < n; i++) {
-        for (idx_t p = nodes->start[i]; p < nodes->start[i + 1]; p++)
-            if (nodes->neighbour[p] < n)
-                inner->neighbour[entries++] = nodes->neighbour[p];
+        for (idx_t p = nodes->start[i]; p < nodes->start[i + 1]; p++) {
+            if (nodes->neighbour[p] >= n)
+                continue;
+            if (inner->edge_weight)
+                inner->edge_weight[entries] = nodes->edge_weight[p];
+            inner->neighbour[entries++] = nodes->neighbour[p];
+        }
         inner->start[i + 1] = entries;
     }
+    if (inner->edge_weight)
+        ost_graph_shrink_weights(entries, inner->edge_weight);
     return OST_SUCCESS;
 }
 
@@ -85,7 +101,7 @@ static OstStatus cut_slab(const Slab *slab, const Graph *nodes, Clusters *cluste
         OST_TRY_DONE(drop_ghosts(slab->ctx, nodes, &inner));
     else
         inner.rows = nodes->rows;
-    OST_TRY_DONE(ost_metis_cut(slab->ctx, &inner, target, clusters->of_node));
+    OST_TRY_DONE(metis_cut(slab->ctx, &inner, target, CLUSTER_IMBALANCE, clusters->of_node));
 done:
     ost_graph_clear(&inner);
     return status;
@@ -134,7 +150,7 @@ static void add_edges(const Graph *nodes, const idx_t *of_node, OstLocal node, i
             position[other] = *end;
             graph->neighbour[(*end)++] = other;
         }
-        graph->edge_weight[position[other]]++;
+        graph->edge_weight[position[other]] += nodes->edge_weight ? nodes->edge_weight[p] : 1;
     }
 }
 

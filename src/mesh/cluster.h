@@ -16,8 +16,8 @@ typedef struct Clusters {
 OstStatus ost_clusters_create(const Slab *slab, const Graph *nodes, Clusters *clusters);
 void ost_clusters_clear(Clusters *clusters);
 
-/* Local. The rows of this rank's clusters: neighbours are numbers over all ranks; an edge weighs the edges between its
- * clusters' nodes, a row the nodes in it. */
+/* Local. The rows of this rank's clusters: neighbours are numbers over all ranks; an edge weighs what the edges
+ * between its clusters' nodes do, a row the nodes in it. */
 OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters *clusters, Graph *graph);
 
 /* Local. METIS_PartGraphKway with fixed seed, also for the cases that it does not take. */

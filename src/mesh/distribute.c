@@ -62,39 +62,49 @@ static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
     return ost_halo_create(ctx, mesh->owned_nodes, 0, 0, NULL, &mesh->halo);
 }
 
-static OstStatus cut_and_move(OstMeshChunk *chunk, OstMesh *mesh)
+static OstStatus cut_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
     Slab *slab = NULL;
+    NodeMetric *metric = NULL;
     int *part = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
+    if (tets)
+        OST_TRY_DONE(ost_cut_metric_create(chunk, slab, tets, &metric));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
-    OST_TRY_DONE(ost_partition(slab, part));
+    OST_TRY_DONE(ost_partition(slab, metric, part));
+    OST_FREE(metric);
     take_names(chunk, mesh);
     OST_TRY_DONE(ost_mesh_redistribute(chunk, slab, part, mesh));
 done:
+    OST_FREE(metric);
     OST_FREE(part);
     ost_slab_destroy(&slab);
     return status;
 }
 
-static OstStatus distribute(OstMeshChunk *chunk, OstMesh **mesh)
+static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh **mesh)
 {
     OstContext *ctx = chunk->ctx;
     OST_TRY(ost_check_chunk(chunk));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, mesh, 1)));
     (*mesh)->ctx = ctx;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
-    OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : cut_and_move(chunk, *mesh));
+    OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : cut_and_move(chunk, tets, *mesh));
     return ost_check_mesh(*mesh);
 }
 
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh)
 {
+    return ost_mesh_distribute_by(ctx, chunk, NULL, mesh);
+}
+
+OstStatus ost_mesh_distribute_by(OstContext *ctx, OstMeshChunk **chunk, const OstTetMetric *tets, OstMesh **mesh)
+{
     *mesh = NULL;
     ost_ledger_enter(ctx, OST_LEDGER_PARTITION);
-    const OstStatus status = distribute(*chunk, mesh);
+    const OstStatus status = distribute(*chunk, tets, mesh);
     ost_chunk_destroy(chunk);
     if (status != OST_SUCCESS)
         ost_mesh_destroy(mesh);

@@ -23,12 +23,17 @@ void ost_boundaries_destroy(int count, OstBoundary **boundaries)
     OST_FREE(*boundaries);
 }
 
+int ost_names_find(const OstNames *names, const char *name)
+{
+    for (int i = 0; i < names->count; i++)
+        if (strcmp(names->name[i], name) == 0)
+            return i;
+    return -1;
+}
+
 int ost_mesh_find_region(const OstMesh *mesh, const char *name)
 {
-    for (int r = 0; r < mesh->regions.count; r++)
-        if (strcmp(mesh->regions.name[r], name) == 0)
-            return r;
-    return -1;
+    return ost_names_find(&mesh->regions, name);
 }
 
 int ost_mesh_find_boundary(const OstMesh *mesh, const char *name)

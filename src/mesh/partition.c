@@ -177,7 +177,7 @@ done:
     return status;
 }
 
-OstStatus ost_partition(const Slab *slab, int *part)
+OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part)
 {
     OstContext *ctx = slab->ctx;
     Graph nodes = {0};
@@ -185,7 +185,10 @@ OstStatus ost_partition(const Slab *slab, int *part)
     OstStatus status = OST_SUCCESS;
     if (slab->global_nodes < ost_size(ctx))
         return raise_too_small(slab);
-    OST_TRY_DONE(ost_agree(ctx, ost_graph_of_nodes(slab, &nodes)));
+    status = ost_graph_of_nodes(slab, &nodes);
+    if (status == OST_SUCCESS && metric)
+        status = ost_cut_metric_weigh(slab, metric, &nodes);
+    OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_clusters_create(slab, &nodes, &clusters));
     OST_TRY_DONE(cut_clusters(slab, &nodes, &clusters, part));
 done:

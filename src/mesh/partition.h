@@ -2,12 +2,12 @@
 #ifndef ORTHOSTAT_MESH_PARTITION_H
 #define ORTHOSTAT_MESH_PARTITION_H
 
-#include "mesh/slab.h"
+#include "mesh/cut_metric.h"
 
 /* Collective. Parts of the slab's nodes and ghosts (node_count + ghost_count numbers of the caller), one part per rank,
  * none of them empty. Where one rank holds all nodes, METIS cuts their graph there. Where they are spread, METIS first
  * cuts each rank's nodes into small clusters, and then the graph of all clusters on rank 0: no rank sees the whole
- * mesh. */
-OstStatus ost_partition(const Slab *slab, int *part);
+ * mesh. `metric` (NULL: none) is of the slab's nodes and ghosts, and keeps what is stiff together. */
+OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part);
 
 #endif

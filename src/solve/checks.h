@@ -16,7 +16,8 @@
  * from the Lanczos coefficients of the solve, which see the part of the spectrum that f excites, and approach it from
  * below; the residual is that of the checks, with what rounding may add to it: the stiffness, and u itself, are held to
  * 1e-16 only, and the residual that this hides is about DBL_EPSILON |K| |u|. It is measured in the 2-norm, which stands
- * in for that of M^-1: an estimate, then, not a bound. -log10 of it is the digits. Fewer digits than the requested
+ * in for that of M^-1: an estimate, then, not a bound. (With MUMPS for M, k is about 1 and says no more than that the
+ * factors are good; PLAIN has no k, and states no digits.) -log10 of it is the digits. Fewer digits than the requested
  * residual leaves are the user's choice; less than one digit left by rounding alone is objected to.
  *
  * The sums are not compensated, because the limit is u's own: a displacement rounded to double leaves a residual of

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/refine.h"
+#include "solve/coarse_parents.h"
 
 void ost_linear_space_destroy(OstLinearSpace **space)
 {
@@ -16,6 +17,7 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     OST_FREE((*space)->metric);
     OST_FREE((*space)->modes);
     OST_FREE((*space)->parents);
+    OST_FREE((*space)->weights);
     OST_FREE(*space);
 }
 
@@ -48,24 +50,6 @@ static OstStatus make_geometry(OstLinearSpace *space, const OstMaterialField *fi
     return OST_SUCCESS;
 }
 
-/* From nodes of the quadratic mesh to rows of the quadratic system, from vertices to columns of the linear one. */
-static OstStatus find_parents(OstLinearSpace *space, const OstSystem *quadratic)
-{
-    OstContext *ctx = quadratic->ctx;
-    OstLocal *vertices = NULL;
-    OST_TRY(OST_NEW(ctx, &vertices, 2 * (size_t)quadratic->mesh->node_count));
-    OstStatus status = ost_mesh_parents(quadratic->mesh, space->mesh, vertices);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &space->parents, 2 * (size_t)quadratic->matrix->rows);
-    for (OstLocal row = 0; status == OST_SUCCESS && row < quadratic->matrix->rows; row++)
-        for (size_t k = 0; k < 2; k++) {
-            const OstLocal vertex = vertices[2 * (size_t)quadratic->node_of_row[row] + k];
-            space->parents[2 * (size_t)row + k] = space->system->row_of_node[vertex];
-        }
-    OST_FREE(vertices);
-    return status;
-}
-
 static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, const OstMaterialField *field,
                           int with_metric)
 {
@@ -74,8 +58,8 @@ static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, con
     ost_system_release_scatter(space->system);
     OST_TRY(ost_agree(quadratic->ctx, status));
     OST_TRY(make_geometry(space, field, with_metric));
-    OST_TRY(ost_agree(quadratic->ctx, find_parents(space, quadratic)));
-    space->space = (OstCoarseSpace){space->system->matrix, &space->geometry, space->parents};
+    OST_TRY(ost_agree(quadratic->ctx, ost_coarse_parents(quadratic, space->system, &space->parents, &space->weights)));
+    space->space = (OstCoarseSpace){space->system->matrix, &space->geometry, space->parents, space->weights};
     return OST_SUCCESS;
 }
 

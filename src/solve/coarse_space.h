@@ -13,6 +13,7 @@ typedef struct OstLinearSpace {
     OstSystem *system;
     double *coordinates, *metric, *modes;
     OstLocal *parents;
+    double *weights;
     OstSolverGeometry geometry;
     OstCoarseSpace space; /* what the solver takes; points into this struct */
 } OstLinearSpace;

@@ -18,21 +18,21 @@ static void take_from_file(const OstFileMaterials *from_file, OstSceneMaterials 
     }
 }
 
-static OstStatus take_from_case(const OstCase *c, const OstMesh *mesh, const OstCaseMaterial *stated,
+static OstStatus take_from_case(const OstCase *c, const OstNames *regions, const OstCaseMaterial *stated,
                                 OstSceneMaterials *materials, unsigned char *known)
 {
     OstMaterial material;
     OST_TRY(ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material));
     const int all = strcmp(stated->region, "all") == 0;
-    const int only = all ? -1 : ost_mesh_find_region(mesh, stated->region);
+    const int only = all ? -1 : ost_names_find(regions, stated->region);
     if (!all && only < 0) {
         char names[NAME_LIST_SIZE];
-        ost_names_list(&mesh->regions, names, sizeof names);
+        ost_names_list(regions, names, sizeof names);
         return OST_RAISE(c->ctx, OST_INVALID_INPUT,
                          "%s:%d: the mesh has no region '%s'; it has: %s. 'all' stands for every one", c->path,
                          stated->line, stated->region, names);
     }
-    for (int r = 0; r < mesh->regions.count; r++) {
+    for (int r = 0; r < regions->count; r++) {
         if (!all && r != only)
             continue;
         materials->material[r] = material;
@@ -42,11 +42,11 @@ static OstStatus take_from_case(const OstCase *c, const OstMesh *mesh, const Ost
     return OST_SUCCESS;
 }
 
-OstStatus ost_scene_materials(const OstCase *c, const OstMesh *mesh, const OstFileMaterials *from_file,
+OstStatus ost_scene_materials(const OstCase *c, const OstNames *names, const OstFileMaterials *from_file,
                               OstSceneMaterials *materials)
 {
     OstContext *ctx = c->ctx;
-    const int regions = mesh->regions.count;
+    const int regions = names->count;
     unsigned char *known = NULL;
     OstStatus status = OST_NEW(ctx, &known, regions);
     if (status == OST_SUCCESS)
@@ -59,14 +59,14 @@ OstStatus ost_scene_materials(const OstCase *c, const OstMesh *mesh, const OstFi
         memset(known, 1, (size_t)regions);
     }
     for (int i = 0; i < c->material_count; i++)
-        OST_TRY_DONE(take_from_case(c, mesh, &c->materials[i], materials, known));
+        OST_TRY_DONE(take_from_case(c, names, &c->materials[i], materials, known));
     for (int r = 0; r < regions; r++) {
         if (known[r])
             continue;
         status =
             OST_RAISE(ctx, OST_INVALID_INPUT,
                       "%s: region '%s' of the mesh has no material; add one to materials (region: %s, or region: all)",
-                      c->path, mesh->regions.name[r], mesh->regions.name[r]);
+                      c->path, names->name[r], names->name[r]);
         goto done;
     }
 done:

@@ -11,10 +11,10 @@ typedef struct OstSceneMaterials {
     OstAxesSpec *axes;
 } OstSceneMaterials;
 
-/* Local, the same on all ranks. The mesh file's materials, overridden by the case's in their order. Raises
- * OST_INVALID_INPUT if the case names a region that is not there (listing those that are), or leaves one without a
- * material. */
-OstStatus ost_scene_materials(const OstCase *c, const OstMesh *mesh, const OstFileMaterials *from_file,
+/* Local, the same on all ranks. One for each of the mesh's regions: the mesh file's materials, overridden by the case's
+ * in their order. Raises OST_INVALID_INPUT if the case names a region that is not there (listing those that are), or
+ * leaves one without a material. */
+OstStatus ost_scene_materials(const OstCase *c, const OstNames *regions, const OstFileMaterials *from_file,
                               OstSceneMaterials *materials);
 void ost_scene_materials_release(OstSceneMaterials *materials);
 

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "mesh/merge.h"
 #include "orthostat/refine.h"
-#include "solve/scene_materials.h"
+#include "solve/scene_cut.h"
 
 static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
@@ -88,11 +88,14 @@ static OstStatus change_order(const OstCase *c, const OstShapeSurface *surface, 
     return OST_SUCCESS;
 }
 
-OstStatus ost_scene_distribute(const OstCase *c, OstMeshChunk **chunk, OstMesh **mesh)
+OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
+                               OstMesh **mesh, OstSceneMaterials *materials)
 {
     const OstShapeSurface surface = true_surface(c);
     *mesh = NULL;
-    OstStatus status = ost_mesh_distribute(c->ctx, chunk, mesh);
+    OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
+    if (status == OST_SUCCESS)
+        status = ost_scene_cut(materials, chunk, mesh);
     if (status == OST_SUCCESS)
         status = refine(c, &surface, mesh);
     if (status == OST_SUCCESS)
@@ -102,20 +105,20 @@ OstStatus ost_scene_distribute(const OstCase *c, OstMeshChunk **chunk, OstMesh *
     return status;
 }
 
-OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **materials)
+OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file, OstSceneMaterials *materials)
 {
     OstMeshChunk *chunk = NULL;
     *mesh = NULL;
-    *materials = NULL;
-    OstStatus status = make_chunk(c, &chunk, materials);
+    *from_file = NULL;
+    OstStatus status = make_chunk(c, &chunk, from_file);
     if (status == OST_SUCCESS)
         status = ost_scene_read_cell_axes(c, chunk);
     if (status == OST_SUCCESS)
         status = merge_vertices(c, chunk);
     if (status == OST_SUCCESS)
-        status = ost_scene_distribute(c, &chunk, mesh);
+        status = ost_scene_distribute(c, *from_file, &chunk, mesh, materials);
     ost_chunk_destroy(&chunk);
     if (status != OST_SUCCESS)
-        ost_file_materials_destroy(materials);
+        ost_file_materials_destroy(from_file);
     return status;
 }

@@ -98,11 +98,7 @@ static OstStatus factor(Direct *direct)
     const OstBlockMatrix *matrix = direct->system->matrix;
     OST_TRY(ost_scaling_create(matrix, &direct->scaling));
     OST_TRY(ost_scaling_apply_matrix(direct->scaling, matrix, &direct->scaled));
-    OstExactMatrix *view = NULL;
-    OST_TRY(ost_agree(direct->ctx, ost_exact_matrix_borrow(direct->scaled, &view)));
-    const OstStatus status = ost_mumps_create(view, 0.0, &direct->factors);
-    ost_exact_matrix_destroy(&view);
-    return status;
+    return ost_mumps_create_of_rows(direct->scaled, 0.0, &direct->factors);
 }
 
 static OstStatus norm_of(const Direct *direct, const double *v, double *norm)

@@ -8,7 +8,9 @@
 
 /* Runs a case up the ladder of its verify section and holds what is measured against its formula. */
 
-/* One quantity on one mesh. */
+/* One quantity on one mesh. Over faces and nodes the error is the larger of the mean's and of the root mean square of
+ * the answer's distance from the formula's field: errors of both signs cannot cancel, and so converge with their order.
+ * The energy norm is that of the method: of a mode that quadratic tets see by its mean alone, the mean counts. */
 typedef struct OstVerifyReading {
     double expected, obtained; /* FIELD: norms of the formula's field, and of the difference */
     double error;              /* relative */
@@ -21,15 +23,17 @@ typedef struct OstVerifyRun {
     double h; /* edge of a cube of six tets of the mean volume */
     double seconds;
     int iterations;
+    int warned_of_locking;
     OstChecks checks;
     OstVerifyReading *reading; /* quantity_count */
 } OstVerifyRun;
 
 /* One quantity on one step of the ladder: its finest mesh, and the rate at which it got there. */
 typedef struct OstVerifyVerdict {
-    int run;                        /* the finest, or -1: the step was not run */
-    double rate;                    /* between the last two meshes; NAN: one mesh only, or nothing left but rounding */
-    double error_limit, rate_limit; /* rate_limit NAN: the elements hold the solution exactly */
+    int run;     /* the finest, or -1: the step was not run */
+    double rate; /* between the last two meshes; NAN: one mesh only, or nothing left but rounding */
+    double error_limit;
+    double order; /* of convergence in theory, or as OstVerifyQuantity.rate */
     int passed;
 } OstVerifyVerdict;
 
@@ -48,6 +52,10 @@ typedef struct OstVerifyReport {
 
 /* Loads and reactions balance to the first in every run, in force and moment; strain energy and work to the second. */
 extern const double ost_verify_balance, ost_verify_energy_balance;
+
+/* The order that is observed between the last two meshes is at least this share of theory's. Where an order is lost no
+ * more than three quarters of it are left. Quick runs end before orders settle, and are held to less. */
+extern const double ost_verify_share_of_order, ost_verify_quick_share_of_order;
 
 /* Collective. Runs a case; `quick` stops at the levels marked so. A run that does not converge, or whose result does
  * not pass its own checks, is a case that fails, not a failure of this function, which raises for files that cannot be

@@ -1,28 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "study/verify.h"
+#include "study/verify_view.h"
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
-#include "element/element.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 
 #include <string.h>
 
-/* What a measure looks at. */
-typedef struct View {
-    const OstMesh *mesh;
-    const OstResult *result;
-    const OstExactField *exact;
-    const OstVerifyQuantity *quantity;
-} View;
+typedef OstVerifyView View;
 
-static void gather(const OstLocal *nodes, int count, const double *values, double *rows)
-{
-    for (int a = 0; a < count; a++)
-        memcpy(rows + 3 * a, values + 3 * (size_t)nodes[a], 3 * sizeof *rows);
-}
+/* What is summed over a selection: the quantity, the square of the distance from the formula's field, and the area (or
+ * the number of nodes). */
+enum { VALUE, SQUARE, SIZE, SUMS };
 
 static void find_direction(const OstVerifyQuantity *quantity, const double place[3], double direction[3])
 {
@@ -38,7 +29,14 @@ static void find_direction(const OstVerifyQuantity *quantity, const double place
         direction[i] = length > 0.0 ? away[i] / length : 0.0;
 }
 
-/* --- stress of the answer at a point of a face --- */
+/* --- at a point of a face --- */
+
+typedef struct Point {
+    const OstSurface *surface;
+    OstLocal face;
+    const double *at; /* in the face */
+    double place[3];
+} Point;
 
 static double pick_component(OstStressComponent component, const double s[6], const double place[3])
 {
@@ -51,79 +49,89 @@ static double pick_component(OstStressComponent component, const double s[6], co
                                           : sine * sine * s[0] + cosine * cosine * s[1] - shear;
 }
 
-static void strain_at(const View *view, OstLocal tet, const double at[4], double strain[6])
+/* Stress as the method has it: of the mode that is seen by its mean over the tet, the mean's. */
+static OstStatus stress_in_tet(const View *view, const OstViewTet *tet, const double at[4], const double place[3],
+                               double stress[6])
 {
-    const int n = view->mesh->nodes_per_tet;
-    const OstLocal *nodes = view->mesh->tet_nodes + (size_t)n * (size_t)tet;
-    double x[3 * OST_MAX_TET_NODES] = {0.0}, u[3 * OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
-    double g[9] = {0.0};
-    gather(nodes, n, view->mesh->coordinates, x);
-    gather(nodes, n, view->result->displacement, u);
-    ost_shape_gradients(n, at, x, gradients);
-    for (int a = 0; a < n; a++)
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                g[3 * i + j] += u[3 * a + i] * gradients[3 * a + j];
-    for (int i = 0; i < 3; i++) {
-        const int next = (i + 1) % 3;
-        strain[i] = g[4 * i];
-        strain[3 + i] = g[3 * i + next] + g[3 * next + i];
-    }
-}
-
-static void multiply6(const double c[36], const double strain[6], double stress[6])
-{
-    for (int i = 0; i < 6; i++) {
-        stress[i] = 0.0;
-        for (int j = 0; j < 6; j++)
-            stress[i] += c[6 * i + j] * strain[j];
-    }
-}
-
-static OstStatus stress_at(const View *view, OstLocal tet, const OstLocal *face, const double at[3],
-                           const double place[3], double *value)
-{
-    const OstLocal *vertices = view->mesh->tet_nodes + (size_t)view->mesh->nodes_per_tet * (size_t)tet;
-    double in_tet[4] = {0.0}, c[36], strain[6], stress[6];
-    for (int v = 0; v < 4; v++)
-        for (int a = 0; a < 3; a++)
-            if (face[a] == vertices[v])
-                in_tet[v] = at[a];
-    strain_at(view, tet, in_tet, strain);
+    double c[36], strain[6];
+    OstViewMode mode;
     OST_TRY(view->exact->stiffness(view->exact->data, place, c));
-    multiply6(c, strain, stress);
-    *value = pick_component(view->quantity->component, stress, place);
+    ost_view_strain(tet, at, strain);
+    ost_view_stress(c, strain, stress);
+    ost_view_mode(view, tet->number, place, &mode);
+    const double excess = ost_view_dot6(mode.m, strain) - ost_view_mean_of_mode(view, tet);
+    for (int p = 0; p < 6 && mode.split; p++)
+        stress[p] -= excess * mode.m[p];
     return OST_SUCCESS;
 }
 
-/* --- means over faces, sums over nodes --- */
+static double size_of_stress(const double s[6])
+{
+    return sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
 
-/* Adds a face's integral of the quantity, and its area, to sums[0] and sums[1]. */
-static OstStatus add_face(const View *view, const OstSurface *surface, OstLocal f, double sums[2])
+/* The distance is that of the whole stress. */
+static OstStatus find_stress(const View *view, const Point *point, double *value, double *distance)
+{
+    const OstLocal number = point->surface->tet[point->face];
+    const OstLocal *face = point->surface->nodes + (size_t)point->surface->nodes_per_face * (size_t)point->face;
+    const OstLocal *vertices = view->mesh->tet_nodes + (size_t)view->mesh->nodes_per_tet * (size_t)number;
+    double in_tet[4] = {0.0}, stress[6], exact[6];
+    OstViewTet tet;
+    for (int v = 0; v < 4; v++)
+        for (int a = 0; a < 3; a++)
+            if (face[a] == vertices[v])
+                in_tet[v] = point->at[a];
+    ost_view_gather_tet(view, number, &tet);
+    OST_TRY(stress_in_tet(view, &tet, in_tet, point->place, stress));
+    OST_TRY(view->exact->stress(view->exact->data, point->place, exact));
+    *value = pick_component(view->quantity->component, stress, point->place);
+    for (int p = 0; p < 6; p++)
+        exact[p] -= stress[p];
+    *distance = size_of_stress(exact);
+    return OST_SUCCESS;
+}
+
+static OstStatus find_displacement(const View *view, const double place[3], const double u[3], double *value,
+                                   double *distance)
+{
+    double direction[3], exact[3];
+    find_direction(view->quantity, place, direction);
+    OST_TRY(view->exact->displacement(view->exact->data, place, exact));
+    *value = ost_dot3(u, direction);
+    *distance = *value - ost_dot3(exact, direction);
+    return OST_SUCCESS;
+}
+
+/* --- over faces, and over nodes --- */
+
+static OstStatus add_face(const View *view, const OstSurface *surface, OstLocal f, double sums[SUMS])
 {
     const int n = surface->nodes_per_face;
     const OstLocal *nodes = surface->nodes + (size_t)n * (size_t)f;
     double x[3 * OST_MAX_FACE_NODES], u[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    gather(nodes, n, view->mesh->coordinates, x);
-    gather(nodes, n, view->result->displacement, u);
+    ost_view_gather(nodes, n, view->mesh->coordinates, x);
+    ost_view_gather(nodes, n, view->result->displacement, u);
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
-        const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
-        double place[3], moved[3], direction[3], area[3];
-        ost_shape_values(n, point->at, values);
-        ost_shape_place(n, values, x, place);
+        Point point = {surface, f, ost_triangle_degree5.point[q].at, {0.0}};
+        double moved[3], area[3], value, distance;
+        ost_shape_values(n, point.at, values);
+        ost_shape_place(n, values, x, point.place);
         ost_shape_place(n, values, u, moved);
-        ost_shape_area_vector(n, point->at, x, area);
-        find_direction(view->quantity, place, direction);
-        double value = ost_dot3(moved, direction);
-        if (view->quantity->kind == OST_MEASURE_STRESS)
-            OST_TRY(stress_at(view, surface->tet[f], nodes, point->at, place, &value));
-        sums[0] += 0.5 * point->weight * ost_norm3(area) * value;
-        sums[1] += 0.5 * point->weight * ost_norm3(area);
+        ost_shape_area_vector(n, point.at, x, area);
+        OST_TRY(view->quantity->kind == OST_MEASURE_STRESS
+                    ? find_stress(view, &point, &value, &distance)
+                    : find_displacement(view, point.place, moved, &value, &distance));
+        const double weight = 0.5 * ost_triangle_degree5.point[q].weight * ost_norm3(area);
+        sums[VALUE] += weight * value;
+        sums[SQUARE] += weight * distance * distance;
+        sums[SIZE] += weight;
     }
     return OST_SUCCESS;
 }
 
-static OstStatus sum_faces(const View *view, const unsigned char *selected, const OstSurface *surface, double sums[2])
+static OstStatus sum_faces(const View *view, const unsigned char *selected, const OstSurface *surface,
+                           double sums[SUMS])
 {
     const int n = surface->nodes_per_face;
     for (OstLocal f = 0; f < surface->count; f++) {
@@ -139,25 +147,25 @@ static OstStatus sum_faces(const View *view, const unsigned char *selected, cons
     return OST_SUCCESS;
 }
 
-/* Adds the sum over owned nodes, and their number. */
-static void sum_nodes(const View *view, OstLocal count, const OstLocal *nodes, const double *values, double sums[2])
+/* Owned nodes; a reaction, which no formula gives by place, has no distance from it. */
+static OstStatus sum_nodes(const View *view, OstLocal count, const OstLocal *nodes, double sums[SUMS])
 {
+    const int reaction = view->quantity->kind == OST_MEASURE_REACTION;
+    const double *values = reaction ? view->result->reaction : view->result->displacement;
     for (OstLocal i = 0; i < count; i++) {
-        double direction[3];
+        double value, distance;
         if (nodes[i] >= view->mesh->owned_nodes)
             continue;
-        find_direction(view->quantity, view->mesh->coordinates + 3 * (size_t)nodes[i], direction);
-        sums[0] += ost_dot3(values + 3 * (size_t)nodes[i], direction);
-        sums[1] += 1.0;
+        OST_TRY(find_displacement(view, view->mesh->coordinates + 3 * (size_t)nodes[i], values + 3 * (size_t)nodes[i],
+                                  &value, &distance));
+        sums[VALUE] += value;
+        sums[SQUARE] += reaction ? 0.0 : distance * distance;
+        sums[SIZE] += 1.0;
     }
+    return OST_SUCCESS;
 }
 
-static OstStatus reduce(OstContext *ctx, int count, double *sums)
-{
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, count, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
-}
-
-static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal *nodes, double sums[2])
+static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal *nodes, double sums[SUMS])
 {
     OstContext *ctx = view->mesh->ctx;
     OstSurface *surface = NULL;
@@ -172,108 +180,42 @@ static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal 
         status = sum_faces(view, selected, surface, sums);
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
-        status = reduce(ctx, 2, sums);
+        status = ost_view_reduce(ctx, SUMS, sums);
     OST_FREE(selected);
     ost_surface_destroy(&surface);
     return status;
 }
 
-static OstStatus measure_selection(const View *view, const OstCase *c, double *value)
+static OstStatus sum_selection(const View *view, const OstCase *c, double sums[SUMS])
 {
     const OstVerifyQuantity *quantity = view->quantity;
     OstContext *ctx = view->mesh->ctx;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
-    double sums[2] = {0.0, 0.0};
     OstStatus status = ost_select_nodes(c, view->mesh, &quantity->on, &count, &nodes);
     if (status == OST_SUCCESS && quantity->kind != OST_MEASURE_REACTION)
         status = measure_faces(view, count, nodes, sums);
-    if (status == OST_SUCCESS && sums[1] == 0.0 && quantity->kind == OST_MEASURE_STRESS)
+    if (status == OST_SUCCESS && sums[SIZE] == 0.0 && quantity->kind == OST_MEASURE_STRESS)
         status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: stress is measured over faces, and the selection has none",
                            c->path, quantity->line);
-    if (status == OST_SUCCESS && sums[1] == 0.0) {
-        const int reaction = quantity->kind == OST_MEASURE_REACTION;
-        sum_nodes(view, count, nodes, reaction ? view->result->reaction : view->result->displacement, sums);
-        status = reduce(ctx, 2, sums);
-        sums[1] = reaction ? 1.0 : sums[1];
+    if (status == OST_SUCCESS && sums[SIZE] == 0.0) {
+        status = ost_agree(ctx, sum_nodes(view, count, nodes, sums));
+        if (status == OST_SUCCESS)
+            status = ost_view_reduce(ctx, SUMS, sums);
     }
     OST_FREE(nodes);
-    *value = sums[0] / sums[1];
     return status;
 }
 
-/* --- the whole field --- */
-
-/* Adds the squares of the formula's field and of the difference, integrated over a tet. */
-static OstStatus add_displacement(const View *view, const double *u, const double *values, const double place[3], int n,
-                                  double weight, double sums[2])
+/* The mean, or the sum of reactions, and what it may be off by as a root mean square over the selection: a mean can
+ * come out right by accident, where errors of both signs meet, and then says nothing of the order of convergence. */
+static OstStatus measure_selection(const View *view, const OstCase *c, double *value, double *distance)
 {
-    double exact[3], moved[3];
-    OST_TRY(view->exact->displacement(view->exact->data, place, exact));
-    ost_shape_place(n, values, u, moved);
-    for (int i = 0; i < 3; i++) {
-        sums[0] += weight * exact[i] * exact[i];
-        sums[1] += weight * (moved[i] - exact[i]) * (moved[i] - exact[i]);
-    }
-    return OST_SUCCESS;
-}
-
-static OstStatus add_energy(const View *view, OstLocal tet, const double at[4], const double place[3], double weight,
-                            double sums[2])
-{
-    double g[9], c[36], strain[6], stress[6], exact[6];
-    OST_TRY(view->exact->gradient(view->exact->data, place, g));
-    OST_TRY(view->exact->stiffness(view->exact->data, place, c));
-    strain_at(view, tet, at, strain);
-    for (int i = 0; i < 3; i++) {
-        const int next = (i + 1) % 3;
-        exact[i] = g[4 * i];
-        exact[3 + i] = g[3 * i + next] + g[3 * next + i];
-    }
-    multiply6(c, exact, stress);
-    for (int i = 0; i < 6; i++) {
-        sums[0] += weight * stress[i] * exact[i];
-        strain[i] -= exact[i];
-    }
-    multiply6(c, strain, stress);
-    for (int i = 0; i < 6; i++)
-        sums[1] += weight * stress[i] * strain[i];
-    return OST_SUCCESS;
-}
-
-static OstStatus add_tet(const View *view, OstLocal tet, double sums[2])
-{
-    const int n = view->mesh->nodes_per_tet;
-    const OstLocal *nodes = view->mesh->tet_nodes + (size_t)n * (size_t)tet;
-    double x[3 * OST_MAX_TET_NODES], u[3 * OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
-    gather(nodes, n, view->mesh->coordinates, x);
-    gather(nodes, n, view->result->displacement, u);
-    for (int q = 0; q < ost_tet_degree5.count; q++) {
-        const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
-        double values[OST_MAX_TET_NODES], place[3];
-        ost_shape_values(n, point->at, values);
-        ost_shape_place(n, values, x, place);
-        const double weight = point->weight * ost_shape_gradients(n, point->at, x, gradients) / 6.0;
-        if (view->quantity->norm == OST_NORM_DISPLACEMENT)
-            OST_TRY(add_displacement(view, u, values, place, n, weight, sums));
-        else
-            OST_TRY(add_energy(view, tet, point->at, place, weight, sums));
-    }
-    return OST_SUCCESS;
-}
-
-static OstStatus measure_field(const View *view, OstVerifyReading *reading)
-{
-    OstContext *ctx = view->mesh->ctx;
-    double sums[2] = {0.0, 0.0};
-    OstStatus status = OST_SUCCESS;
-    for (OstLocal tet = 0; tet < view->mesh->owned_tets && status == OST_SUCCESS; tet++)
-        status = add_tet(view, tet, sums);
-    OST_TRY(ost_agree(ctx, status));
-    OST_TRY(reduce(ctx, 2, sums));
-    reading->expected = sqrt(sums[0]);
-    reading->obtained = sqrt(sums[1]);
-    reading->error = reading->obtained / reading->expected;
+    double sums[SUMS] = {0.0};
+    OST_TRY(sum_selection(view, c, sums));
+    const double size = view->quantity->kind == OST_MEASURE_REACTION ? 1.0 : sums[SIZE];
+    *value = sums[VALUE] / size;
+    *distance = sqrt(sums[SQUARE] / size);
     return OST_SUCCESS;
 }
 
@@ -295,14 +237,16 @@ OstStatus ost_verify_measure(const OstScene *scene, const OstResult *result, con
                              const OstVerifyQuantity *quantity, OstVerifyReading *reading)
 {
     const View view = {scene->mesh, result, &exact->field, quantity};
+    double distance = 0.0;
     if (quantity->kind == OST_MEASURE_FIELD)
-        return measure_field(&view, reading);
+        return ost_view_measure_field(&view, reading);
     OST_TRY(find_expected(scene->c, exact, quantity, &reading->expected));
     if (quantity->kind == OST_MEASURE_ENERGY)
         reading->obtained = result->checks.strain_energy;
     else
-        OST_TRY(measure_selection(&view, scene->c, &reading->obtained));
+        OST_TRY(measure_selection(&view, scene->c, &reading->obtained, &distance));
     reading->obtained *= quantity->scale;
-    reading->error = fabs(reading->obtained - reading->expected) / fabs(reading->expected);
+    distance *= fabs(quantity->scale);
+    reading->error = fmax(fabs(reading->obtained - reading->expected), distance) / fabs(reading->expected);
     return OST_SUCCESS;
 }

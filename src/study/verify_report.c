@@ -31,12 +31,12 @@ static void print_reading(const OstVerifyReport *report, int quantity, const Ost
     if (verdict) {
         printf(" %8.1e", verdict->error_limit);
         print_number(" %6.2f", 6, verdict->rate);
-        if (isnan(verdict->rate_limit))
+        if (isnan(verdict->order))
             printf(" %6s", "exact");
-        else if (verdict->rate_limit == 0.0)
-            printf(" %6s", "any");
+        else if (verdict->order == OST_RATE_LOCKED)
+            printf(" %6s", "locks");
         else
-            printf(" %6.2f", verdict->rate_limit);
+            printf(" %6g", verdict->order);
         printf("  %s", verdict->passed ? "pass" : "FAIL");
     }
     puts("");
@@ -63,7 +63,7 @@ void ost_verify_print(const OstVerifyReport *report, int all)
         printf("  no answer: %s\n", report->failure);
     else
         printf("  %-24s %2s %9s %13s %13s %8s %8s %6s %6s\n", "", "", "unknowns", "expected", "obtained", "error",
-               "limit", "order", "least");
+               "limit", "order", "theory");
     for (int q = 0; q < verify->quantity_count && !report->failure; q++)
         print_quantity(report, q, all);
     printf("  balance: force %.1e, moment %.1e, energy %.1e; %.1f s; %s\n\n", report->force_imbalance,
@@ -115,9 +115,10 @@ static json_t *step_json(const OstVerifyReport *report, int quantity, int step)
     for (int r = 0; r < report->run_count; r++)
         if (report->run[r].step == step)
             json_array_append_new(levels, level_json(&report->run[r], quantity));
-    return json_pack("{s:i, s:o, s:f, s:o, s:o, s:b}", "order", verify->step[step].order, "levels", levels,
-                     "error_limit", verdict->error_limit, "rate", number_json(verdict->rate), "rate_limit",
-                     number_json(verdict->rate_limit), "passed", verdict->passed);
+    return json_pack("{s:i, s:o, s:f, s:o, s:o, s:b, s:b}", "order", verify->step[step].order, "levels", levels,
+                     "error_limit", verdict->error_limit, "rate", number_json(verdict->rate), "order_of_theory",
+                     number_json(verdict->order), "locks", verdict->order == OST_RATE_LOCKED, "passed",
+                     verdict->passed);
 }
 
 static json_t *quantities_json(const OstVerifyReport *report)

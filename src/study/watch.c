@@ -4,8 +4,11 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "orthostat/verify.h"
 
 #include <float.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* A place this share of an edge away from its vertex is another place. */
@@ -163,4 +166,53 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
         return OST_SUCCESS;
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: nothing is watched", scene->c->path, watch->line);
+}
+
+/* --- what a case watches, before and after --- */
+
+static OstStatus check_selection(const OstScene *scene, const char *what, const char *name, int line,
+                                 const OstSelection *on)
+{
+    OstContext *ctx = scene->ctx;
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    int some = 0;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, on, &count, &nodes));
+    OST_FREE(nodes);
+    const int mine = count > 0;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &some, 1, MPI_INT, MPI_MAX, ost_comm(ctx))));
+    return some ? OST_SUCCESS
+                : OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: %s '%s' is of no vertex: its selection is empty",
+                            scene->c->path, line, what, name);
+}
+
+OstStatus ost_watch_check(const OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    for (int w = 0; w < c->watch_count; w++)
+        if (c->watches[w].kind == OST_WATCH_REACTION)
+            OST_TRY(check_selection(scene, "the watched", c->watches[w].name, c->watches[w].line, &c->watches[w].on));
+    for (int q = 0; c->verify && q < c->verify->quantity_count; q++) {
+        const OstVerifyQuantity *quantity = &c->verify->quantity[q];
+        if (quantity->kind != OST_MEASURE_FIELD && quantity->kind != OST_MEASURE_ENERGY)
+            OST_TRY(check_selection(scene, "the verified", quantity->name, quantity->line, &quantity->on));
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_watch_print(const OstScene *scene, const OstResult *result)
+{
+    for (int w = 0; w < scene->c->watch_count; w++) {
+        const OstWatch *watch = &scene->c->watches[w];
+        OstWatched watched;
+        OST_TRY(ost_watch_evaluate(scene, result, watch, &watched));
+        if (ost_rank(scene->ctx) != 0)
+            continue;
+        printf("%-22s %.10g", watch->name, watched.value);
+        if (!isnan(watch->expected) && watch->expected != 0.0)
+            printf(", expected %.10g: %.2g %% off", watch->expected,
+                   100.0 * fabs(watched.value / watch->expected - 1.0));
+        puts("");
+    }
+    return OST_SUCCESS;
 }

@@ -20,4 +20,10 @@ OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                              OstWatched *watched);
 
+/* Collective. Refuses a scene whose case watches, or verifies, on a selection that is not there or selects nothing. */
+OstStatus ost_watch_check(const OstScene *scene);
+
+/* Collective; rank 0 prints. What the case watches, a line each: value, and the expected one where it is known. */
+OstStatus ost_watch_print(const OstScene *scene, const OstResult *result);
+
 #endif

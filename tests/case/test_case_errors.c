@@ -29,7 +29,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
                    "element, materials, constraints, loads, effects, accuracy, solver, output, watch, verify");
     assert_refused(CUBE STEEL "accuracy: {relative_error: 0.01}\n",
-                   "3:12: unknown key 'relative_error' in accuracy. Known keys: relative_residual");
+                   "3:12: unknown key 'relative_error' in accuracy. Known keys: relative_residual, out_of_reach");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
@@ -206,6 +206,17 @@ static void bad_settings_are_refused(void **state)
     (void)state;
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 0.51}\n",
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
+    assert_refused(CUBE STEEL "accuracy: {out_of_reach: acept}\n",
+                   "3:26: unknown answer 'acept'; did you mean 'accept'? Known: refuse, accept");
+    assert_refused(CUBE STEEL "solver: {recipe: twolevel}\n",
+                   "3:18: unknown recipe 'twolevel'; did you mean 'two_level'? Known: auto, plain, metric, strong, "
+                   "two_level, direct");
+    assert_refused(CUBE STEEL "solver: {patience: 0}\n",
+                   "3:20: solver.patience: found '0', expected a whole number from 1 to 1000000");
+    assert_refused(CUBE STEEL "solver: {most_levels: 13}\n",
+                   "3:23: solver.most_levels: found '13', expected a whole number from 1 to 12");
+    assert_refused(CUBE STEEL "solver: {factor_memory: 0}\n",
+                   "3:25: solver.factor_memory: found '0', expected a number of MiB above 0");
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 9e-16}\n",
                    "3:31: accuracy.relative_residual: found '9e-16', expected a number from 1e-15 to 0.5");
     assert_refused(

@@ -226,9 +226,9 @@ static void selections_by_name_and_number_are_read(void **state)
     ost_case_destroy(&c);
     on = read_selection("vertices: [5, 1, 27]");
     assert_int_equal(on->kind, OST_SELECT_VERTICES);
-    assert_int_equal(on->vertex_count, 3);
-    assert_int_equal(on->vertices[0], 1);
-    assert_int_equal(on->vertices[2], 27);
+    assert_int_equal(on->range_count, 3);
+    assert_int_equal(on->ranges[0].first, 1);
+    assert_int_equal(on->ranges[2].last, 27);
     ost_case_destroy(&c);
     on = read_selection("nearest: [1, 2, 3]");
     assert_int_equal(on->kind, OST_SELECT_NEAREST);
@@ -321,9 +321,11 @@ static void settings_are_read(void **state)
     (void)state;
     char whole[2048];
     snprintf(whole, sizeof whole,
-             "%s%selement: {order: 1}\neffects: {large_rotation: off}\naccuracy: {relative_residual: 1e-10}\n"
+             "%s%selement: {order: 1}\neffects: {large_rotation: off}\naccuracy: {relative_residual: 1e-10, "
+             "out_of_reach: accept}\n"
              "solver: {recipe: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
-             "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500}\n"
+             "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"
+             "         patience: 88, most_levels: 3, factor_memory: 2}\n"
              "output: {file: a.vtkhdf, fields: [displacement, rank]}\n",
              cube, steel);
     assert_success(read_text(whole, &c));
@@ -336,6 +338,12 @@ static void settings_are_read(void **state)
     assert_int_equal(c->solver.smoother_degree, 4);
     assert_close(c->solver.smoother_ratio, 30, 0.0);
     assert_int_equal(c->solver.coarsest_unknowns, 500);
+    assert_int_equal(c->solver.accept_attainable, 1);
+    assert_int_equal(c->solver.patience, 88);
+    assert_int_equal(c->solver.most_levels, 3);
+    assert_close(c->solver.factor_memory, 2097152.0, 0.0);
+    assert_int_equal(c->solver.given, OST_GIVEN_AGGREGATE | OST_GIVEN_COARSE_AGGREGATE | OST_GIVEN_BLOCK |
+                                          OST_GIVEN_DEGREE | OST_GIVEN_RATIO);
     assert_string_equal(c->output_file, "a.vtkhdf");
     assert_int_equal(c->output_fields, 1U << OST_FIELD_DISPLACEMENT | 1U << OST_FIELD_RANK);
     ost_case_destroy(&c);

@@ -136,6 +136,8 @@ static void the_recipe_follows_the_size_unless_the_case_says(void **state)
     assert_int_equal(plan.solver.first, OST_RECIPE_DIRECT);
     make_plan(CUBE STEEL);
     assert_int_equal(plan.solver.first, OST_RECIPE_METRIC);
+    assert_close(plan.facts.anisotropy, 1.0, 0.0);
+    assert_close(plan.facts.contrast, 1.0, 0.0);
     make_plan(CUBE STEEL "solver: {recipe: plain}\n");
     assert_int_equal(plan.solver.first, OST_RECIPE_PLAIN);
     assert_string_equal(plan.solver.reason[0], "the case asks for it");
@@ -192,9 +194,10 @@ static void the_scenes_of_the_house_are_read(void **state)
         assert_int_equal(plan.effect[OST_PLAN_ORTHOTROPY].on, s != 0);
         assert_true(s > 3 || nodes == 25620);
         /* (k·60 + j)·7 + i + 1 for k = 30, i = 6, j in {58, 59, 0, 1, 2} */
-        static const OstGlobal pulled[] = {12607, 12614, 12621, 13013, 13020};
+        static const OstLabelRange pulled[] = {
+            {12607, 12607}, {12614, 12614}, {12621, 12621}, {13013, 13013}, {13020, 13020}};
         if (s <= 3)
-            assert_memory_equal(c->loads[0].on.vertices, pulled, sizeof pulled);
+            assert_memory_equal(c->loads[0].on.ranges, pulled, sizeof pulled);
         ost_case_destroy(&c);
     }
 }

@@ -269,7 +269,41 @@ static void other_shear_has_no_metric(void **state)
     ost_field_destroy(&field);
 }
 
+/* A from a place about a line askew, against A from the axes of that place. */
+static void the_metric_about_a_line_is_that_of_its_axes(void **state)
+{
+    (void)state;
+    static const int32_t region[OST_LANES] = {0};
+    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
+    static const double centroids[3 * OST_LANES] = {1, 2, 3, -2, 0.5, 1, 4, -3, 2, 0.1, 0.2, -5};
+    const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
+                              .origin = {0.3, -0.2, 0.5},
+                              .axis = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
+                              .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
+    const OstOrthotropic constants = ost_orthotropic_family(moduli[3], 0.3, OST_SHEAR_GEOMETRIC);
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    OstElasticity by_axes, by_place;
+    OstLanes places[3];
+    assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
+    assert_success(ost_field_create(ctx, 1, &material, &spec, OST_LANES, region, label, centroids, NULL, &field));
+    for (int n = 0; n < 3 * OST_LANES; n++)
+        places[n % 3][n / 3] = centroids[n];
+    ost_elasticity_clear(&by_axes);
+    ost_elasticity_clear(&by_place);
+    by_axes.metric_suffices = by_place.metric_suffices = 1;
+    ost_elasticity_gather(&by_axes, field, first_tets, 0, NULL);
+    ost_elasticity_gather(&by_place, field, first_tets, 0, places);
+    assert_true(by_place.by_metric && by_place.cylindrical);
+    for (int p = 0; p < 6; p++)
+        for (int lane = 0; lane < OST_LANES; lane++)
+            assert_close(by_place.metric[p][lane] / by_axes.stretch[1], by_axes.metric[p][lane] / by_axes.stretch[1],
+                         1e-14);
+    ost_field_destroy(&field);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_metric_about_a_line_is_that_of_its_axes),
     cmocka_unit_test(the_familys_elasticity_is_the_rotated_one),
     cmocka_unit_test(stiffness_by_the_metric_is_that_by_the_elasticity),
     cmocka_unit_test(other_shear_has_no_metric),

@@ -157,8 +157,8 @@ static void fewer_nodes_than_ranks_are_refused(void **state)
     const Slab slab = {.ctx = ctx, .global_nodes = ost_size(ctx) - 1};
     char text[64];
     snprintf(text, sizeof text, "mesh of %d nodes is too small for %d ranks", ost_size(ctx) - 1, ost_size(ctx));
-    assert_failure(ost_partition(&slab, NULL), OST_INVALID_INPUT, text);
-    assert_failure(ost_partition(&slab, NULL), OST_INVALID_INPUT, "use fewer ranks");
+    assert_failure(ost_partition(&slab, NULL, NULL), OST_INVALID_INPUT, text);
+    assert_failure(ost_partition(&slab, NULL, NULL), OST_INVALID_INPUT, "use fewer ranks");
 }
 
 static void limits_of_metis_are_told_before_it_is_called(void **state)

@@ -393,6 +393,55 @@ static void scattered_nodes_are_cut_as_well(void **state)
     ost_mesh_destroy(&mesh);
 }
 
+/* Thirty times as short along x: lengths squared by 1/900. */
+static const double stiff_along_x[6] = {1.0 / 900.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+
+static OstStatus metric_along_x(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric)
+{
+    (void)data;
+    for (size_t t = 0; t < (size_t)chunk->tet_count; t++) {
+        assert_true(centroids[3 * t] > 0.0 && centroids[3 * t] < 1.0);
+        memcpy(metric + 6 * t, stiff_along_x, sizeof stiff_along_x);
+    }
+    return OST_SUCCESS;
+}
+
+/* Edges along x, of all tets, that are cut by a border between ranks. */
+static int cut_along_x(const OstMesh *mesh)
+{
+    int cut = 0;
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        for (int e = 0; e < 6; e++) {
+            const OstLocal a = mesh->tet_nodes[4 * t + ost_tet_edge[e][0]];
+            const OstLocal b = mesh->tet_nodes[4 * t + ost_tet_edge[e][1]];
+            const double *p = mesh->coordinates + 3 * (size_t)a, *q = mesh->coordinates + 3 * (size_t)b;
+            if ((a < mesh->owned_nodes) == (b < mesh->owned_nodes))
+                continue; /* two ghosts of different owners are counted by neither: a bound from below will do */
+            cut += p[1] == q[1] && p[2] == q[2];
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &cut, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    return cut;
+}
+
+/* A bar of 24 × 8 × 8 hexes is cut across if all edges are alike. Borders along it, two planes at the most, cut up to
+ * 2 × 25 × 9 times as many other edges, but no stiff ones; METIS sees clusters of nodes, and may cut a few. */
+static void borders_run_along_what_is_stiff(void **state)
+{
+    (void)state;
+    static const OstBlockShape bar = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {24, 8, 8}};
+    const OstTetMetric metric = {NULL, metric_along_x};
+    int cut[2];
+    for (int k = 0; k < 2; k++) {
+        OstMeshChunk *chunk = NULL;
+        OstMesh *mesh = NULL;
+        assert_success(ost_chunk_create_block(ctx, &bar, &chunk));
+        assert_success(ost_mesh_distribute_by(ctx, &chunk, k == 0 ? NULL : &metric, &mesh));
+        cut[k] = cut_along_x(mesh);
+        ost_mesh_destroy(&mesh);
+    }
+    assert_true(ost_size(ctx) == 1 ? cut[0] == 0 && cut[1] == 0 : cut[1] * 4 < cut[0]);
+}
+
 static void a_mesh_is_cut_the_same_way_every_time(void **state)
 {
     (void)state;
@@ -441,6 +490,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(points_stay_with_their_owner),
     cmocka_unit_test(shuffled_tets_are_cut_as_well),
     cmocka_unit_test(scattered_nodes_are_cut_as_well),
+    cmocka_unit_test(borders_run_along_what_is_stiff),
     cmocka_unit_test(a_mesh_is_cut_the_same_way_every_time),
     cmocka_unit_test(a_doubled_tet_is_named_by_the_surface),
     cmocka_unit_test(time_is_booked_to_mesh_and_partition),

@@ -19,7 +19,7 @@ static void read_formula(const char *mesh, const char *material, const char *for
     char text[4096];
     snprintf(text, sizeof text,
              "%s%sverify: {formula: %s, source: test, parameters: {%s}, ladder: [{order: 1, refinements: [0]}], "
-             "quantities: {u: {field: energy, error: [1], rate: [any]}}}\n",
+             "quantities: {u: {field: energy, error: [1], rate: [1]}}}\n",
              mesh, material, formula, parameters);
     assert_success(read_text(text, &c));
 }

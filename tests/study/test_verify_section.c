@@ -20,7 +20,7 @@ static void a_section_is_read_as_it_stands(void **state)
         "  ladder: [{order: 1, refinements: [1, 2, 3], quick: 2}, {order: 2, refinements: [0]}]\n"
         "  quantities:\n"
         "    tip: {displacement: [0, 0, 2], on: {boundary: xmax}, expected: tip_deflection, error: [0.1, 1e-3], "
-        "rate: [1.9, any]}\n"
+        "rate: [1.9, locks]}\n"
         "    hoop: {stress: hoop, on: {boundary: xmin}, expected: -3.5, scale: 2, error: [1, 1], rate: [exact, 2]}\n"
         "    all: {field: energy, error: [1, 1], rate: [1, 2]}\n",
         whole, sizeof whole);
@@ -43,7 +43,7 @@ static void a_section_is_read_as_it_stands(void **state)
     assert_string_equal(tip->expected_name, "tip_deflection");
     assert_close(tip->error[1], 1e-3, 0.0);
     assert_close(tip->rate[0], 1.9, 0.0);
-    assert_close(tip->rate[1], 0.0, 0.0);
+    assert_close(tip->rate[1], OST_RATE_LOCKED, 0.0);
     assert_int_equal(hoop->component, OST_STRESS_HOOP);
     assert_null(hoop->expected_name);
     assert_close(hoop->expected, -3.5, 0.0);

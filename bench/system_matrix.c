@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "system_matrix.h"
+
+#include "assembly/system.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "orthostat/scene.h"
+#include "solve/boundary_conditions.h"
+
+#include <string.h>
+
+/* What is between a case and its file. */
+typedef struct Writing {
+    OstCase *c;
+    OstScene *scene;
+    OstSupports *supports;
+    OstSystem *system;
+    double *force, *right_side, *coordinates, *metric, *modes;
+    OstGlobal *row_number; /* of every column */
+    OstGlobal *label;
+} Writing;
+
+static void release(Writing *w)
+{
+    OST_FREE(w->force);
+    OST_FREE(w->right_side);
+    OST_FREE(w->coordinates);
+    OST_FREE(w->metric);
+    OST_FREE(w->modes);
+    OST_FREE(w->row_number);
+    OST_FREE(w->label);
+    ost_system_destroy(&w->system);
+    ost_supports_destroy(&w->supports);
+    ost_scene_destroy(&w->scene);
+    ost_case_destroy(&w->c);
+}
+
+static OstStatus assemble(OstContext *ctx, const char *case_path, Writing *w)
+{
+    OST_TRY(ost_case_read(ctx, case_path, &w->c));
+    OST_TRY(ost_scene_create(w->c, &w->scene));
+    OST_TRY(ost_scene_supports(w->scene, &w->supports));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &w->force, 3 * (size_t)w->scene->mesh->node_count)));
+    OST_TRY(ost_scene_loads(w->scene, w->force));
+    OST_TRY(ost_system_create(w->scene->mesh, w->supports, &w->system));
+    OST_TRY(ost_agree(ctx, ost_system_fill(w->system, w->scene->field)));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &w->right_side, 3 * (size_t)w->system->matrix->rows)));
+    return ost_agree(ctx, ost_system_right_hand_side(w->system, w->scene->field, w->force, w->right_side));
+}
+
+static OstStatus allocate_geometry(OstContext *ctx, Writing *w)
+{
+    const size_t rows = (size_t)w->system->matrix->rows;
+    OST_TRY(OST_NEW(ctx, &w->coordinates, 3 * rows));
+    OST_TRY(OST_NEW(ctx, &w->modes, 18 * rows));
+    OST_TRY(OST_NEW(ctx, &w->label, rows));
+    OST_TRY(OST_NEW(ctx, &w->row_number, (size_t)w->system->matrix->columns));
+    return w->scene->plan.effect[OST_PLAN_ORTHOTROPY].on ? OST_NEW(ctx, &w->metric, 6 * rows) : OST_SUCCESS;
+}
+
+static OstStatus describe_rows(OstContext *ctx, Writing *w)
+{
+    const OstBlockMatrix *matrix = w->system->matrix;
+    OST_TRY(ost_agree(ctx, allocate_geometry(ctx, w)));
+    OST_TRY(ost_system_geometry(w->system, w->scene->field, w->coordinates, w->metric, w->modes));
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        w->row_number[row] = matrix->first_row + row;
+        w->label[row] = w->scene->mesh->node_label[w->system->node_of_row[row]];
+    }
+    return ost_halo_import(matrix->halo, sizeof *w->row_number, w->row_number);
+}
+
+static OstStatus write_rows(OstContext *ctx, const Writing *w, const char *folder)
+{
+    const OstBlockMatrix *matrix = w->system->matrix;
+    char failure[SYSTEM_FAILURE];
+    const SystemFile file = {.rank = ost_rank(ctx),
+                             .ranks = ost_size(ctx),
+                             .rows = matrix->rows,
+                             .ghosts = matrix->columns - matrix->rows,
+                             .blocks = matrix->row_start[matrix->rows],
+                             .has_metric = w->metric != NULL,
+                             .first_row = matrix->first_row,
+                             .global_rows = matrix->global_rows,
+                             .row_start = matrix->row_start,
+                             .column = matrix->column,
+                             .ghost_row = w->row_number + matrix->rows,
+                             .label = w->label,
+                             .value = matrix->value,
+                             .right_side = w->right_side,
+                             .coordinates = w->coordinates,
+                             .modes = w->modes,
+                             .metric = w->metric};
+    if (system_file_write(&file, folder, failure) != 0)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s", failure);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_bench_write_system(OstContext *ctx, const char *case_path, const char *folder)
+{
+    Writing w = {0};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(assemble(ctx, case_path, &w));
+    OST_TRY_DONE(describe_rows(ctx, &w));
+    OST_TRY_DONE(ost_agree(ctx, write_rows(ctx, &w, folder)));
+done:
+    release(&w);
+    return status;
+}
+
+static OstStatus copy_rows(OstContext *ctx, const SystemFile *system, OstBlockMatrix *matrix)
+{
+    const size_t rows = (size_t)system->rows, blocks = (size_t)system->blocks;
+    OST_TRY(OST_NEW(ctx, &matrix->row_start, rows + 1));
+    OST_TRY(OST_NEW(ctx, &matrix->column, blocks));
+    OST_TRY(OST_NEW(ctx, &matrix->diagonal, rows));
+    OST_TRY(OST_NEW(ctx, &matrix->value, 9 * blocks));
+    memcpy(matrix->row_start, system->row_start, (rows + 1) * sizeof *system->row_start);
+    memcpy(matrix->column, system->column, blocks * sizeof *system->column);
+    memcpy(matrix->value, system->value, 9 * blocks * sizeof *system->value);
+    for (OstLocal row = 0; row < system->rows; row++)
+        for (OstLocal b = system->row_start[row]; b < system->row_start[row + 1]; b++)
+            if (system->column[b] == row)
+                matrix->diagonal[row] = b;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_bench_matrix(OstContext *ctx, const SystemFile *system, OstBlockMatrix **matrix)
+{
+    OstBlockMatrix *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS) {
+        made->ctx = ctx;
+        made->rows = system->rows;
+        made->columns = system->rows + system->ghosts;
+        made->first_row = system->first_row;
+        made->global_rows = system->global_rows;
+        status = copy_rows(ctx, system, made);
+    }
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_halo_create(ctx, system->rows, system->first_row, system->ghosts, system->ghost_row, &made->halo));
+done:
+    if (status != OST_SUCCESS)
+        ost_block_matrix_destroy(&made);
+    *matrix = made;
+    return status;
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "orthostat/solver.h"
+
+static OstSolverPlan plan_of(OstRecipe recipe, const OstSolverFacts *facts)
+{
+    OstSolverOptions options = ost_solver_default_options();
+    OstSolverPlan plan;
+    options.recipe = recipe;
+    ost_solver_plan(&options, facts, &plan);
+    return plan;
+}
+
+static int has_reason(const OstSolverPlan *plan, const char *text)
+{
+    for (int r = 0; r < plan->reasons; r++)
+        if (strstr(plan->reason[r], text))
+            return 1;
+    return 0;
+}
+
+static void few_unknowns_are_factored(void **state)
+{
+    (void)state;
+    const OstSolverFacts facts = {.unknowns = 2999, .anisotropy = 1e6};
+    const OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &facts);
+    assert_int_equal(plan.first, OST_RECIPE_DIRECT);
+    assert_int_equal(plan.reasons, 1);
+    assert_true(has_reason(&plan, "2999 unknowns are fewer"));
+}
+
+static void the_metric_comes_first_and_extreme_ratios_start_on_two_levels(void **state)
+{
+    (void)state;
+    OstSolverFacts facts = {.unknowns = 74340, .anisotropy = 1e3};
+    OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &facts);
+    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    assert_true(has_reason(&plan, "factor of 1e+03 at one place"));
+    facts.anisotropy = 1e6;
+    plan = plan_of(OST_RECIPE_AUTO, &facts);
+    assert_int_equal(plan.first, OST_RECIPE_TWO_LEVEL);
+    assert_true(has_reason(&plan, "factor of 1e+06"));
+    facts.unknowns = 5000000; /* whose coarse matrix would be large */
+    assert_int_equal(plan_of(OST_RECIPE_AUTO, &facts).first, OST_RECIPE_METRIC);
+}
+
+static void what_the_case_asks_for_is_planned(void **state)
+{
+    (void)state;
+    const OstSolverFacts facts = {.unknowns = 100, .anisotropy = 1e6};
+    for (OstRecipe recipe = OST_RECIPE_PLAIN; recipe <= OST_RECIPE_DIRECT; recipe++) {
+        const OstSolverPlan plan = plan_of(recipe, &facts);
+        assert_int_equal(plan.first, recipe);
+        assert_string_equal(plan.reason[0], "the case asks for it");
+    }
+}
+
+static void trouble_is_foretold(void **state)
+{
+    (void)state;
+    const OstSolverFacts easy = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.3, .contrast = 1.0, .quality = 0.5};
+    assert_int_equal(plan_of(OST_RECIPE_AUTO, &easy).reasons, 1);
+    const OstSolverFacts hard = {
+        .unknowns = 10000, .anisotropy = 1.0, .poisson = 0.499, .contrast = 1e9, .quality = 1e-3, .free_memory = 1e9};
+    const OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &hard);
+    assert_true(has_reason(&plan, "ratio of 0.499 is close"));
+    assert_true(has_reason(&plan, "different places differ by a factor of 1e+09"));
+    assert_true(has_reason(&plan, "quality of 0.001"));
+    assert_true(has_reason(&plan, "the last rung is in reach"));
+    OstSolverFacts large = easy;
+    large.unknowns = 1000000;
+    large.free_memory = 1e9;
+    const OstSolverPlan short_of_memory = plan_of(OST_RECIPE_AUTO, &large);
+    assert_true(has_reason(&short_of_memory, "out of reach"));
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(few_unknowns_are_factored),
+    cmocka_unit_test(the_metric_comes_first_and_extreme_ratios_start_on_two_levels),
+    cmocka_unit_test(what_the_case_asks_for_is_planned),
+    cmocka_unit_test(trouble_is_foretold),
+};
+
+OST_TEST_MAIN(tests)

@@ -1,0 +1,105 @@
+"""The solver's ladder as a user sees it: its plan, its climb in summary and JSON, its refusals; on one rank and on two."""
+import json
+import os
+import tempfile
+
+from program import check, read_points, run, solve
+
+CASE = """
+title: a tube, stiff around
+mesh:
+  tube: {axis: y, length: 4, radii: [0.9, 1.5], divisions: {around: 24, radial: 3, axial: 16}}
+materials:
+  - region: all
+    youngs_modulus: [1e6, 1e6, MODULUS]
+    poissons_ratio: 0.3
+    axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 1, 0], order: [axial, radial, tangential]}}
+constraints:
+  - {on: {boundary: bottom}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: top}, total_force: [10, 0, 0]}
+accuracy: {relative_residual: TOLERANCE}
+solver: {SOLVER}
+"""
+
+# One step of smoothing on single nodes over a narrow interval: far too slow, and given, so that no rung may mend it.
+CRIPPLED = "aggregate_nodes: 300, smoother_block_nodes: 1, smoother_degree: 1, smoother_ratio: 1.5, patience: 1"
+
+
+def case(solver, modulus="1e9", tolerance="1e-9"):
+    return CASE.replace("SOLVER", solver).replace("MODULUS", modulus).replace("TOLERANCE", tolerance)
+
+
+def close(a, b, what):
+    size = max(max(abs(value)) for value in b.values())
+    worst = max(max(abs(a[label] - b[label])) for label in b)
+    check(a.keys() == b.keys() and worst <= 1e-5 * size, f"{what}: differs by {worst / size:.1e}")
+
+
+def every_rung_gives_the_same_pose():
+    expected = None
+    for recipe in ("direct", "plain", "metric", "strong", "two_level", "auto"):
+        for ranks in (1, 2):
+            finished, report, path = solve(case(f"recipe: {recipe}"), ranks=ranks)
+            check(finished.exit_code == 0, f"{recipe}, {ranks} ranks: {finished.errors}")
+            used = "metric" if recipe == "auto" else recipe
+            check(report["solver"]["recipe"] == used, f"{recipe} used {report['solver']['recipe']}")
+            check([step["rung"] for step in report["solver"]["steps"]] == [used], f"{recipe} climbed")
+            check(report["solver"]["relative_residual"] <= 1e-9, f"{recipe}: {report['solver']['relative_residual']}")
+            points = read_points(path)
+            expected = expected or points
+            close(points, expected, f"{recipe} on {ranks} ranks")
+
+
+def a_climb_is_told():
+    for ranks in (1, 2):
+        finished, report, _ = solve(case(CRIPPLED), ranks=ranks)
+        check(finished.exit_code == 0, f"{ranks} ranks: {finished.errors}")
+        steps = report["solver"]["steps"]
+        check([step["rung"] for step in steps] == ["metric", "strong", "two_level", "direct"], f"steps: {steps}")
+        check("too slow" in steps[0]["outcome"] and steps[0]["iterations"] == 40, f"first step: {steps[0]}")
+        check(steps[3]["relative_residual"] <= 1e-9, f"last step: {steps[3]}")
+        check(sum(step["iterations"] for step in steps) == report["solver"]["iterations"], "iterations do not add up")
+        check("climbed          metric, 40 iterations" in finished.output, finished.output)
+
+
+def without_memory_all_that_was_tried_is_told():
+    for ranks in (1, 2):
+        finished, _, _ = solve(case(CRIPPLED + ", factor_memory: 1, max_iterations: 125"), ranks=ranks)
+        check(finished.exit_code == 1, f"exit {finished.exit_code}")
+        for words in ("after 125 iterations, the most allowed", "Tried: metric (40 iterations)",
+                      "solver.factor_memory allows 1 MiB"):
+            check(words in finished.errors, f"'{words}' is not in: {finished.errors}")
+        check(finished.errors.count("error:") == 1, f"told more than once: {finished.errors}")
+
+
+def what_rounding_allows_is_refused_or_taken():
+    finished, _, _ = solve(case("recipe: auto", tolerance="1e-15"))
+    check(finished.exit_code == 1 and "double precision allows about" in finished.errors, finished.errors)
+    finished, report, _ = solve(case("recipe: auto", tolerance="1e-15, out_of_reach: accept"))
+    check(finished.exit_code == 0, finished.errors)
+    solver = report["solver"]
+    check(solver["rounding_limited"], "not said to be limited by rounding")
+    check(1e-15 < solver["relative_residual"] < 3 * solver["attainable_residual"], f"{solver}")
+    check(len(solver["steps"]) == 1, f"climbed in vain: {solver['steps']}")
+
+
+def the_plan_is_explained():
+    folder = tempfile.mkdtemp(prefix="orthostat-")
+    for modulus, first in (("1e9", "metric"), ("1e12", "two_level")):
+        with open(os.path.join(folder, "case.yaml"), "w") as stream:
+            stream.write(case("recipe: auto", modulus=modulus))
+        finished = run("explain", "case.yaml", "--json", folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        plan = json.loads(finished.output)["solver"]
+        check(plan["recipe"] == first, f"{modulus}: {plan}")
+        check(any("at one place" in reason for reason in plan["reasons"]), f"{modulus}: {plan}")
+        check(any("last rung is" in reason for reason in plan["reasons"]), f"{modulus}: {plan}")
+        check(f"{first} first: " in run("explain", "case.yaml", folder=folder).output, "the rung is not printed")
+
+
+every_rung_gives_the_same_pose()
+a_climb_is_told()
+without_memory_all_that_was_tried_is_told()
+what_rounding_allows_is_refused_or_taken()
+the_plan_is_explained()
