@@ -78,7 +78,7 @@ typedef struct OstHardReport {
     double seconds;
 } OstHardReport;
 
-/* Local. Names for tables: "tube", "1/2", "radial smooth". */
+/* Local. Names, values and words for tables. */
 extern const char *const ost_hard_outcome_name[OST_HARD_OUTCOMES];
 extern const double ost_hard_ratio[OST_HARD_RATIOS];
 extern const double ost_hard_nu[OST_HARD_FAMILY];

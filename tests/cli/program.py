@@ -16,12 +16,12 @@ class Finished:
         self.errors = process.stderr
 
 
-def run(*arguments, ranks=1, folder=None):
+def run(*arguments, ranks=1, folder=None, timeout=240):
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
     process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, text=True, timeout=240)
+                             stderr=subprocess.PIPE, text=True, timeout=timeout)
     return Finished(process)
 
 

@@ -11,9 +11,9 @@ SHAPES = {"tube", "beam", "plate", "slivers", "layers", "soft", "stiff", "checke
 SOLVED = {"solved", "solved to rounding"}
 
 
-def grid(folder, ranks):
+def grid(folder, ranks, *shapes):
     path = os.path.join(folder, f"hard-{ranks}.json")
-    finished = run("verify", "--hard", "--quick", "--json", path, ranks=ranks)
+    finished = run("verify", "--hard", "--quick", "--json", path, *shapes, ranks=ranks, timeout=580)
     with open(path) as stream:
         document = json.load(stream)
     check(document["ranks"] == ranks, f"{document['ranks']} ranks ran, not {ranks}")
@@ -26,36 +26,41 @@ def check_sound(point):
     name = point["point"]
     check(point["outcome"] in SOLVED | {"refused rightly"}, f"{name}: {point['outcome']}: {point['reason']}")
     if point["outcome"] not in SOLVED:
+        check(point["reason"], f"{name} is refused without a reason")
         return
     check(point["unknowns"] > 3000, f"{name}: only {point['unknowns']} unknowns, which any case has factored")
-    check(point["relative_residual"] <= point["asked"], f"{name}: residual {point['relative_residual']}")
-    check((point["asked"] == 1e-8) == (point["outcome"] == "solved"), f"{name}: asked {point['asked']}")
-    # ||u - u*|| <= ||K^-1|| ||f - K u||; the norm is estimated, from below.
-    check(point["digits"] is not None and 10 ** -point["digits"] <= 4 * point["amplification"] *
-          (point["asked"] + point["floor"]), f"{name}: {point['digits']} digits")
+    check(point["rounding_limited"] == (point["outcome"] == "solved to rounding"), f"{name}: {point['outcome']}")
+    check(point["rounding_limited"] or point["relative_residual"] <= 1e-8, f"{name}: {point['relative_residual']}")
+    check(10 ** -point["digits"] <= 10 * point["stated_error"], f"{name}: {point['digits']} digits")
+
+
+def check_ranks(name, one, two):
+    """The same verdict; and the same body, as near as factorisations of differently rounded sums come to it."""
+    if one["outcome"] != two["outcome"]:  # at the very limit of double precision one may just reach 1e-8
+        check({one["outcome"], two["outcome"]} == SOLVED and max(one["floor"], two["floor"]) > 1e-10,
+              f"{name}: {one['outcome']} on one rank, {two['outcome']} on two")
+    if one["flawed"]:
+        return
+    apart = abs(one["size"] - two["size"]) / one["size"]
+    least = max(one["plain_factors_error"], two["plain_factors_error"], 1e-15)
+    check(apart <= 100 * least, f"{name}: displacements are {apart:.1e} apart")
 
 
 def main():
     folder = tempfile.mkdtemp(prefix="orthostat-")
-    one, two = grid(folder, 1), grid(folder, 2)
-    check(one.keys() == two.keys(), "the ranks ran different points")
+    one, two = grid(folder, 1), grid(folder, 2, "tube", "slivers", "stiff")
     sound = [name for name, point in one.items() if not point["flawed"]]
     check({one[name]["shape"] for name in sound} == SHAPES, "a shape is missing")
     check({one[name]["row"] for name in sound} == set(range(7)), "a Poisson's ratio is missing")
     check({one[name]["order"] for name in sound} == {1, 2}, "an order is missing")
-    for name, point in one.items():
-        other = two[name]
+    check({point["shape"] for point in two.values()} == {"tube", "slivers", "stiff"}, "shapes were not picked")
+    for name, point in list(one.items()) + list(two.items()):
         if point["flawed"]:
-            check(point["outcome"] == other["outcome"] == "refused rightly", f"{name}: {point['reason']}")
-            continue
-        check_sound(point)
-        check_sound(other)
-        check(point["outcome"] == other["outcome"],
-              f"{name}: {point['outcome']} on one rank, {other['outcome']} on two")
-        # Two factorisations of what two assemblies rounded differently: as near as conditioning lets them.
-        apart = abs(point["size"] - other["size"]) / point["size"]
-        check(apart <= 100 * max(point["plain_factors_error"], other["plain_factors_error"], 1e-15),
-              f"{name}: displacements are {apart:.1e} apart")
+            check(point["outcome"] == "refused rightly", f"{name}: {point['outcome']}: {point['reason']}")
+        else:
+            check_sound(point)
+    for name in two:
+        check_ranks(name, one[name], two[name])
 
     check(run("verify", "--hard", "cube").exit_code == 2, "a shape that is not there")
     check(run("verify", "--hard", "--json", os.path.join(folder, "no", "such.json"), "tube").exit_code == 2,
