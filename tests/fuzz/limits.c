@@ -24,7 +24,9 @@ enum { MEMORY_FACTOR = 10, SECONDS = 1 };
 static size_t bytes_before;
 
 #if COUNTS_ALL_MEMORY
-#include <sanitizer/allocator_interface.h>
+/* Of sanitizer/allocator_interface.h, which GCC does not install. */
+int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void *, size_t), void (*)(const volatile void *));
+size_t __sanitizer_get_allocated_size(const volatile void *);
 
 /* Open MPI's threads allocate when they please. */
 static _Thread_local int counts;

@@ -140,7 +140,7 @@ static size_t change(size_t size)
     case 0:
         return at;
     case 1:
-        return replace(size, at, length, NULL, 0);
+        return replace(size, at, length, (const uint8_t *)"", 0);
     case 2:
         memcpy(copy, mutated + at, length);
         return replace(size, draw(size), 0, copy, length);
