@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/refine.h"
 
+#include "algebra/exact_residual.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -15,6 +16,9 @@ enum { MOST_STALLS = 3 };
 
 /* The limit is an estimate for terms rounded at random: a residual this many times above it may still be rounding's. */
 static const double rounding_slack = 3.0;
+
+/* Below so many times the limit the rounding of a product would hide what can still be gained. */
+static const double exact_below = 10.0;
 
 typedef struct Refinement {
     const OstBlockMatrix *matrix;
@@ -122,9 +126,13 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
 /* left = f - A candidate, and what it says: its square, and twice the energy that the correction takes away. */
 static OstStatus examine(Refinement *work, double sums[2])
 {
-    OST_TRY(ost_block_matrix_apply(work->matrix, work->candidate, work->left));
-    for (size_t i = 0; i < work->n; i++)
-        work->left[i] = work->f[i] - work->left[i];
+    if (work->goal->exact) {
+        OST_TRY(ost_exact_residual(work->matrix, work->f, work->candidate, work->left));
+    } else {
+        OST_TRY(ost_block_matrix_apply(work->matrix, work->candidate, work->left));
+        for (size_t i = 0; i < work->n; i++)
+            work->left[i] = work->f[i] - work->left[i];
+    }
     sums[0] = dot(work->n, work->left, work->left);
     sums[1] = dot(work->n, work->correction, work->residual) + dot(work->n, work->correction, work->left);
     return sum(work->matrix->ctx, 2, sums);
@@ -183,6 +191,17 @@ static OstStatus find_limit(Refinement *work)
     return OST_SUCCESS;
 }
 
+/* The goal was missed: where rounding is near, residuals are worth more care from here on. */
+static OstStatus look_for_rounding(Refinement *work)
+{
+    OstGoal *goal = work->goal;
+    if (goal->exact || !(goal->norm > goal->target))
+        return OST_SUCCESS;
+    OST_TRY(find_limit(work));
+    goal->exact = goal->norm <= exact_below * goal->limit;
+    return goal->exact ? first_residual(work) : OST_SUCCESS;
+}
+
 /* The goal was missed: is it rounding? */
 static OstStatus judge(Refinement *work)
 {
@@ -215,6 +234,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
         const OstStatus status = inner(data, work->residual, work->correction, goal);
         OST_TRY(take_correction(work));
         OST_TRY(status);
+        OST_TRY(look_for_rounding(work));
         stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
     } while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS);
     if (goal->norm > goal->target)

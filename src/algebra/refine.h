@@ -23,6 +23,7 @@ typedef struct OstGoal {
     double target; /* relative_residual × ||f|| */
     double norm;   /* ||f - A u||, recomputed */
     double limit;  /* about the least that rounding leaves of it; 0 where nobody asked */
+    int exact;     /* so close to the limit that residuals are summed exactly (ost_exact_residual) */
     int iterations;
     int most_iterations;
     int patience;           /* 0: endless */

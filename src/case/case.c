@@ -153,6 +153,7 @@ static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
+    (*c)->solver.accept_attainable = 1; /* nobody has asked for a residual yet */
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     return ost_copy_string(ctx, path, &(*c)->path);
 }

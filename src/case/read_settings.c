@@ -39,6 +39,8 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
     OstYamlKey keys[] = {
         [RESIDUAL] = {"relative_residual", OST_OPTIONAL, NULL}, [OUT_OF_REACH] = {"out_of_reach", OST_OPTIONAL, NULL}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[RESIDUAL].value)
+        c->solver.accept_attainable = 0;
     if (keys[OUT_OF_REACH].value)
         OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
     if (!keys[RESIDUAL].value)

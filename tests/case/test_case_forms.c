@@ -316,6 +316,21 @@ static void every_load_is_read(void **state)
     ost_case_destroy(&c);
 }
 
+/* A case that asks for no residual takes what double precision holds; one that asks gets it, or a refusal. */
+static void what_is_out_of_reach_is_refused_to_those_who_ask(void **state)
+{
+    (void)state;
+    static const char *const accuracy[] = {"", "accuracy: {relative_residual: 1e-8}\n",
+                                           "accuracy: {out_of_reach: refuse}\n"};
+    for (int a = 0; a < 3; a++) {
+        char whole[2048];
+        snprintf(whole, sizeof whole, "%s%s%s", cube, steel, accuracy[a]);
+        assert_success(read_text(whole, &c));
+        assert_int_equal(c->solver.accept_attainable, a == 0);
+        ost_case_destroy(&c);
+    }
+}
+
 static void settings_are_read(void **state)
 {
     (void)state;
@@ -379,6 +394,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(selections_in_space_are_read),
     cmocka_unit_test(displacements_may_be_free),
     cmocka_unit_test(every_load_is_read),
+    cmocka_unit_test(what_is_out_of_reach_is_refused_to_those_who_ask),
     cmocka_unit_test(settings_are_read),
     cmocka_unit_test(aliases_stand_for_their_anchors),
 };

@@ -86,7 +86,8 @@ def what_rounding_allows_is_refused_or_taken():
 
 def the_plan_is_explained():
     folder = tempfile.mkdtemp(prefix="orthostat-")
-    for modulus, first in (("1e9", "metric"), ("1e12", "two_level")):
+    first = "metric"
+    for modulus in ("1e9", "1e12"):
         with open(os.path.join(folder, "case.yaml"), "w") as stream:
             stream.write(case("recipe: auto", modulus=modulus))
         finished = run("explain", "case.yaml", "--json", folder=folder)
