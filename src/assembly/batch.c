@@ -11,12 +11,6 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
         }
 }
 
-static inline void place_centroids(const OstLanes *x, OstLanes places[3])
-{
-    for (int i = 0; i < 3; i++)
-        places[i] = 0.25 * (x[i] + x[3 + i] + x[6 + i] + x[9 + i]);
-}
-
 void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh *mesh, const OstMaterialField *field,
                       int count, const OstLocal *tets)
 {
@@ -31,10 +25,7 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
     if (field->region_formula && element->points > 0)
         element->places(batch->x, places);
-    else if (field->region_formula)
-        place_centroids(batch->x, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points,
-                          field->region_formula ? places : NULL);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points, places);
 }
 
 void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,

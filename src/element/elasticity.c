@@ -158,33 +158,16 @@ static void examine_axes(OstElasticity *elasticity, const OstMaterialField *fiel
     double along[3] = {0.0}; /* radial, tangential, axial */
     for (int a = 0; a < 3; a++)
         along[spec->order[a] == OST_RADIAL ? 0 : spec->order[a] == OST_TANGENTIAL ? 1 : 2] = elasticity->stretch[a];
+    const OstLanes zero = {0};
     for (int i = 0; i < 3; i++) {
-        elasticity->origin[i] = spec->origin[i];
-        elasticity->axis[i] = spec->axis[i] / length;
+        const double axis = spec->axis[i] / length;
+        const double next = spec->axis[(i + 1) % 3] / length;
+        elasticity->origin[i] = zero + 4.0 * spec->origin[i];
+        elasticity->axis[i] = zero + axis;
+        elasticity->about_axis[i] = zero + along[1] + (along[2] - along[1]) * axis * axis;
+        elasticity->about_axis[3 + i] = zero + (along[2] - along[1]) * axis * next;
     }
-    for (int i = 0; i < 3; i++) {
-        const double *axis = elasticity->axis;
-        elasticity->about_axis[i] = along[1] + (along[2] - along[1]) * axis[i] * axis[i];
-        elasticity->about_axis[3 + i] = (along[2] - along[1]) * axis[i] * axis[(i + 1) % 3];
-    }
-    elasticity->radial = along[0] - along[1];
-}
-
-static inline void cylindrical_metric(OstElasticity *elasticity, const OstLanes place[3])
-{
-    const double *axis = elasticity->axis;
-    OstLanes d[3];
-    for (int i = 0; i < 3; i++)
-        d[i] = place[i] - elasticity->origin[i];
-    const OstLanes height = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
-    for (int i = 0; i < 3; i++)
-        d[i] -= height * axis[i];
-    const OstLanes share = elasticity->radial / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int i = 0; i < 3; i++) {
-        const OstLanes part = share * d[i];
-        elasticity->metric[i] = elasticity->about_axis[i] + part * d[i];
-        elasticity->metric[3 + i] = elasticity->about_axis[3 + i] + part * d[(i + 1) % 3];
-    }
+    elasticity->radial = zero + (along[0] - along[1]);
 }
 
 static void examine(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
@@ -227,11 +210,6 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
                            const OstLocal tets[OST_LANES], int points, const OstLanes *places)
 {
     OstLanes axes[9];
-    if (elasticity->by_metric && elasticity->cylindrical && places) {
-        elasticity->points = 1;
-        cylindrical_metric(elasticity, places);
-        return;
-    }
     elasticity->points = points > 0 && ost_field_has_formula(field, region) ? points : 1;
     for (int point = 0; point < elasticity->points; point++) {
         if (elasticity->points > 1)
@@ -248,13 +226,16 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
 static void gather_region(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
                           const OstLocal tets[OST_LANES], int points, const OstLanes *places)
 {
-    if (!field->region_varies[region] && elasticity->region == region)
+    if (elasticity->region == region)
         return;
-    elasticity->region = field->region_varies[region] ? -1 : region;
     elasticity->by_mean = points > 0 && ost_field_stiff_mode(field, region) != NULL;
     examine(elasticity, field, region);
     elasticity->by_metric = elasticity->metric_suffices && elasticity->stretched;
-    if (field->region_varies[region])
+    elasticity->about_line = elasticity->by_metric && elasticity->cylindrical && field->region_varies[region];
+    elasticity->region = elasticity->about_line || !field->region_varies[region] ? region : -1;
+    if (elasticity->about_line)
+        elasticity->points = 1;
+    else if (field->region_varies[region])
         gather_varying(elasticity, field, region, tets, points, places);
     else
         gather_uniform(elasticity, field, region);
@@ -279,6 +260,7 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
     elasticity->points = points > 0 ? points : 1;
     elasticity->by_mean = 0;
     elasticity->by_metric = 0;
+    elasticity->about_line = 0;
     for (int lane = 0; lane < OST_LANES; lane++) {
         const OstLocal same[OST_LANES] = {tets[lane], tets[lane], tets[lane], tets[lane]};
         OstElasticity one;

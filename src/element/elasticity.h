@@ -22,19 +22,20 @@ enum { OST_MAX_POINTS = 10, OST_ELASTICITY_COUNT = 21 };
 typedef struct OstElasticity {
     int points;     /* 1: the same all over each tet; or as many as were asked for */
     int by_mean;    /* is C split? */
-    int32_t region; /* every lane holds this region's one C; -1: not so */
+    int32_t region; /* what is held serves every tet of this region; -1: not so */
 
     int metric_suffices; /* set by who has no need of c and m where there is A (linear tets alone) */
-    int by_metric;       /* is A set, and c not? */
+    int by_metric;       /* is C known by A, and c not set? */
+    int about_line;      /* if so: is A not set, but had from the place by ost_metric_about_line? */
     OstLanes metric[6];  /* A_11 A_22 A_33 A_12 A_23 A_31 */
 
     int32_t examined; /* the region, or -1, that these are about: */
     int stretched;    /* is it of the family? */
     double stretch[3];
     double shear;
-    int cylindrical; /* is A that of axes about a line, so that it comes from the place alone? */
-    double origin[3], axis[3];
-    double about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the place's distance from the axis */
+    int cylindrical;                /* is A that of axes about a line, so that it comes from the place alone? */
+    OstLanes origin[3], axis[3];    /* four times a point of the line, and its direction */
+    OstLanes about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the place's distance from the line */
 
     OstLanes c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstLanes m[OST_MAX_POINTS][6]; /* zero in the lanes that are not split; not set if by_mean is 0 */
@@ -46,15 +47,34 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->region = -1;
     elasticity->metric_suffices = 0;
     elasticity->by_metric = 0;
+    elasticity->about_line = 0;
     elasticity->examined = -1;
 }
 
 /* Local. Takes up the tets in the lanes. `places` are `points` points in each of them (3 numbers a point): C is
  * evaluated there if the axes of any of the tets come from a formula. Linear tets pass 0: C is that at their centroids,
- * and never split, since their strain is its own mean. Their `places` are NULL or the centroids: where A suffices and
- * the axes are cylindrical it is had from them, which is cheaper than to read the axes from memory. */
+ * and never split, since their strain is its own mean; where A suffices and the axes are cylindrical, nothing is taken
+ * up but the line, and A had by ost_metric_about_line, which is cheaper than to read the axes from memory. */
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_LANES],
                            int points, const OstLanes *places);
+
+/* A at the centroids of tets with these corners, where axes turn about a line. */
+static inline void ost_metric_about_line(const OstElasticity *elasticity, const OstLanes x[12], OstLanes metric[6])
+{
+    const OstLanes *axis = elasticity->axis;
+    OstLanes d[3]; /* four times the distance, whose length does not matter */
+    for (int i = 0; i < 3; i++)
+        d[i] = x[i] + x[3 + i] + x[6 + i] + x[9 + i] - elasticity->origin[i];
+    const OstLanes height = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
+    for (int i = 0; i < 3; i++)
+        d[i] -= height * axis[i];
+    const OstLanes share = elasticity->radial / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int i = 0; i < 3; i++) {
+        const OstLanes part = share * d[i];
+        metric[i] = elasticity->about_axis[i] + part * d[i];
+        metric[3 + i] = elasticity->about_axis[3 + i] + part * d[(i + 1) % 3];
+    }
+}
 
 /* Where the C of a point is. */
 static inline int ost_elasticity_at(const OstElasticity *elasticity, int point)
