@@ -57,9 +57,9 @@ static inline void fill_lanes(const double c[36], OstLanes *lanes)
 /* One C in every tet. */
 static inline void uniform_elasticity(const double c[36], OstElasticity *elasticity)
 {
+    ost_elasticity_clear(elasticity);
     elasticity->points = 1;
     elasticity->by_mean = 0;
-    elasticity->by_metric = 0;
     elasticity->region = 0;
     fill_lanes(c, elasticity->c[0]);
 }

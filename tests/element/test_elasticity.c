@@ -269,36 +269,50 @@ static void other_shear_has_no_metric(void **state)
     ost_field_destroy(&field);
 }
 
-/* A from a place about a line askew, against A from the axes of that place. */
+/* A about a line askew, made from the corners of tets, against A from the axes at their centroids. */
 static void the_metric_about_a_line_is_that_of_its_axes(void **state)
 {
     (void)state;
     static const int32_t region[OST_LANES] = {0};
     static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
-    static const double centroids[3 * OST_LANES] = {1, 2, 3, -2, 0.5, 1, 4, -3, 2, 0.1, 0.2, -5};
     const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
                               .origin = {0.3, -0.2, 0.5},
                               .axis = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
                               .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
     const OstOrthotropic constants = ost_orthotropic_family(moduli[3], 0.3, OST_SHEAR_GEOMETRIC);
+    double centroids[3 * OST_LANES] = {0.0}, axes[9];
     OstMaterial material;
     OstMaterialField *field = NULL;
-    OstElasticity by_axes, by_place;
-    OstLanes places[3];
+    OstElasticity about_line, of_axes;
+    OstLanes x[12], metric[6];
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        double of_tet[12];
+        random_tet((unsigned)lane + 1u, of_tet);
+        for (int i = 0; i < 12; i++) {
+            x[i][lane] = of_tet[i];
+            centroids[3 * lane + i % 3] += of_tet[i] / 4.0;
+        }
+    }
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
     assert_success(ost_field_create(ctx, 1, &material, &spec, OST_LANES, region, label, centroids, NULL, &field));
-    for (int n = 0; n < 3 * OST_LANES; n++)
-        places[n % 3][n / 3] = centroids[n];
-    ost_elasticity_clear(&by_axes);
-    ost_elasticity_clear(&by_place);
-    by_axes.metric_suffices = by_place.metric_suffices = 1;
-    ost_elasticity_gather(&by_axes, field, first_tets, 0, NULL);
-    ost_elasticity_gather(&by_place, field, first_tets, 0, places);
-    assert_true(by_place.by_metric && by_place.cylindrical);
-    for (int p = 0; p < 6; p++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            assert_close(by_place.metric[p][lane] / by_axes.stretch[1], by_axes.metric[p][lane] / by_axes.stretch[1],
-                         1e-14);
+    ost_elasticity_clear(&about_line);
+    about_line.metric_suffices = 1;
+    ost_elasticity_gather(&about_line, field, first_tets, 0, NULL);
+    assert_true(about_line.by_metric && about_line.about_line);
+    ost_metric_about_line(&about_line, x, metric);
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        ost_field_axes(field, first_tets[lane], axes);
+        for (int p = 0; p < 6; p++) {
+            const int i = p % 3, j = p < 3 ? i : (p + 1) % 3;
+            double expected = 0.0;
+            for (int a = 0; a < 3; a++)
+                expected += about_line.stretch[a] * axes[3 * a + i] * axes[3 * a + j];
+            assert_close(metric[p][lane] / about_line.stretch[1], expected / about_line.stretch[1], 1e-14);
+        }
+    }
+    ost_elasticity_clear(&of_axes); /* C is asked for: the line does not suffice */
+    ost_elasticity_gather(&of_axes, field, first_tets, 0, NULL);
+    assert_false(of_axes.by_metric || of_axes.about_line);
     ost_field_destroy(&field);
 }
 
