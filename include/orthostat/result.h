@@ -52,4 +52,11 @@ typedef struct OstResult {
     OstObjections objections; /* none: the result is an answer; the same on all ranks */
 } OstResult;
 
+/* A quantity that the case watches, as the answer has it. */
+typedef struct OstWatchedValue {
+    const char *name;
+    double value;
+    double expected; /* not a number where it is not known */
+} OstWatchedValue;
+
 #endif

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "core/error.h"
+#include "core/memory.h"
 
 #include "orthostat/scene.h"
 #include "output/summary.h"
@@ -62,20 +63,29 @@ static const struct argp solve_argp = {
     options, parse_option, "CASE", "Finds the pose of a case at rest and writes its fields for ParaView.",
     NULL,    NULL,         NULL};
 
-static OstStatus report(const OstScene *scene, const OstResult *result, const Arguments *arguments, const char *file)
+static OstStatus report_watched(const OstScene *scene, const OstResult *result, const OstWatchedValue *watched,
+                                const Arguments *arguments, const char *file)
 {
     OstLedgerSummary ledger;
-    OstStatus status = ost_ledger_summarise(scene->ctx, &ledger);
-    if (status != OST_SUCCESS)
-        return status;
+    OST_TRY(ost_ledger_summarise(scene->ctx, &ledger));
     const int json_on_stdout = arguments->json && strcmp(arguments->json, "-") == 0;
     if (ost_log_level(scene->ctx) != OST_LOG_QUIET && !json_on_stdout) {
         ost_summary_print(scene, result, file);
-        OST_TRY(ost_watch_print(scene, result));
+        if (ost_rank(scene->ctx) == 0)
+            ost_watch_print(watched, scene->c->watch_count);
         ost_ledger_print(scene, &ledger);
     }
-    if (arguments->json)
-        status = ost_agree(scene->ctx, ost_summary_write_json(scene, result, &ledger, file, arguments->json));
+    if (!arguments->json)
+        return OST_SUCCESS;
+    return ost_agree(scene->ctx, ost_summary_write_json(scene, result, &ledger, watched, file, arguments->json));
+}
+
+static OstStatus report(const OstScene *scene, const OstResult *result, const Arguments *arguments, const char *file)
+{
+    OstWatchedValue *watched = NULL;
+    OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
+    const OstStatus status = report_watched(scene, result, watched, arguments, file);
+    OST_FREE(watched);
     return status;
 }
 

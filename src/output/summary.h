@@ -24,9 +24,9 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
- */
+ * `watched` has as many values as the case watches quantities, in their order. */
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                                 const char *file, const char *path);
+                                 const OstWatchedValue *watched, const char *file, const char *path);
 
 /* Local. The plan's effects as a list of {effect, on, reason}; the caller's reference, NULL if jansson fails. */
 struct json_t;

@@ -101,18 +101,29 @@ json_t *ost_effects_json(const OstPlan *plan)
     return effects;
 }
 
+static json_t *watched_json(const OstWatchedValue *watched, int count)
+{
+    json_t *values = json_object();
+    for (int w = 0; w < count; w++)
+        json_object_set_new(values, watched[w].name,
+                            json_pack("{s:o, s:o}", "value", number_json(watched[w].value), "expected",
+                                      number_json(watched[w].expected)));
+    return values;
+}
+
 static json_t *run_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                        const char *file)
+                        const OstWatchedValue *watched, const char *file)
 {
     const OstMesh *mesh = result->mesh;
-    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
+    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
                      scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0, "status",
                      ost_result_status(result), "reasons", objections_json(&result->objections), "ranks",
                      ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes, "tets",
                      (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
                      solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
                      number_json(result->largest_displacement), "largest_at", vector_json(result->largest_at),
-                     "effects", ost_effects_json(&scene->plan), "ledger", ledger_json(summary), "output", file);
+                     "watched", watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan),
+                     "ledger", ledger_json(summary), "output", file);
 }
 
 static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
@@ -131,12 +142,12 @@ static OstStatus write_file(OstContext *ctx, const json_t *document, const char 
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                                 const char *file, const char *path)
+                                 const OstWatchedValue *watched, const char *file, const char *path)
 {
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
-    json_t *document = run_json(scene, result, summary, file);
+    json_t *document = run_json(scene, result, summary, watched, file);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds a number that JSON cannot: not finite");
     OstStatus status = OST_SUCCESS;

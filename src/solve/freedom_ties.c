@@ -2,6 +2,7 @@
 #include "solve/freedom_ties.h"
 
 #include "core/error.h"
+#include "core/gather.h"
 #include "core/memory.h"
 #include "core/small.h"
 
@@ -237,36 +238,6 @@ done:
     return status;
 }
 
-static OstStatus gather(OstContext *ctx, const OstTies *mine, OstTies *all)
-{
-    int *count = NULL; /* per rank, and where its ties start */
-    MPI_Datatype item = MPI_DATATYPE_NULL;
-    const int my_count = mine->count;
-    const int size = ost_size(ctx);
-    OstGlobal total = 0;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &count, 2 * (size_t)size));
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&my_count, 1, MPI_INT, count, 1, MPI_INT, ost_comm(ctx))));
-    for (int r = 0; r < size && total <= INT32_MAX; r++) {
-        count[size + r] = (int)total;
-        total += count[r];
-    }
-    if (total > INT32_MAX)
-        OST_TRY_DONE(OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "the mesh falls into too many parts to tell what holds them"));
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &all->tie, total)));
-    all->count = (OstLocal)total;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_contiguous((int)sizeof(OstTie), MPI_BYTE, &item)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_commit(&item)));
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allgatherv(mine->tie, my_count, item, all->tie, count, count + size, item, ost_comm(ctx))));
-done:
-    if (item != MPI_DATATYPE_NULL)
-        MPI_Type_free(&item);
-    OST_FREE(count);
-    return status;
-}
-
 /* Ties of the same bodies from several ranks become one. */
 static void unite(OstTies *ties)
 {
@@ -291,7 +262,9 @@ OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, cons
     *ties = (OstTies){0};
     OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, parts, frames, &mine));
     if (status == OST_SUCCESS)
-        status = gather(mesh->ctx, &mine, ties);
+        status = ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
+                                  "the mesh falls into too many parts to tell what holds them", (void **)&ties->tie,
+                                  &ties->count);
     if (status == OST_SUCCESS)
         unite(ties);
     else

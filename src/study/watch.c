@@ -200,19 +200,30 @@ OstStatus ost_watch_check(const OstScene *scene)
     return OST_SUCCESS;
 }
 
-OstStatus ost_watch_print(const OstScene *scene, const OstResult *result)
+OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values)
 {
+    OstContext *ctx = scene->ctx;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, values, scene->c->watch_count)));
     for (int w = 0; w < scene->c->watch_count; w++) {
         const OstWatch *watch = &scene->c->watches[w];
         OstWatched watched;
-        OST_TRY(ost_watch_evaluate(scene, result, watch, &watched));
-        if (ost_rank(scene->ctx) != 0)
-            continue;
-        printf("%-22s %.10g", watch->name, watched.value);
-        if (!isnan(watch->expected) && watch->expected != 0.0)
-            printf(", expected %.10g: %.2g %% off", watch->expected,
-                   100.0 * fabs(watched.value / watch->expected - 1.0));
-        puts("");
+        const OstStatus status = ost_watch_evaluate(scene, result, watch, &watched);
+        if (status != OST_SUCCESS) {
+            OST_FREE(*values);
+            return status;
+        }
+        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected};
     }
     return OST_SUCCESS;
+}
+
+void ost_watch_print(const OstWatchedValue *values, int count)
+{
+    for (int w = 0; w < count; w++) {
+        const double expected = values[w].expected;
+        printf("%-22s %.10g", values[w].name, values[w].value);
+        if (!isnan(expected) && expected != 0.0)
+            printf(", expected %.10g: %.2g %% off", expected, 100.0 * fabs(values[w].value / expected - 1.0));
+        puts("");
+    }
 }

@@ -23,7 +23,11 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
 /* Collective. Refuses a scene whose case watches, or verifies, on a selection that is not there or selects nothing. */
 OstStatus ost_watch_check(const OstScene *scene);
 
-/* Collective; rank 0 prints. What the case watches, a line each: value, and the expected one where it is known. */
-OstStatus ost_watch_print(const OstScene *scene, const OstResult *result);
+/* Collective. All that the case watches, in its order: memory from the context, the caller's to free; names are the
+ * case's. */
+OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values);
+
+/* Local. A line each: value, and the expected one where it is known. */
+void ost_watch_print(const OstWatchedValue *values, int count);
 
 #endif

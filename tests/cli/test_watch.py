@@ -1,0 +1,90 @@
+"""What a case watches: printed by solve, in its JSON, the same on two ranks; selections that are not there refused."""
+import json
+import os
+import tempfile
+
+from program import SOURCE, check, run, solve
+
+os.environ["ORTHOSTAT_CASES"] = os.path.join(SOURCE, "cases")
+
+# Pulled by 2 over a section of 1 at E = 1000: 0.002 of its length of 4; half the work is 0.5 * 2 * 0.008.
+CASE = """title: a bar under tension
+mesh: {block: {size: [4, 1, 1], divisions: [8, 2, 2]}}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints:
+  - {on: {boundary: xmin}, slide: [1, 0, 0]}
+  - {on: {boundary: ymin}, slide: [0, 1, 0]}
+  - {on: {boundary: zmin}, slide: [0, 0, 1]}
+loads: [{on: {boundary: xmax}, total_force: [2, 0, 0]}]
+accuracy: {relative_residual: 1e-10}
+watch:
+  tip: {displacement: {nearest: [4, 1, 0]}, component: x, expected: 0.01}
+  held: {reaction: {boundary: xmin}, component: x}
+  work: {strain_energy: all, expected: 0.008}
+"""
+TRUTH = {"tip": 0.008, "held": -2.0, "work": 0.008}
+EXPECTED = {"tip": 0.01, "held": None, "work": 0.008}
+
+
+def near(found, truth):
+    return abs(found - truth) <= 1e-8 * abs(truth)
+
+
+def is_printed_and_in_json(ranks):
+    finished, report, _ = solve(CASE, ranks=ranks)
+    check(finished.exit_code == 0, finished.errors)
+    check(list(report["watched"]) == list(TRUTH), f"watched: {report['watched']}")
+    printed = {line.split()[0]: line.split() for line in finished.output.splitlines() if line.split()}
+    for name, truth in TRUTH.items():
+        watched = report["watched"][name]
+        check(near(watched["value"], truth), f"{name} on {ranks} ranks: {watched}")
+        check(watched["expected"] == EXPECTED[name], f"{name}: {watched}")
+        check(near(float(printed[name][1].rstrip(",")), truth), f"{name}: printed {printed[name]}")
+    check(printed["tip"][-3:] == ["20", "%", "off"], f"the tip is 20 % off: {printed['tip']}")
+    check("expected" not in printed["held"], f"nothing was expected of the reaction: {printed['held']}")
+
+
+def nothing_watched_is_nothing_in_json():
+    _, report, _ = solve(CASE[:CASE.index("watch:")])
+    check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
+
+
+def refused(name, text, words):
+    folder = tempfile.mkdtemp(prefix="orthostat-")
+    with open(os.path.join(folder, "case.yaml"), "w") as stream:
+        stream.write(text)
+    for command in ("check", "solve"):
+        finished = run(command, "case.yaml", folder=folder)
+        check(finished.exit_code == 2, f"{name}: {command} exits {finished.exit_code}: {finished.output}")
+        for word in words:
+            check(word in finished.errors, f"{name}: {command} does not say '{word}': {finished.errors}")
+        check(os.listdir(folder) == ["case.yaml"], f"{name}: {command} wrote {os.listdir(folder)}")
+
+
+def verify_section(boundary):
+    return CASE + f"""verify:
+  formula: uniform_stress
+  source: Hooke's law
+  parameters: {{xx: 2, yy: 0, zz: 0, xy: 0, yz: 0, zx: 0}}
+  ladder: [{{order: 1, refinements: [0], quick: 1}}]
+  quantities:
+    end: {{displacement: [1, 0, 0], on: {{boundary: {boundary}}}, expected: 0.008, error: [1e-8], rate: [exact]}}
+"""
+
+
+def main():
+    for ranks in (1, 2):
+        is_printed_and_in_json(ranks)
+    nothing_watched_is_nothing_in_json()
+    refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
+            ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])
+    refused("a watch of nothing", CASE[:CASE.index("watch:")] + "watch: {}\n", ["case.yaml:10", "watch"])
+    refused("a verified boundary", verify_section("xmxa"), ["case.yaml:", "no boundary 'xmxa'", "'xmax'"])
+
+    finished = run("verify", "nosuch")
+    there = [file[:-5] for file in os.listdir(os.path.join(os.environ["ORTHOSTAT_CASES"], "verify")) if file.endswith(".yaml")]
+    check(finished.exit_code == 2, f"verify nosuch: exit {finished.exit_code}")
+    check("'nosuch'" in finished.errors and all(name in finished.errors.replace(",", "").split() for name in there), f"verify nosuch: {finished.errors}")
+
+
+main()
