@@ -135,6 +135,7 @@ done:
 int main(int argc, char **argv)
 {
     Bench bench = {.repetitions = argc > 1 ? atoi(argv[1]) : 15};
+    ost_keep_freed_memory();
     MPI_Init(&argc, &argv);
     if (ost_context_create(MPI_COMM_WORLD, &bench.ctx) != OST_SUCCESS)
         return 1;

@@ -108,6 +108,7 @@ done:
 int main(int argc, char **argv)
 {
     OstContext *ctx = NULL;
+    ost_keep_freed_memory();
     MPI_Init(&argc, &argv);
     if (argc < 3 || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS) {
         fputs("usage: bench_peer_orthostat FOLDER NAME [TOLERANCE]\n", stderr);

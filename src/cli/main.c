@@ -99,6 +99,7 @@ int main(int argc, char **argv)
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)
         return answered;
+    ost_keep_freed_memory();
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS) {
         fputs("orthostat: error: MPI could not be started\n", stderr);
         return 1;

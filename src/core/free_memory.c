@@ -2,6 +2,7 @@
 #include "core/free_memory.h"
 
 #include "core/error.h"
+#include "core/memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,9 +47,11 @@ static double free_here(void)
     return fmax(fmin(machine, fmin(group, older)), 0.0);
 }
 
-/* Ranks of one machine, and this rank's number among them. */
+/* Ranks of one machine, and this rank's number among them. What they keep for themselves is given back, so that it
+ * counts as free. */
 static OstStatus share_machine(OstContext *ctx, MPI_Comm *machine, int *rank)
 {
+    ost_return_freed_memory();
     OST_TRY(
         OST_MPI(ctx, MPI_Comm_split_type(ost_comm(ctx), MPI_COMM_TYPE_SHARED, ost_rank(ctx), MPI_INFO_NULL, machine)));
     return OST_MPI(ctx, MPI_Comm_rank(*machine, rank));
@@ -58,8 +61,8 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
 {
     MPI_Comm machine;
     int rank = 0;
-    double here = free_here(); /* ranks read it at different moments: the least counts */
     OST_TRY(share_machine(ctx, &machine, &rank));
+    double here = free_here(); /* ranks read it at different moments: the least counts */
     OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_SUM, machine));
     if (status == OST_SUCCESS)
         status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_DOUBLE, MPI_MIN, machine));

@@ -4,6 +4,7 @@
 #include "core/context.h"
 #include "core/error.h"
 
+#include <malloc.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -78,6 +79,21 @@ void ost_free_memory(void *memory)
     Header *header = (Header *)memory - 1;
     ost_ledger_book(header->ctx, header->account, header->bytes, 1);
     free(header);
+}
+
+void ost_keep_freed_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
+
+void ost_return_freed_memory(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy)

@@ -15,6 +15,9 @@ OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memo
 /* Local. NULL is allowed. */
 void ost_free_memory(void *memory);
 
+/* Local. Gives back to the system what ost_keep_freed_memory has kept. */
+void ost_return_freed_memory(void);
+
 /* Local. A copy of a string in memory from ost_allocate. */
 OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy);
 
