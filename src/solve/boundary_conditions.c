@@ -183,10 +183,9 @@ static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, d
     else if (status == OST_SUCCESS && load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_AUTO)
         status = add_vertex_load(scene, load, force);
     else if (status == OST_SUCCESS)
-        status =
-            OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                      "the selection has vertices but no whole face of the body's surface, and this load needs faces; "
-                      "select a named surface, or widen the selection");
+        status = OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                           "the selection holds no whole face of the body's surface, and this load needs faces; "
+                           "select a named surface, or widen the selection");
     OST_FREE(faces);
     return status;
 }

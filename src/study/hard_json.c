@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "study/hard.h"
+#include "study/json_file.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* Numbers that JSON cannot write are null. */
 static json_t *number_json(double number)
@@ -41,25 +40,6 @@ static json_t *reading_json(const OstHardReading *reading)
     return json;
 }
 
-static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
-{
-    const size_t flags = JSON_INDENT(1) | JSON_REAL_PRECISION(12);
-    char partial[4096];
-    if (strcmp(path, "-") == 0) {
-        if (json_dumpf(document, stdout, flags) == 0 && puts("") >= 0)
-            return OST_SUCCESS;
-        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
-    }
-    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
-    if (length < 0 || (size_t)length >= sizeof partial)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
-    if (json_dump_file(document, partial, flags) == 0 && rename(partial, path) == 0)
-        return OST_SUCCESS;
-    const char *reason = strerror(errno);
-    remove(partial);
-    return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
-}
-
 OstStatus ost_hard_write_json(const OstHardReport *report, const char *path)
 {
     if (ost_rank(report->ctx) != 0)
@@ -71,7 +51,7 @@ OstStatus ost_hard_write_json(const OstHardReport *report, const char *path)
                                  "ranks", ost_size(report->ctx), "seconds", report->seconds, "points", points);
     if (!document)
         return OST_RAISE(report->ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
-    const OstStatus status = write_file(report->ctx, document, path);
+    const OstStatus status = ost_json_file_write(report->ctx, document, path);
     json_decref(document);
     return status;
 }

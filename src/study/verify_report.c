@@ -2,12 +2,11 @@
 #include "study/verify.h"
 
 #include "core/error.h"
+#include "study/json_file.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static void print_number(const char *format, int width, double number)
 {
@@ -162,25 +161,6 @@ static json_t *case_json(const OstVerifyReport *report)
                      runs_json(report));
 }
 
-static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
-{
-    const size_t flags = JSON_INDENT(1) | JSON_REAL_PRECISION(12);
-    char partial[4096];
-    if (strcmp(path, "-") == 0) {
-        if (json_dumpf(document, stdout, flags) == 0 && puts("") >= 0)
-            return OST_SUCCESS;
-        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
-    }
-    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
-    if (length < 0 || (size_t)length >= sizeof partial)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
-    if (json_dump_file(document, partial, flags) == 0 && rename(partial, path) == 0)
-        return OST_SUCCESS;
-    const char *reason = strerror(errno);
-    remove(partial);
-    return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
-}
-
 OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *const *reports, int quick,
                                 const char *path)
 {
@@ -196,7 +176,7 @@ OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *con
         json_pack("{s:b, s:b, s:i, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx), "cases", cases);
     if (!document)
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
-    const OstStatus status = write_file(ctx, document, path);
+    const OstStatus status = ost_json_file_write(ctx, document, path);
     json_decref(document);
     return status;
 }

@@ -189,9 +189,12 @@ static OstStatus check_selection(const OstScene *scene, const char *what, const 
 OstStatus ost_watch_check(const OstScene *scene)
 {
     const OstCase *c = scene->c;
-    for (int w = 0; w < c->watch_count; w++)
-        if (c->watches[w].kind == OST_WATCH_REACTION)
-            OST_TRY(check_selection(scene, "the watched", c->watches[w].name, c->watches[w].line, &c->watches[w].on));
+    for (int w = 0; w < c->watch_count; w++) {
+        OstWatch placed = c->watches[w]; /* placed for the warning alone: a solve looks for its vertex by itself */
+        OST_TRY(ost_watch_place(scene->mesh, &placed));
+        if (placed.kind == OST_WATCH_REACTION)
+            OST_TRY(check_selection(scene, "the watched", placed.name, placed.line, &placed.on));
+    }
     for (int q = 0; c->verify && q < c->verify->quantity_count; q++) {
         const OstVerifyQuantity *quantity = &c->verify->quantity[q];
         if (quantity->kind != OST_MEASURE_FIELD && quantity->kind != OST_MEASURE_ENERGY)

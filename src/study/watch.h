@@ -20,7 +20,8 @@ OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                              OstWatched *watched);
 
-/* Collective. Refuses a scene whose case watches, or verifies, on a selection that is not there or selects nothing. */
+/* Collective. Refuses a scene whose case watches, or verifies, on a selection that is not there or selects nothing;
+ * warns of a displacement that is watched at another place than the one asked for, as ost_watch_place does. */
 OstStatus ost_watch_check(const OstScene *scene);
 
 /* Collective. All that the case watches, in its order: memory from the context, the caller's to free; names are the

@@ -1,11 +1,13 @@
 """Where solve writes: named before any work, refused where something would be lost; and what check says of it."""
 import json
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 
-from program import SOURCE, check, run
+from program import PROGRAM, SOURCE, check, run
 
 CASE = """mesh:
   block: {size: [2, 1, 1], divisions: [2, 1, 1]}
@@ -98,6 +100,22 @@ def refuses_the_mesh_it_reads(folder):
     refused(folder, ["over a list of vertices that the case reads"], "listed.yaml", "--json", "held.bou")
 
 
+def a_full_disk_costs_no_result(folder):
+    """A limit on the size of files stands for the disk; the signal that comes with it is ignored, as a disk sends none."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 17, 1 << 17))
+    write(folder, "room.yaml", CASE)
+    write(folder, "room.vtkhdf", "an earlier result")
+    process = subprocess.run([PROGRAM, "solve", "room.yaml"], cwd=folder, text=True, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit, restore_signals=False,
+                             env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"}, timeout=240)
+    check(process.returncode == 2 and "MiB that it takes: File too large" in process.stderr,
+          f"a full disk: exit {process.returncode}\n{process.stderr}")
+    check(read(folder, "room.vtkhdf") == b"an earlier result", "a full disk: the earlier result is gone")
+    check("room.vtkhdf.partial" not in os.listdir(folder), "a full disk: a part was left")
+
+
 def check_says_where_it_goes(folder):
     finished = run("check", "case.yaml", folder=folder)
     check(finished.exit_code == 0 and not finished.errors, f"check: {finished.errors}")
@@ -122,6 +140,17 @@ def a_body_at_rest_is_pointed_out(folder):
           "  - {on: {boundary: xmax}, displacement: [0.1, free, free]}\n")
     finished = run("solve", "moved.yaml", folder=folder)
     check(finished.exit_code == 0 and not finished.errors, f"a displacement acts: {finished.errors}")
+
+
+def a_place_between_vertices_is_pointed_out(folder):
+    """What is watched there is the nearest vertex: solve and check say which."""
+    write(folder, "watch.yaml", CASE + "watch: {tip: {displacement: {nearest: [2, 0.5, 0.5]}, component: z}}\n")
+    for command in "solve", "check":
+        finished = run(command, "watch.yaml", ranks=2, folder=folder)
+        check(finished.exit_code == 0 and finished.errors.count("'tip' is watched at (2, ") == 1,
+              f"{command}: {finished.errors}")
+    write(folder, "watch.yaml", CASE + "watch: {tip: {displacement: {nearest: [2, 1, 1]}, component: z}}\n")
+    check(not run("solve", "watch.yaml", folder=folder).errors, "a vertex is watched where it lies")
 
 
 def the_script_takes_words_in_any_order(folder):
@@ -155,8 +184,10 @@ def main():
     refuses_folders_that_are_not_there(folder)
     refuses_what_is_too_long(folder)
     refuses_the_mesh_it_reads(folder)
+    a_full_disk_costs_no_result(folder)
     check_says_where_it_goes(folder)
     a_body_at_rest_is_pointed_out(folder)
+    a_place_between_vertices_is_pointed_out(folder)
     the_script_takes_words_in_any_order(folder)
 
 
