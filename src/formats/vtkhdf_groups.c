@@ -173,6 +173,19 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     return OST_SUCCESS;
 }
 
+OstStatus ost_groups_look_at_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
+{
+    OstGlobal *items = NULL;
+    OstLocal count = 0;
+    int width = 0;
+    if (!ost_hdf5_has(h5, boundary_names))
+        return OST_SUCCESS;
+    OST_TRY(read_kinds(h5, chunk));
+    const OstStatus status = read_items(h5, chunk, &count, &width, &items);
+    OST_FREE(items);
+    return status;
+}
+
 /* Global numbers of the nodes with the labels that `items` holds. */
 static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t count, const OstGlobal *items,
                             OstGlobal *number)

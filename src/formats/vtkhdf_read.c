@@ -282,13 +282,27 @@ static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader
     return read_points(reader);
 }
 
-/* Local. What this rank reads before and between what ranks do together; leaves its memory to the end of the process.
- */
+static void close_reader(Reader *reader)
+{
+    if (reader->h5.ctx)
+        ost_hdf5_close(&reader->h5);
+    ost_points_free(&reader->points);
+    OST_FREE(reader->tet_start);
+    if (reader->chunk)
+        ost_chunk_destroy(&reader->chunk);
+}
+
+/* Local. All that this rank reads before and between what ranks do together. */
 static OstStatus read_alone(OstContext *ctx, const char *path)
 {
     Reader reader = {.h5.file = H5I_INVALID_HID};
-    OST_TRY(open_and_look(ctx, path, &reader));
-    return read_tets(&reader);
+    OstStatus status = open_and_look(ctx, path, &reader);
+    if (status == OST_SUCCESS)
+        status = read_tets(&reader);
+    if (status == OST_SUCCESS)
+        status = ost_groups_look_at_boundaries(&reader.h5, reader.chunk);
+    close_reader(&reader);
+    return status;
 }
 
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
@@ -308,11 +322,6 @@ OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chun
     *chunk = reader.chunk;
     reader.chunk = NULL;
 done:
-    if (reader.h5.ctx)
-        ost_hdf5_close(&reader.h5);
-    ost_points_free(&reader.points);
-    OST_FREE(reader.tet_start);
-    if (reader.chunk)
-        ost_chunk_destroy(&reader.chunk);
+    close_reader(&reader);
     return status;
 }
