@@ -173,17 +173,21 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     return OST_SUCCESS;
 }
 
-OstStatus ost_groups_look_at_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
+OstStatus ost_groups_look(const OstHdf5 *h5)
 {
-    OstGlobal *items = NULL;
-    OstLocal count = 0;
-    int width = 0;
-    if (!ost_hdf5_has(h5, boundary_names))
-        return OST_SUCCESS;
-    OST_TRY(read_kinds(h5, chunk));
-    const OstStatus status = read_items(h5, chunk, &count, &width, &items);
-    OST_FREE(items);
-    return status;
+    const char *const lists[] = {region_names, boundary_names};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        int count = 0;
+        char **names = NULL;
+        const OstStatus status =
+            ost_hdf5_has(h5, lists[i]) ? ost_hdf5_read_names(h5, lists[i], &count, &names) : OST_SUCCESS;
+        for (int k = 0; k < count; k++)
+            OST_FREE(names[k]);
+        OST_FREE(names);
+        OST_TRY(status);
+    }
+    OST_TRY(ost_hdf5_look(h5, boundary_kinds, H5T_NATIVE_INT32));
+    return ost_hdf5_look(h5, boundary_items, H5T_NATIVE_INT64);
 }
 
 /* Global numbers of the nodes with the labels that `items` holds. */

@@ -8,9 +8,9 @@
 typedef OstStatus OstReading(OstContext *ctx, const char *path);
 
 /* Local. HDF5 trusts what a file says of itself: a damaged one makes it take gigabytes, run without end, or crash. So
- * `read` first runs in a process of its own, within a second of processor time (and one more for each 100 MiB) and ten
- * times the file's memory. Where it does not come back in good order this raises OST_FILE_FAILED; what it returns is
- * for the real reading to find again. */
+ * `read` first runs in a process of its own, within a second of processor time (and one more for each 10 MiB, which may
+ * be packed) and ten times the file's memory. Where it does not come back in good order this raises OST_FILE_FAILED;
+ * what it returns is for the real reading to find again. */
 OstStatus ost_hdf5_rehearse(OstContext *ctx, const char *path, OstReading *read);
 
 /* Local. The rehearsal itself, for a process that may be lost: returns if the file is one to read, else the process

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { OUT_OF_MEMORY = 1, MEMORY_FACTOR = 10, LIBRARY_BYTES = 64 << 20, BYTES_PER_SECOND = 100 << 20 };
+enum { OUT_OF_MEMORY = 1, MEMORY_FACTOR = 10, LIBRARY_BYTES = 64 << 20, BYTES_PER_SECOND = 10 << 20 };
 
 /* Memory on top of what the process maps already; the second grows with the tables of a large file. */
 static int set_limits(const char *path)

@@ -9,6 +9,8 @@
 
 enum { MOST_TEXT = 1 << 16, MOST_VALUES = 1 << 14, MOST_DIMENSIONS = 4, LONGEST_STRING = 64, FILE_STEP = 1 << 16 };
 
+static const double MOST_CLAIMED = 1e17; /* times the longest string is no more than 64 bits hold */
+
 /* What one line asks for. */
 typedef struct Array {
     const char *name, *layout;
@@ -199,8 +201,9 @@ static void write_line(hid_t file, hid_t links, char *line)
     char *attribute = strchr(name, '@');
     if (attribute) {
         *attribute++ = '\0';
-        write_attribute(file, &array, attribute);
-    } else {
+        if (array.count <= MOST_VALUES) /* HDF5 multiplies without a look and writes where it must not */
+            write_attribute(file, &array, attribute);
+    } else if (array.count < MOST_CLAIMED) {
         write_dataset(file, links, &array);
     }
     H5Tclose(array.type);

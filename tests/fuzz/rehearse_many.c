@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/socket.h>
@@ -47,6 +48,8 @@ static void rehearse_on_request(OstContext *ctx, const char *path, OstReading *r
 static void start(OstContext *ctx, const char *path, OstReading *read_file)
 {
     int ends[2];
+    H5set_free_list_limits(-1, -1, 4 << 20, 256 << 10, 16 << 20,
+                           1 << 20); /* keep the largest nodes; the rest as it is */
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
         give_up("rehearse: socketpair");
     process = fork();
