@@ -173,6 +173,23 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     return OST_SUCCESS;
 }
 
+OstStatus ost_groups_look(const OstHdf5 *h5)
+{
+    const char *const lists[] = {region_names, boundary_names};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        int count = 0;
+        char **names = NULL;
+        const OstStatus status =
+            ost_hdf5_has(h5, lists[i]) ? ost_hdf5_read_names(h5, lists[i], &count, &names) : OST_SUCCESS;
+        for (int k = 0; k < count; k++)
+            OST_FREE(names[k]);
+        OST_FREE(names);
+        OST_TRY(status);
+    }
+    OST_TRY(ost_hdf5_look(h5, boundary_kinds, H5T_NATIVE_INT32));
+    return ost_hdf5_look(h5, boundary_items, H5T_NATIVE_INT64);
+}
+
 /* Global numbers of the nodes with the labels that `items` holds. */
 static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t count, const OstGlobal *items,
                             OstGlobal *number)

@@ -20,4 +20,7 @@ OstStatus ost_groups_read_regions(const OstHdf5 *h5, OstMeshChunk *chunk);
 /* Collective. Boundaries into the chunk, each rank a share of the items; the chunk has its nodes. */
 OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk);
 
+/* Local. Looks at all of them, as ost_hdf5_look does. */
+OstStatus ost_groups_look(const OstHdf5 *h5);
+
 #endif

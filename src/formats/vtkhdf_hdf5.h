@@ -64,6 +64,10 @@ OstStatus ost_hdf5_shape(const OstHdf5 *h5, const char *name, OstGlobal *rows, i
 OstStatus ost_hdf5_read_rows(const OstHdf5 *h5, const char *name, hid_t type, int components, OstGlobal total,
                              OstGlobal first, OstGlobal count, void *values);
 
+/* Local. Has HDF5 do what reading rows of a dataset, if there is one, could fail at: the first row is read; of rows
+ * that lie in chunks or elsewhere, which HDF5 must find and unpack, this rank's share. For a rehearsal. */
+OstStatus ost_hdf5_look(const OstHdf5 *h5, const char *name, hid_t type);
+
 /* Local. Attributes; raise OST_INVALID_INPUT if missing or of another kind. */
 OstStatus ost_hdf5_read_integers(const OstHdf5 *h5, const char *group, const char *name, int count, int *values);
 OstStatus ost_hdf5_read_text(const OstHdf5 *h5, const char *group, const char *name, char *text, size_t size);

@@ -9,6 +9,9 @@
 /* More than deflate can compress. A dataset that claims to hold more than its bytes can is not believed. */
 enum { LARGEST_COMPRESSION = 1100 };
 
+/* Of any array that is read: axes have nine numbers a tet. */
+enum { MOST_COMPONENTS = 9 };
+
 int ost_hdf5_has(const OstHdf5 *h5, const char *name)
 {
     char path[256] = "";
@@ -129,6 +132,53 @@ OstStatus ost_hdf5_read_rows(const OstHdf5 *h5, const char *name, hid_t type, in
         status = check_class(h5, name, dataset, type);
     if (status == OST_SUCCESS && count > 0)
         status = read_selected(h5, name, dataset, type, first, count, components, values);
+    if (dataset >= 0)
+        H5Dclose(dataset);
+    return status;
+}
+
+/* Rows that are had at once. Rows in one stretch are read in order or refused, whatever their number: one is enough. */
+static hsize_t rows_of_a_look(hid_t dataset, const hsize_t extent[2], hsize_t *end)
+{
+    hsize_t chunk[2] = {1, 1};
+    const hid_t made = H5Dget_create_plist(dataset);
+    const H5D_layout_t layout = made < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(made);
+    if (layout == H5D_CHUNKED)
+        H5Pget_chunk(made, 2, chunk);
+    else if (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT)
+        *end = extent[0] < 1 ? extent[0] : 1;
+    if (made >= 0)
+        H5Pclose(made);
+    return chunk[0] < extent[0] ? chunk[0] : extent[0];
+}
+
+static OstStatus look_at_rows(const OstHdf5 *h5, const char *name, hid_t dataset, hid_t type, const hsize_t extent[2])
+{
+    const hsize_t share = extent[0] / (hsize_t)ost_size(h5->ctx) + 1;
+    const hsize_t first = share * (hsize_t)ost_rank(h5->ctx);
+    hsize_t end = first + share < extent[0] ? first + share : extent[0];
+    const hsize_t step = rows_of_a_look(dataset, extent, &end);
+    void *values = NULL;
+    OST_TRY(ost_allocate(h5->ctx, step * extent[1], H5Tget_size(type), &values));
+    OstStatus status = OST_SUCCESS;
+    for (hsize_t row = first; row < end && status == OST_SUCCESS; row += step)
+        status = read_selected(h5, name, dataset, type, (OstGlobal)row,
+                               (OstGlobal)(end - row < step ? end - row : step), (int)extent[1], values);
+    OST_FREE(values);
+    return status;
+}
+
+OstStatus ost_hdf5_look(const OstHdf5 *h5, const char *name, hid_t type)
+{
+    hid_t dataset = H5I_INVALID_HID;
+    hsize_t extent[2] = {0, 0};
+    if (!ost_hdf5_has(h5, name))
+        return OST_SUCCESS;
+    OstStatus status = open_dataset(h5, name, &dataset, extent);
+    if (status == OST_SUCCESS)
+        status = check_class(h5, name, dataset, type);
+    if (status == OST_SUCCESS && extent[1] <= MOST_COMPONENTS)
+        status = look_at_rows(h5, name, dataset, type, extent);
     if (dataset >= 0)
         H5Dclose(dataset);
     return status;

@@ -282,21 +282,35 @@ static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader
     return read_points(reader);
 }
 
-/* Local. What this rank reads before and between what ranks do together; leaves its memory to the end of the process.
- */
-static OstStatus read_alone(OstContext *ctx, const char *path)
+/* Local. Has HDF5 do all that the reading will ask of it, if not with all the numbers. */
+static OstStatus rehearse(OstContext *ctx, const char *path)
 {
+    const struct {
+        const char *name;
+        hid_t type;
+    } arrays[] = {{"/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64},   {"/VTKHDF/NumberOfCells", H5T_NATIVE_INT64},
+                  {"/VTKHDF/Points", H5T_NATIVE_DOUBLE},          {"/VTKHDF/Types", H5T_NATIVE_UCHAR},
+                  {"/VTKHDF/Offsets", H5T_NATIVE_INT64},          {"/VTKHDF/Connectivity", H5T_NATIVE_INT64},
+                  {"/VTKHDF/PointData/vertex", H5T_NATIVE_INT64}, {"/VTKHDF/CellData/tet", H5T_NATIVE_INT64},
+                  {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
     Reader reader = {.h5.file = H5I_INVALID_HID};
-    OST_TRY(open_and_look(ctx, path, &reader));
-    return read_tets(&reader);
+    OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
+    if (status == OST_SUCCESS)
+        status = check_kind(&reader);
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays && status == OST_SUCCESS; i++)
+        status = ost_hdf5_look(&reader.h5, arrays[i].name, arrays[i].type);
+    if (status == OST_SUCCESS)
+        status = ost_groups_look(&reader.h5);
+    ost_hdf5_close(&reader.h5);
+    return status;
 }
 
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     Reader reader = {.h5.file = H5I_INVALID_HID};
-    OstStatus status = ost_rank(ctx) == 0 ? ost_hdf5_rehearse(ctx, path, read_alone) : OST_SUCCESS;
+    OstStatus status = OST_SUCCESS;
     *chunk = NULL;
-    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_rehearse(ctx, path, rehearse)));
     OST_TRY_DONE(ost_agree(ctx, open_and_look(ctx, path, &reader)));
     OST_TRY_DONE(agree_on_kind(&reader));
     OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));

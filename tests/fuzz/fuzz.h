@@ -13,6 +13,8 @@
 typedef struct FuzzTarget {
     const char *file; /* what the input is called; readers look at the ending */
     void (*read)(OstContext *ctx, const char *path);
+    size_t (*write)(const uint8_t *data, size_t size, const char *path); /* makes the file, unless it is the input;
+                                                                            returns its size */
     size_t constant;    /* bytes that the libraries behind it take whatever they read */
     int library_caches; /* they keep some of it for the next file */
 } FuzzTarget;

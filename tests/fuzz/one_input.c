@@ -11,7 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Hands each input to the reader as a file, in a folder of this process that lives in memory. */
+/* Hands each input to the reader as a file, or as what a target makes of it, in a folder of this process that lives in
+ * memory. */
 
 static OstContext *ctx;
 static char folder[64];
@@ -53,18 +54,21 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     return 0;
 }
 
-static void write_file(const uint8_t *data, size_t size)
+static size_t write_file(const uint8_t *data, size_t size)
 {
+    if (fuzz_target.write)
+        return fuzz_target.write(data, size, path);
     const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (file < 0 || write(file, data, size) != (ssize_t)size || close(file) != 0)
         give_up(path);
+    return size;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    write_file(data, size);
+    const size_t file_size = write_file(data, size);
     fuzz_limits_start(ctx);
     fuzz_target.read(ctx, path);
-    fuzz_limits_end(ctx, size);
+    fuzz_limits_end(ctx, file_size);
     return 0;
 }
