@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/cg.h"
 
+#include "algebra/energy_error.h"
 #include "algebra/lanczos.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -159,8 +160,23 @@ static OstStatus cg_allocate(Cg *cg, int steps)
     return ost_lanczos_create(cg->ctx, steps, &cg->lanczos);
 }
 
+/* What the first run's coefficients say of the spectrum, and so of the error of u; nothing where M is not definite. */
+static OstStatus report_error(const Cg *cg, const double *f, const double *u, const OstGoal *goal,
+                              OstSolveReport *report)
+{
+    double smallest, largest;
+    OstEnergyError error = {0.0, 0.0};
+    ost_lanczos_extremes(&cg->lanczos, &smallest, &largest);
+    if (smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
+        OST_TRY(ost_energy_error(cg->system, cg->preconditioner, smallest, f, u, goal->exact, &error));
+    report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
+    report->error_estimate = error.residual + error.rounding;
+    report->rounding_error = error.rounding;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
-                       OstGoal *goal, double *condition)
+                       OstGoal *goal, OstSolveReport *report)
 {
     OstContext *ctx = system->matrix->ctx;
     Cg cg = {.ctx = ctx,
@@ -168,10 +184,11 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
              .preconditioner = preconditioner,
              .matrix = system->scaled_matrix ? system->scaled_matrix : system->matrix,
              .n = 3 * (size_t)system->matrix->rows};
-    OstStatus status = ost_agree(ctx, cg_allocate(&cg, goal->most_iterations));
-    if (status == OST_SUCCESS)
-        status = ost_refine(system->matrix, solve_scaled, &cg, f, u, goal);
-    *condition = ost_lanczos_condition(&cg.lanczos);
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, cg_allocate(&cg, goal->most_iterations)));
+    OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
+    OST_TRY_DONE(report_error(&cg, f, u, goal, report));
+done:
     OST_FREE(cg.direction);
     OST_FREE(cg.product);
     OST_FREE(cg.residual);

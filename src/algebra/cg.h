@@ -22,9 +22,10 @@ typedef struct OstCgSystem {
 } OstCgSystem;
 
 /* Collective. Improves u towards A u = f by preconditioned conjugate gradients, as ost_refine, in the unscaled norm.
- * `condition` is estimated from the first run's coefficients. Raises OST_NOT_CONVERGED where p·Ap is negative beyond
- * rounding: the matrix is indefinite, which no preconditioner mends. */
+ * Fills the report's
+ * condition_estimate, from the first run's coefficients, error_estimate and rounding_error. Raises OST_NOT_CONVERGED
+ * where p·Ap is negative beyond rounding: the matrix is indefinite, which no preconditioner mends. */
 OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
-                       OstGoal *goal, double *condition);
+                       OstGoal *goal, OstSolveReport *report);
 
 #endif

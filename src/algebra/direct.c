@@ -51,5 +51,5 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
-    return ost_cg_solve(&direct->system, &factors, f, u, goal, &report->condition_estimate);
+    return ost_cg_solve(&direct->system, &factors, f, u, goal, report);
 }

@@ -48,7 +48,7 @@ static void print_solve(const OstResult *result)
 static void print_digits(const OstChecks *checks)
 {
     if (isfinite(checks->digits))
-        printf("  digits           about %.0f of the displacement hold (condition times residual and rounding: %.1e)\n",
+        printf("  digits           about %.0f of the displacement hold (error in the norm of the energy: %.1e)\n",
                floor(checks->digits), checks->displacement_error);
 }
 

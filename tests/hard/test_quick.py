@@ -23,9 +23,8 @@ def grid(folder, ranks, *shapes):
 
 def check_sound(point):
     name = point["point"]
-    if point["outcome"] not in SOLVED:
-        # The one thing that sound bodies are refused for: a bound on rounding, which may be too careful (README).
-        check(point["outcome"] in ("refused rightly", "given up") and "less than one digit" in point["reason"],
+    if point["outcome"] not in SOLVED:  # where factors alone keep no digit either, and for that reason
+        check(point["outcome"] == "refused rightly" and "less than one digit" in point["reason"],
               f"{name}: {point['outcome']}: {point['reason']}")
         return
     check(point["unknowns"] > 3000, f"{name}: only {point['unknowns']} unknowns, which any case has factored")
