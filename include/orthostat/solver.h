@@ -88,7 +88,7 @@ typedef struct OstSolveReport {
     double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
     double error_estimate; /* |u - u*|_K / |u|_K about, |v|_K = sqrt(v·K v) the norm of the energy, u the unknowns; 0 if
                               not known (PLAIN) */
-    double rounding_error; /* what of it rounding of K in double precision explains */
+    double rounding_error; /* what of it rounding of K explains; 0 where three digits are left, and nobody asked */
     OstSolverPlan plan;
     int steps; /* one more than times climbed */
     OstSolveStep step[OST_MAX_STEPS];

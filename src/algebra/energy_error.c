@@ -2,115 +2,142 @@
 #include "algebra/energy_error.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/term_rounding.h"
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
+/* Up to this error rounding is not looked at more closely: one throw of the signs that falls short a hundredfold still
+ * leaves a digit. */
+static const double three_digits = 1e-3;
+
+enum { THROWS = 8 };
+
 typedef struct Work {
     const OstCgSystem *system;
     const OstPreconditioner *preconditioner;
-    size_t n;         /* unknowns this rank owns */
-    double *u;        /* with room for ghosts */
-    double *residual; /* then scaled */
-    double *corrected;
+    size_t n;           /* unknowns this rank owns */
+    double *u;          /* with room for ghosts */
+    double *residual;   /* f - A u */
+    double *rounding;   /* size of what rounding leaves of it */
+    double *vector;     /* the one that is measured */
+    double *corrected;  /* M^-1 of that */
+    double energy_norm; /* |u|_A sqrt(smallest) */
 } Work;
 
-/* f - A u; fills u's ghosts. */
+/* f - A u and its rounding; fills u's ghosts. */
 static OstStatus find_residual(Work *work, const double *f, int exact)
 {
     const OstBlockMatrix *matrix = work->system->matrix;
-    if (exact)
-        return ost_exact_residual(matrix, f, work->u, work->residual);
-    OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
-    for (size_t i = 0; i < work->n; i++)
-        work->residual[i] = f[i] - work->residual[i];
+    if (exact) {
+        OST_TRY(ost_exact_residual(matrix, f, work->u, work->residual));
+    } else {
+        OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
+        for (size_t i = 0; i < work->n; i++)
+            work->residual[i] = f[i] - work->residual[i];
+    }
+    ost_term_rounding(matrix, work->u, work->rounding);
     return OST_SUCCESS;
 }
 
-/* 1 or -1, as an unknown's global number has it (the finaliser of SplitMix64). */
-static double sign_of(OstGlobal unknown)
+static OstStatus sum_products(const Work *work, const double *a, const double *b, double *sum)
 {
-    uint64_t bits = (uint64_t)unknown + UINT64_C(0x9e3779b97f4a7c15);
+    OstContext *ctx = work->system->matrix->ctx;
+    *sum = 0.0;
+    for (size_t i = 0; i < work->n; i++)
+        *sum += a[i] * b[i];
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+}
+
+/* 1 or -1, as an unknown's global number and the throw have it (the finaliser of SplitMix64). */
+static double sign_of(OstGlobal unknown, int throw)
+{
+    uint64_t bits = (uint64_t)unknown + UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(throw +1);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     bits = (bits ^ (bits >> 27)) * UINT64_C(0x94d049bb133111eb);
     return (bits ^ (bits >> 31)) & 1 ? 1.0 : -1.0;
 }
 
-/* What rounding the terms of a row leaves of them, each at random. */
-static void find_rounding(Work *work)
+/* vector = base + rounding, with signs at random; a base of NULL is none. */
+static void throw_signs(Work *work, const double *base, int throw)
 {
-    const OstBlockMatrix *matrix = work->system->matrix;
-    for (OstLocal row = 0; row < matrix->rows; row++) {
-        double square[3] = {0.0};
-        for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-            for (int i = 0; i < 9; i++) {
-                const double term =
-                    matrix->value[9 * (size_t)k + (size_t)i] * work->u[3 * (size_t)matrix->column[k] + (size_t)(i % 3)];
-                square[i / 3] += term * term;
-            }
-        for (int i = 0; i < 3; i++)
-            work->residual[3 * (size_t)row + (size_t)i] =
-                DBL_EPSILON * sign_of(3 * (matrix->first_row + row) + i) * sqrt(square[i]);
-    }
+    const OstGlobal first = 3 * work->system->matrix->first_row;
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] = (base ? base[i] : 0.0) + sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
 }
 
-/* sqrt(r·M^-1 r), r brought to order 1: preconditioners work in single precision too. */
-static OstStatus find_norm(Work *work, double *norm)
+/* sqrt(v·M^-1 v) over the energy's, v brought to order 1: preconditioners work in single precision too. */
+static OstStatus measure(Work *work, double *error)
 {
-    OstContext *ctx = work->system->matrix->ctx;
-    double size, product = 0.0;
+    double size, square;
     if (work->system->scaling)
-        ost_scaling_to_scaled(work->system->scaling, work->residual, work->residual);
-    OST_TRY(ost_vector_size(ctx, work->n, work->residual, &size));
+        ost_scaling_to_scaled(work->system->scaling, work->vector, work->vector);
+    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->vector, &size));
     for (size_t i = 0; i < work->n; i++)
-        work->residual[i] /= size;
-    OST_TRY(work->preconditioner->apply(work->preconditioner->data, work->residual, work->corrected));
-    for (size_t i = 0; i < work->n; i++)
-        product += work->residual[i] * work->corrected[i];
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
-    *norm = size * sqrt(fabs(product));
+        work->vector[i] /= size;
+    OST_TRY(work->preconditioner->apply(work->preconditioner->data, work->vector, work->corrected));
+    OST_TRY(sum_products(work, work->vector, work->corrected, &square));
+    *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
+    return OST_SUCCESS;
+}
+
+/* The root of the mean square over throws. */
+static OstStatus look_closer(Work *work, OstEnergyError *error)
+{
+    double residual, one, squares = 0.0;
+    memcpy(work->vector, work->residual, work->n * sizeof(double));
+    OST_TRY(measure(work, &residual));
+    for (int throw = 1; throw <= THROWS; throw ++) {
+        throw_signs(work, NULL, throw);
+        OST_TRY(measure(work, &one));
+        squares += one * one;
+    }
+    error->rounding = sqrt(squares / THROWS);
+    error->whole = hypot(residual, error->rounding);
     return OST_SUCCESS;
 }
 
 static OstStatus estimate(Work *work, double smallest, const double *f, int exact, OstEnergyError *error)
 {
-    OstContext *ctx = work->system->matrix->ctx;
-    double energy = 0.0;
+    double energy;
     OST_TRY(find_residual(work, f, exact));
-    OST_TRY(find_norm(work, &error->residual));
-    find_rounding(work);
-    OST_TRY(find_norm(work, &error->rounding));
-    for (size_t i = 0; i < work->n; i++)
-        energy += f[i] * work->u[i];
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &energy, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
-    const double scale = energy > 0.0 ? sqrt(smallest * energy) : 0.0;
-    error->residual = scale > 0.0 ? error->residual / scale : INFINITY;
-    error->rounding = scale > 0.0 ? error->rounding / scale : INFINITY;
-    return OST_SUCCESS;
+    OST_TRY(sum_products(work, f, work->u, &energy));
+    *error = (OstEnergyError){INFINITY, INFINITY};
+    work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
+    if (!(work->energy_norm > 0.0))
+        return OST_SUCCESS;
+    error->rounding = 0.0;
+    throw_signs(work, work->residual, 0);
+    OST_TRY(measure(work, &error->whole));
+    return error->whole > three_digits ? look_closer(work, error) : OST_SUCCESS;
+}
+
+static OstStatus allocate(OstContext *ctx, Work *work)
+{
+    OST_TRY(OST_NEW(ctx, &work->u, 3 * (size_t)work->system->matrix->columns));
+    OST_TRY(OST_NEW(ctx, &work->residual, work->n));
+    OST_TRY(OST_NEW(ctx, &work->rounding, work->n));
+    OST_TRY(OST_NEW(ctx, &work->vector, work->n));
+    return OST_NEW(ctx, &work->corrected, work->n);
 }
 
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
                            const double *f, const double *u, int exact, OstEnergyError *error)
 {
     const OstBlockMatrix *matrix = system->matrix;
-    OstContext *ctx = matrix->ctx;
     Work work = {.system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows};
-    OstStatus status = OST_NEW(ctx, &work.u, 3 * (size_t)matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.residual, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.corrected, work.n);
-    status = ost_agree(ctx, status);
+    OstStatus status = ost_agree(matrix->ctx, allocate(matrix->ctx, &work));
     if (status == OST_SUCCESS) {
         memcpy(work.u, u, work.n * sizeof *u);
         status = estimate(&work, smallest, f, exact, error);
     }
     OST_FREE(work.u);
     OST_FREE(work.residual);
+    OST_FREE(work.rounding);
+    OST_FREE(work.vector);
     OST_FREE(work.corrected);
     return status;
 }

@@ -9,15 +9,19 @@
  * (Axelsson and Kaporin, Error norm estimation and stopping criteria in preconditioned conjugate gradient iterations,
  * Numer. Linear Algebra Appl. 8, 2001). l comes from the Lanczos coefficients of the solve and approaches the
  * eigenvalue from above: an estimate, then, but one that sees how stiff each unknown is, where the 2-norm of r takes
- * all alike. A itself is rounded: what that leaves is told by the same norm of a residual that every term of A u adds
- * its rounding to, with signs at random. */
+ * all alike.
+ *
+ * A itself is rounded: what that leaves is told by the same norm of what ost_term_rounding finds, with signs at random.
+ * It is added to r, so that one application of the preconditioner tells both. Where that leaves less than three digits,
+ * the two are told apart, and rounding by several throws of the signs: what rounding does to a badly conditioned body
+ * is its share in one softest mode, which one throw may happen to miss. */
 typedef struct OstEnergyError {
-    double residual; /* by r, over |u|_A */
-    double rounding; /* by rounding of A, over |u|_A */
+    double whole;    /* over |u|_A; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution */
+    double rounding; /* of it, what rounding of A explains; 0 where three digits are left, and nobody asked */
 } OstEnergyError;
 
-/* Collective. Applies the preconditioner twice. `exact`: r is summed by ost_exact_residual. INFINITY where f·u <= 0,
- * which no solution has. */
+/* Collective. Applies the preconditioner once, or ten times where less than three digits are left. `exact`: r is summed
+ * by ost_exact_residual. */
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
                            const double *f, const double *u, int exact, OstEnergyError *error);
 

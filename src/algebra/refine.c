@@ -2,6 +2,7 @@
 #include "algebra/refine.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/term_rounding.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -164,30 +165,16 @@ static OstStatus take_correction(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* Sum of the squares of the terms of (A u)_i, i being component c of a row. */
-static double square_of_terms(const OstBlockMatrix *matrix, OstLocal row, int c, const double *u)
-{
-    double total = 0.0;
-    for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-        for (int d = 0; d < 3; d++) {
-            const double term = matrix->value[9 * (size_t)k + (size_t)(3 * c + d)] * u[3 * matrix->column[k] + d];
-            total += term * term;
-        }
-    return total;
-}
-
 /* About how small ||f - A u|| can be in double precision, each term of A u being rounded at random. */
 static OstStatus find_limit(Refinement *work)
 {
     const OstBlockMatrix *matrix = work->matrix;
-    double square = 0.0;
     memcpy(work->candidate, work->u, work->n * sizeof(double));
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), work->candidate));
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        for (int c = 0; c < 3; c++)
-            square += square_of_terms(matrix, i, c, work->candidate);
+    ost_term_rounding(matrix, work->candidate, work->left);
+    double square = dot(work->n, work->left, work->left);
     OST_TRY(sum(matrix->ctx, 1, &square));
-    work->goal->limit = DBL_EPSILON * sqrt(square);
+    work->goal->limit = sqrt(square);
     return OST_SUCCESS;
 }
 
