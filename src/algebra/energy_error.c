@@ -61,12 +61,12 @@ static double sign_of(OstGlobal unknown, int throw)
     return (bits ^ (bits >> 31)) & 1 ? 1.0 : -1.0;
 }
 
-/* vector = base + rounding, with signs at random; a base of NULL is none. */
+/* vector = base + half of rounding, with signs at random; a base of NULL is none. */
 static void throw_signs(Work *work, const double *base, int throw)
 {
     const OstGlobal first = 3 * work->system->matrix->first_row;
     for (size_t i = 0; i < work->n; i++)
-        work->vector[i] = (base ? base[i] : 0.0) + sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
+        work->vector[i] = (base ? base[i] : 0.0) + 0.5 * sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
 }
 
 /* sqrt(v·M^-1 v) over the energy's, v brought to order 1: preconditioners work in single precision too. */
