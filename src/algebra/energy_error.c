@@ -19,13 +19,14 @@ enum { THROWS = 8 };
 typedef struct Work {
     const OstCgSystem *system;
     const OstPreconditioner *preconditioner;
-    size_t n;           /* unknowns this rank owns */
-    double *u;          /* with room for ghosts */
-    double *residual;   /* f - A u */
-    double *rounding;   /* size of what rounding leaves of it */
-    double *vector;     /* the one that is measured */
-    double *corrected;  /* M^-1 of that */
-    double energy_norm; /* |u|_A sqrt(smallest) */
+    size_t n;            /* unknowns this rank owns */
+    double *u;           /* with room for ghosts */
+    double *residual;    /* f - A u */
+    double *rounding;    /* size of what rounding leaves of it */
+    double *vector;      /* the one that is measured */
+    double *corrected;   /* M^-1 of that */
+    double energy_norm;  /* |u|_A sqrt(smallest) */
+    double displacement; /* |u| */
 } Work;
 
 /* f - A u and its rounding; fills u's ghosts. */
@@ -69,19 +70,38 @@ static void throw_signs(Work *work, const double *base, int throw)
         work->vector[i] = (base ? base[i] : 0.0) + 0.5 * sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
 }
 
-/* sqrt(v·M^-1 v) over the energy's, v brought to order 1: preconditioners work in single precision too. */
+/* M^-1 v; v is divided by `size` before: preconditioners work in single precision too. */
+static OstStatus correct(Work *work, double *size)
+{
+    if (work->system->scaling)
+        ost_scaling_to_scaled(work->system->scaling, work->vector, work->vector);
+    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->vector, size));
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] /= *size;
+    return work->preconditioner->apply(work->preconditioner->data, work->vector, work->corrected);
+}
+
+/* |M^-1 v| over |u|. */
+static OstStatus measure_displacement(Work *work, double size, double *error)
+{
+    double square;
+    if (work->system->scaling)
+        ost_scaling_from_scaled(work->system->scaling, work->corrected, work->corrected);
+    for (size_t i = 0; i < work->n; i++)
+        work->corrected[i] *= size / work->displacement;
+    OST_TRY(sum_products(work, work->corrected, work->corrected, &square));
+    *error = sqrt(square);
+    return OST_SUCCESS;
+}
+
+/* What v, as a residual, says of the error. */
 static OstStatus measure(Work *work, double *error)
 {
     double size, square;
-    if (work->system->scaling)
-        ost_scaling_to_scaled(work->system->scaling, work->vector, work->vector);
-    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->vector, &size));
-    for (size_t i = 0; i < work->n; i++)
-        work->vector[i] /= size;
-    OST_TRY(work->preconditioner->apply(work->preconditioner->data, work->vector, work->corrected));
+    OST_TRY(correct(work, &size));
     OST_TRY(sum_products(work, work->vector, work->corrected, &square));
     *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
-    return OST_SUCCESS;
+    return work->preconditioner->factors && square > 0.0 ? measure_displacement(work, size, error) : OST_SUCCESS;
 }
 
 /* The root of the mean square over throws. */
@@ -100,6 +120,18 @@ static OstStatus look_closer(Work *work, OstEnergyError *error)
     return OST_SUCCESS;
 }
 
+/* |u|, whose squares may be too small or too large for a number. */
+static OstStatus find_displacement(Work *work)
+{
+    double size, square;
+    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->u, &size));
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] = work->u[i] / size;
+    OST_TRY(sum_products(work, work->vector, work->vector, &square));
+    work->displacement = size * sqrt(square);
+    return OST_SUCCESS;
+}
+
 static OstStatus estimate(Work *work, double smallest, const double *f, int exact, OstEnergyError *error)
 {
     double energy;
@@ -109,6 +141,7 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
     if (!(work->energy_norm > 0.0))
         return OST_SUCCESS;
+    OST_TRY(find_displacement(work));
     error->rounding = 0.0;
     throw_signs(work, work->residual, 0);
     OST_TRY(measure(work, &error->whole));

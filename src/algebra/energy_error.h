@@ -11,14 +11,16 @@
  * eigenvalue from above: an estimate, then, but one that sees how stiff each unknown is, where the 2-norm of r takes
  * all alike.
  *
+ * Where M is the factors of A, M^-1 r is the error itself: then its 2-norm over that of u is told, which is what is
+ * asked of a displacement, and owes nothing to l.
+ *
  * A itself is rounded, each entry to half a unit in its last place: what that leaves is told by the same norm of half
  * of what ost_term_rounding finds, with signs at random. It is added to r, so that one application of the
  * preconditioner tells both. Where that leaves less than three digits, the two are told apart, and rounding by several
  * throws of the signs: what rounding does to a badly conditioned body is its share in one softest mode, which one throw
- * may miss.
- */
+ * may miss. */
 typedef struct OstEnergyError {
-    double whole;    /* over |u|_A; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution */
+    double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution */
     double rounding; /* of it, what rounding of A explains; 0 where three digits are left, and nobody asked */
 } OstEnergyError;
 

@@ -182,9 +182,8 @@ static void judge(OstResult *result, double requested, Explained explained)
                    checks->strain_energy, checks->work);
     if (!(lost_to_rounding(&result->solve) <= least_digit))
         ost_object(result,
-                   "rounding in double precision leaves the displacement less than one digit (an error of %.1g in the "
-                   "norm of the energy); bring the stiffnesses of the parts nearer to each other, or hold the body "
-                   "better",
+                   "rounding in double precision leaves the displacement less than one digit (an error of about "
+                   "%.1g); bring the stiffnesses of the parts nearer to each other, or hold the body better",
                    lost_to_rounding(&result->solve));
 }
 

@@ -23,6 +23,7 @@ typedef struct Known {
     double *solution, *f, *u, *work; /* work with ghosts */
     int calls;
     double sign;
+    int believed; /* the preconditioner says that it is factors */
 } Known;
 
 static OstStatus apply(void *data, const double *r, double *z)
@@ -98,7 +99,7 @@ static OstEnergyError estimate(Known *known)
 {
     const OstCgSystem system = {
         .matrix = known->problem.matrix, .scaled_matrix = known->scaled, .scaling = known->scaling};
-    const OstPreconditioner preconditioner = {.data = known, .apply = apply};
+    const OstPreconditioner preconditioner = {.data = known, .apply = apply, .factors = known->believed};
     OstEnergyError error;
     known->calls = 0;
     assert_success(ost_energy_error(&system, &preconditioner, 1.0, known->f, known->u, 0, &error));
@@ -139,6 +140,26 @@ static void with_the_matrix_itself_it_is_the_error_whatever_the_units(void **sta
         assert_close(error.whole, small, 1e-6 * small);
         assert_close(error.rounding, 0.0, 0.0);
         assert_int_equal(known.calls, 1);
+        destroy(&known);
+    }
+}
+
+static void with_factors_it_is_the_error_of_the_displacement_itself(void **state)
+{
+    (void)state;
+    const double units[] = {1.0, 0x1p+600, 0x1p-600};
+    for (int k = 0; k < 6; k++) {
+        Known known = make(units[k / 2], k % 2);
+        double *off = numbers(known.n);
+        known.believed = 1;
+        displace(&known, 0.1, units[k / 2]);
+        for (size_t i = 0; i < known.n; i++) {
+            off[i] = (known.u[i] - known.solution[i]) * units[k / 2];
+            known.work[i] = known.u[i] * units[k / 2];
+        }
+        const double error = sqrt(dot(known.n, off, off) / dot(known.n, known.work, known.work));
+        assert_close(estimate(&known).whole, error, 1e-9 * error);
+        OST_FREE(off);
         destroy(&known);
     }
 }
@@ -227,6 +248,7 @@ static void what_cannot_be_measured_is_no_number(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(with_the_matrix_itself_it_is_the_error_whatever_the_units),
+    cmocka_unit_test(with_factors_it_is_the_error_of_the_displacement_itself),
     cmocka_unit_test(rounding_is_what_other_roundings_of_the_matrix_do),
     cmocka_unit_test(what_cannot_be_measured_is_no_number),
 };
