@@ -11,8 +11,7 @@ typedef struct OstChecks {
     double relative_residual;  /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
     double rounding;           /* what of it rounding may explain: a few 1e-16 of || |K| |u| || / ||f_rhs|| */
     double rigid_motion;       /* most that a tet, or a row of the matrix, resisted rigid motion, over |K| |motion| */
-    double displacement_error; /* of the displacement, relative: condition_estimate (relative_residual + rounding); NAN
-                                  if the condition is not known */
+    double displacement_error; /* of the displacement, relative: the solver's error_estimate; NAN if not known */
     double digits;             /* that this leaves, 0 to 16; NAN if not known */
     double load[3], reaction[3];
     double force_imbalance;  /* |sum of loads + reactions| over the sum of their magnitudes */

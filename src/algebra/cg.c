@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/cg.h"
 
+#include "algebra/energy_error.h"
 #include "algebra/lanczos.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -24,6 +25,7 @@ typedef struct Cg {
     double *corrected;            /* z */
     double energy;                /* p·A'p of the last direction */
     double weight;                /* r·z of the last direction */
+    int blind;                    /* rounding hides that energy: p does not lead to a next direction */
     double size;                  /* what r' was divided by, a power of two */
     int runs;
     OstLanczos lanczos; /* of the first run */
@@ -71,10 +73,8 @@ static OstStatus next_direction(Cg *cg, OstGoal *goal, int first, double *beta)
 
 /* p·Ap is not positive. Scaled matrices have ones on the diagonal and a norm of some tens, so that rounding may turn
  * the sign of what is small beside p·p. */
-static OstStatus judge_energy(Cg *cg, OstGoal *goal)
+static OstStatus judge_energy(Cg *cg, OstGoal *goal, double square)
 {
-    double square = dot(cg->n, cg->direction, cg->direction);
-    OST_TRY(sum(cg, 1, &square));
     if (cg->energy < -rounding * square || (!cg->system->scaling && cg->energy < 0.0))
         return ost_goal_refuse_indefinite(goal, cg->energy);
     goal->end = OST_END_STALLED;
@@ -84,16 +84,18 @@ static OstStatus judge_energy(Cg *cg, OstGoal *goal)
     return OST_SUCCESS;
 }
 
-/* The step along p that leaves the least energy. */
+/* The step along p that leaves the least energy; all of p, where that is what factors made and rounding hides p·Ap. */
 static OstStatus step(Cg *cg, OstGoal *goal, double *u, double *alpha)
 {
     OST_TRY(ost_block_matrix_apply(cg->matrix, cg->direction, cg->product));
-    double sums[2] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual)};
-    OST_TRY(sum(cg, 2, sums));
+    double sums[3] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual),
+                      dot(cg->n, cg->direction, cg->direction)};
+    OST_TRY(sum(cg, 3, sums));
     cg->energy = sums[0];
-    if (!(cg->energy > 0.0 && isfinite(cg->energy)))
-        return judge_energy(cg, goal);
-    *alpha = sums[1] / sums[0];
+    cg->blind = cg->preconditioner->factors && cg->system->scaling && fabs(cg->energy) <= rounding * sums[2];
+    if (!cg->blind && !(cg->energy > 0.0 && isfinite(cg->energy)))
+        return judge_energy(cg, goal, sums[2]);
+    *alpha = cg->blind ? 1.0 : sums[1] / sums[0];
     for (size_t i = 0; i < cg->n; i++) {
         u[i] += *alpha * cg->direction[i];
         cg->residual[i] -= *alpha * cg->product[i];
@@ -117,7 +119,7 @@ static OstStatus iterate(Cg *cg, double *u, OstGoal *goal)
         if (cg->runs == 0)
             ost_lanczos_add(&cg->lanczos, alpha, beta);
         OST_TRY(recursive_norm(cg, &norm));
-        on = ost_goal_count(goal, norm, cg->size * cg->size * cg->weight);
+        on = ost_goal_count(goal, norm, cg->size * cg->size * cg->weight) && !cg->blind;
     }
     return OST_SUCCESS;
 }
@@ -159,8 +161,24 @@ static OstStatus cg_allocate(Cg *cg, int steps)
     return ost_lanczos_create(cg->ctx, steps, &cg->lanczos);
 }
 
+/* What the first run's coefficients say of the spectrum, and so of the error of u; nothing where M is not definite. */
+static OstStatus report_error(const Cg *cg, const double *f, const double *u, const OstGoal *goal,
+                              OstSolveReport *report)
+{
+    double smallest, largest;
+    OstEnergyError error = {NAN, 0.0};
+    ost_lanczos_extremes(&cg->lanczos, &smallest, &largest);
+    if (smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
+        OST_TRY(ost_energy_error(cg->system, cg->preconditioner, smallest, f, u, goal->exact, &error));
+    const int known = !isnan(error.whole) && !isnan(error.rounding);
+    report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
+    report->error_estimate = known ? error.whole : 0.0;
+    report->rounding_error = known ? error.rounding : 0.0;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
-                       OstGoal *goal, double *condition)
+                       OstGoal *goal, OstSolveReport *report)
 {
     OstContext *ctx = system->matrix->ctx;
     Cg cg = {.ctx = ctx,
@@ -168,10 +186,11 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
              .preconditioner = preconditioner,
              .matrix = system->scaled_matrix ? system->scaled_matrix : system->matrix,
              .n = 3 * (size_t)system->matrix->rows};
-    OstStatus status = ost_agree(ctx, cg_allocate(&cg, goal->most_iterations));
-    if (status == OST_SUCCESS)
-        status = ost_refine(system->matrix, solve_scaled, &cg, f, u, goal);
-    *condition = ost_lanczos_condition(&cg.lanczos);
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, cg_allocate(&cg, goal->most_iterations)));
+    OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
+    OST_TRY_DONE(report_error(&cg, f, u, goal, report));
+done:
     OST_FREE(cg.direction);
     OST_FREE(cg.product);
     OST_FREE(cg.residual);

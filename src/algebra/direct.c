@@ -47,9 +47,9 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
 
 OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .flexible = 0};
+    const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .factors = 1};
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
-    return ost_cg_solve(&direct->system, &factors, f, u, goal, &report->condition_estimate);
+    return ost_cg_solve(&direct->system, &factors, f, u, goal, report);
 }

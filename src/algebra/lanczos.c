@@ -74,18 +74,25 @@ static double bisect(const OstLanczos *lanczos, int below, double high)
     return high;
 }
 
-double ost_lanczos_condition(const OstLanczos *lanczos)
+/* Gershgorin's bound on the largest. */
+static double upper_bound(const OstLanczos *lanczos)
 {
     const int n = lanczos->count;
-    if (n == 0)
-        return 0.0;
-    double bound = 0.0; /* Gershgorin */
+    double bound = 0.0;
     for (int k = 0; k < n; k++) {
         const double before = k > 0 ? sqrt(off_diagonal_square(lanczos, k - 1)) : 0.0;
         const double after = k + 1 < n ? sqrt(off_diagonal_square(lanczos, k)) : 0.0;
         bound = fmax(bound, diagonal(lanczos, k) + before + after);
     }
-    if (!isfinite(bound))
-        return 0.0;
-    return bisect(lanczos, n - 1, bound) / bisect(lanczos, 0, bound);
+    return bound;
+}
+
+void ost_lanczos_extremes(const OstLanczos *lanczos, double *smallest, double *largest)
+{
+    const double bound = upper_bound(lanczos);
+    *smallest = *largest = 0.0;
+    if (lanczos->count == 0 || !isfinite(bound))
+        return;
+    *smallest = bisect(lanczos, 0, bound);
+    *largest = bisect(lanczos, lanczos->count - 1, bound);
 }

@@ -17,8 +17,8 @@ OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos);
 void ost_lanczos_destroy(OstLanczos *lanczos);
 void ost_lanczos_add(OstLanczos *lanczos, double alpha, double beta);
 
-/* Local. Largest over smallest eigenvalue of the Lanczos matrix, which approaches the condition number of the
- * preconditioned matrix from below; 0 if there were no steps. */
-double ost_lanczos_condition(const OstLanczos *lanczos);
+/* Local. The smallest and the largest eigenvalue of the Lanczos matrix, which approach those of the preconditioned
+ * matrix from above and from below; 0 if there were no steps. */
+void ost_lanczos_extremes(const OstLanczos *lanczos, double *smallest, double *largest);
 
 #endif

@@ -197,7 +197,7 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];
     report->operator_complexity = metric->operator_complexity;
-    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, goal, &report->condition_estimate);
+    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, goal, report);
 }
 
 OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)

@@ -2,6 +2,7 @@
 #include "algebra/refine.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/term_rounding.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -42,18 +43,18 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
     goal->iterations++;
-    ost_watch_add(&goal->watch, norm, weight);
+    ost_pace_add(&goal->pace, norm, weight);
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
     if (norm <= goal->target)
         return 0;
-    const double remaining = ost_watch_remaining(&goal->watch, goal->target);
+    const double remaining = ost_pace_remaining(&goal->pace, goal->target);
     if (goal->iterations >= goal->most_iterations) {
         say_iterations(goal);
     } else if (goal->patience > 0 && remaining > goal->patience) {
         goal->end = OST_END_SLOW;
         snprintf(goal->words, sizeof goal->words,
-                 "after %d iterations the residual fell by no more than %.4f a step: too slow", goal->watch.count,
-                 ost_watch_factor(&goal->watch));
+                 "after %d iterations the residual fell by no more than %.4f a step: too slow", goal->pace.count,
+                 ost_pace_factor(&goal->pace));
     }
     return goal->end == OST_END_REACHED;
 }
@@ -117,7 +118,7 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
     OST_TRY(sum(ctx, 1, &square));
     goal->start = goal->norm = sqrt(square);
     goal->target = options->relative_residual * goal->start;
-    ost_watch_start(&goal->watch, goal->start);
+    ost_pace_start(&goal->pace, goal->start);
     if (!isfinite(goal->start))
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
     return OST_SUCCESS;
@@ -164,30 +165,16 @@ static OstStatus take_correction(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* Sum of the squares of the terms of (A u)_i, i being component c of a row. */
-static double square_of_terms(const OstBlockMatrix *matrix, OstLocal row, int c, const double *u)
-{
-    double total = 0.0;
-    for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-        for (int d = 0; d < 3; d++) {
-            const double term = matrix->value[9 * (size_t)k + (size_t)(3 * c + d)] * u[3 * matrix->column[k] + d];
-            total += term * term;
-        }
-    return total;
-}
-
 /* About how small ||f - A u|| can be in double precision, each term of A u being rounded at random. */
 static OstStatus find_limit(Refinement *work)
 {
     const OstBlockMatrix *matrix = work->matrix;
-    double square = 0.0;
     memcpy(work->candidate, work->u, work->n * sizeof(double));
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), work->candidate));
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        for (int c = 0; c < 3; c++)
-            square += square_of_terms(matrix, i, c, work->candidate);
+    ost_term_rounding(matrix, work->candidate, work->left);
+    double square = dot(work->n, work->left, work->left);
     OST_TRY(sum(matrix->ctx, 1, &square));
-    work->goal->limit = DBL_EPSILON * sqrt(square);
+    work->goal->limit = sqrt(square);
     return OST_SUCCESS;
 }
 
@@ -217,7 +204,7 @@ static OstStatus judge(Refinement *work)
         say_iterations(goal);
     } else if (goal->end == OST_END_REACHED) {
         goal->end = OST_END_STALLED;
-        snprintf(goal->words, sizeof goal->words, "after %d iterations nothing more is gained", goal->watch.count);
+        snprintf(goal->words, sizeof goal->words, "after %d iterations nothing more is gained", goal->pace.count);
     }
     return OST_SUCCESS;
 }
@@ -226,7 +213,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
     OstGoal *goal = work->goal;
     OST_TRY(first_residual(work));
-    ost_watch_start(&goal->watch, goal->norm);
+    ost_pace_start(&goal->pace, goal->norm);
     int stalls = 0;
     do {
         const double before = goal->norm;

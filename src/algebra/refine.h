@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_REFINE_H
 
 #include "algebra/block_matrix.h"
-#include "algebra/watch.h"
+#include "algebra/pace.h"
 #include "orthostat/solver.h"
 
 /* How an iterative solver's work ended. */
@@ -28,7 +28,7 @@ typedef struct OstGoal {
     int most_iterations;
     int patience;           /* 0: endless */
     int attainable_will_do; /* less than the target, where rounding holds no more */
-    OstWatch watch;
+    OstPace pace;
     OstEnd end;
     char words[200]; /* the end, unless reached */
 } OstGoal;

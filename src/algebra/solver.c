@@ -167,7 +167,7 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung),
                                    goal->end == OST_END_REACHED ? "reached the residual asked for" : goal->words);
     step->iterations = goal->iterations - before;
-    step->factor = step->iterations > 0 ? ost_watch_whole_factor(&goal->watch) : 0.0;
+    step->factor = step->iterations > 0 ? ost_pace_whole_factor(&goal->pace) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->rung_seconds;
     solver->rung_seconds = 0.0;
@@ -189,7 +189,7 @@ static OstRecipe fastest(const OstSolveReport *report)
     OstRecipe found = OST_RECIPE_AUTO;
     double least = 0.9999;
     for (int s = 0; s < report->steps; s++)
-        if (report->step[s].iterations >= OST_WATCH_WINDOW && report->step[s].factor < least) {
+        if (report->step[s].iterations >= OST_PACE_WINDOW && report->step[s].factor < least) {
             found = report->step[s].rung;
             least = report->step[s].factor;
         }

@@ -48,8 +48,8 @@ static void print_solve(const OstResult *result)
 static void print_digits(const OstChecks *checks)
 {
     if (isfinite(checks->digits))
-        printf("  digits           about %.0f of the displacement hold (condition times residual and rounding: %.1e)\n",
-               floor(checks->digits), checks->displacement_error);
+        printf("  digits           about %.0f of the displacement hold (error about %.1e)\n", floor(checks->digits),
+               checks->displacement_error);
 }
 
 static void print_objections(const OstResult *result)

@@ -122,14 +122,11 @@ static void draw_conclusions(OstChecks *checks, const double *sums, double rhs_n
     checks->finite = sums[SUM_NOT_FINITE] == 0.0;
 }
 
-static void estimate_digits(OstChecks *checks, double condition)
+static void estimate_digits(OstChecks *checks, const OstSolveReport *report)
 {
-    checks->displacement_error = NAN;
-    checks->digits = NAN;
-    if (condition <= 0.0)
-        return;
-    checks->displacement_error = condition * (checks->relative_residual + checks->rounding);
-    checks->digits = fmax(-log10(fmax(checks->displacement_error, DBL_EPSILON)), 0.0);
+    const int known = report->error_estimate > 0.0;
+    checks->displacement_error = known ? report->error_estimate : NAN;
+    checks->digits = known ? fmax(-log10(fmax(checks->displacement_error, DBL_EPSILON)), 0.0) : NAN;
 }
 
 void ost_object(OstResult *result, const char *format, ...)
@@ -157,6 +154,12 @@ static Explained explain(const OstResult *result, const double *sums, double rhs
                        balance_tolerance + sqrt(sums[SUM_SQUARE]) * residual / fmax(sums[SUM_WORK_SIZE], DBL_MIN)};
 }
 
+/* Where rounding kept the solver from the residual asked for, what is left of that is rounding too. */
+static double lost_to_rounding(const OstSolveReport *report)
+{
+    return report->rounding_limited ? report->error_estimate : report->rounding_error;
+}
+
 /* Comparisons are such that what is no number fails. */
 static void judge(OstResult *result, double requested, Explained explained)
 {
@@ -177,15 +180,11 @@ static void judge(OstResult *result, double requested, Explained explained)
     if (!(checks->energy_imbalance <= explained.energy && checks->strain_energy >= 0.0))
         ost_object(result, "the strain energy %.10e is not the work %.10e of loads and reactions",
                    checks->strain_energy, checks->work);
-    /* The bound on rounding is high by tens where terms round at random; what it did leave shows in the residual. */
-    const double rounded = fmin(checks->rounding, checks->relative_residual);
-    const double left = result->solve.condition_estimate * rounded;
-    if (!(left <= least_digit))
+    if (!(lost_to_rounding(&result->solve) <= least_digit))
         ost_object(result,
-                   "rounding in double precision leaves the displacement less than one digit (condition %.2g times "
-                   "rounding %.1e is %.1g); bring the stiffnesses of the parts nearer to each other, or hold the body "
-                   "better",
-                   result->solve.condition_estimate, rounded, left);
+                   "rounding in double precision leaves the displacement less than one digit (an error of about "
+                   "%.1g); bring the stiffnesses of the parts nearer to each other, or hold the body better",
+                   lost_to_rounding(&result->solve));
 }
 
 OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual, double rhs_norm)
@@ -211,7 +210,7 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
     OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
     draw_conclusions(&result->checks, sums, rhs_norm);
-    estimate_digits(&result->checks, result->solve.condition_estimate);
+    estimate_digits(&result->checks, &result->solve);
     judge(result, requested_residual, explain(result, sums, rhs_norm));
 done:
     OST_FREE(internal);

@@ -10,15 +10,14 @@
  * solved for. Objects (ost_object) with the numbers to what does not hold: finite values, the true residual, forces and
  * moments in balance, strain energy equal to the work (Clapeyron), a digit left by rounding.
  *
- * Digits. With M the preconditioner and k the condition number of M^-1 K, in the norms of M and M^-1,
- *     |u - u*| / |u*|  <=  k |f - K u| / |f|
- * (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 7.1, for the split preconditioned system). k comes
- * from the Lanczos coefficients of the solve, which see the part of the spectrum that f excites, and approach it from
- * below; the residual is that of the checks, with what rounding may add to it: the stiffness, and u itself, are held to
- * 1e-16 only, and the residual that this hides is about DBL_EPSILON |K| |u|. It is measured in the 2-norm, which stands
- * in for that of M^-1: an estimate, then, not a bound. (With MUMPS for M, k is about 1 and says no more than that the
- * factors are good; PLAIN has no k, and states no digits.) -log10 of it is the digits. Fewer digits than the requested
- * residual leaves are the user's choice; less than one digit left by rounding alone is objected to.
+ * Digits. The solver estimates the error from the preconditioner applied to the true residual and to what rounding
+ * leaves of the stiffness: with multigrid in the norm of the energy, by the smallest Ritz value of the solve; with
+ * factors the displacement's own (algebra/energy_error.h). It is an estimate, not a bound: the Ritz value comes from
+ * above, a displacement may be less right where little energy is, and factors miss what they themselves lost. PLAIN
+ * keeps its coefficients to itself, and states no digits. -log10 of it is the digits. Fewer digits than the requested
+ * residual leaves are the user's choice; less than one digit left by rounding is objected to. The 2-norm of the
+ * residual times the condition, which needs no preconditioner, is of no use where stiffness is uneven: it takes the
+ * residual at a stiff inclusion for one at what is soft, and denied digits to answers that held five.
  *
  * The sums are not compensated, because the limit is u's own: a displacement rounded to double leaves a residual of
  * about DBL_EPSILON |K| |u| however exactly that is summed. Measured where it is worst, on an inclusion 1e9 times

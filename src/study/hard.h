@@ -51,7 +51,9 @@ typedef struct OstHardTruth {
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||: error allowed by a residual, over that residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
-    double plain; /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
+    double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
+    double rounded; /* how far u* moves when every entry of K does by half a unit in its last place, root of the mean
+                       square over signs at random; NAN where the factors leave three digits, and nobody asked */
 } OstHardTruth;
 
 typedef struct OstHardReading {
@@ -120,7 +122,7 @@ OstStatus ost_hard_make_chunk(const OstHardPoint *point, const OstCase *c, OstMe
 double ost_hard_contrast(int shape);
 void ost_hard_cylinder(int shape, double origin[3], double axis[3]);
 
-/* Collective. Assembles the scene's equations afresh, factors them, refines with residuals in extended precision until
+/* Collective. Assembles the scene's equations afresh, factors them, iterates with residuals in twofold precision until
  * the solution stands to the last digits of double precision, and holds the result (NULL: there is none) against it. */
 OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth);
 

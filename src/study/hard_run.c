@@ -10,7 +10,8 @@
 /* A digit that a statement about digits may be off by: the condition is an estimate, from below. */
 static const double slack = 10.0;
 
-/* The error of a factorisation's solution from which on double precision is said to hold no answer. */
+/* The error of a factorisation's solution, or the move that rounding the stiffness makes, from which on double
+ * precision is said to hold no answer. */
 static const double hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
@@ -76,7 +77,7 @@ static int is_true(const OstHardReading *reading)
 static void judge(OstHardReading *reading)
 {
     const OstHardTruth *truth = &reading->truth;
-    const int hopeless_case = !truth->known || !(truth->plain <= hopeless);
+    const int hopeless_case = !truth->known || !(truth->plain <= hopeless) || truth->rounded > hopeless;
     reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
         reading->outcome = hopeless_case ? OST_HARD_REFUSED : OST_HARD_GIVEN_UP;
@@ -134,7 +135,7 @@ OstStatus ost_hard_read(OstContext *ctx, const OstHardPoint *point, OstHardReadi
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (OstHardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);

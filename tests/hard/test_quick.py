@@ -23,10 +23,11 @@ def grid(folder, ranks, *shapes):
 
 def check_sound(point):
     name = point["point"]
-    if point["outcome"] not in SOLVED:
-        # The one thing that sound bodies are refused for: a bound on rounding, which may be too careful (README).
-        check(point["outcome"] in ("refused rightly", "given up") and "less than one digit" in point["reason"],
+    if point["outcome"] not in SOLVED:  # where double precision holds no digit, and for that reason
+        check(point["outcome"] == "refused rightly" and "less than one digit" in point["reason"],
               f"{name}: {point['outcome']}: {point['reason']}")
+        lost = [point["plain_factors_error"], point["moved_by_rounding"]]
+        check(None in lost or max(lost) > 0.1, f"{name}: refused, and loses only {lost}")
         return
     check(point["unknowns"] > 3000, f"{name}: only {point['unknowns']} unknowns, which any case has factored")
     check(point["rounding_limited"] == (point["outcome"] == "solved to rounding"), f"{name}: {point['outcome']}")

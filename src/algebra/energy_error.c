@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/energy_error.h"
+
+#include "algebra/exact_residual.h"
+#include "algebra/term_rounding.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Up to this error rounding is not looked at more closely: one throw of the signs that falls short a hundredfold still
+ * leaves a digit. */
+static const double three_digits = 1e-3;
+
+enum { THROWS = 8 };
+
+typedef struct Work {
+    const OstCgSystem *system;
+    const OstPreconditioner *preconditioner;
+    size_t n;            /* unknowns this rank owns */
+    double *u;           /* with room for ghosts */
+    double *residual;    /* f - A u */
+    double *rounding;    /* size of what rounding leaves of it */
+    double *vector;      /* the one that is measured */
+    double *corrected;   /* M^-1 of that */
+    double energy_norm;  /* |u|_A sqrt(smallest) */
+    double displacement; /* |u| */
+} Work;
+
+/* f - A u and its rounding; fills u's ghosts. */
+static OstStatus find_residual(Work *work, const double *f, int exact)
+{
+    const OstBlockMatrix *matrix = work->system->matrix;
+    if (exact) {
+        OST_TRY(ost_exact_residual(matrix, f, work->u, work->residual));
+    } else {
+        OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
+        for (size_t i = 0; i < work->n; i++)
+            work->residual[i] = f[i] - work->residual[i];
+    }
+    ost_term_rounding(matrix, work->u, work->rounding);
+    return OST_SUCCESS;
+}
+
+static OstStatus sum_products(const Work *work, const double *a, const double *b, double *sum)
+{
+    OstContext *ctx = work->system->matrix->ctx;
+    *sum = 0.0;
+    for (size_t i = 0; i < work->n; i++)
+        *sum += a[i] * b[i];
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+}
+
+/* 1 or -1, as an unknown's global number and the throw have it (the finaliser of SplitMix64). */
+static double sign_of(OstGlobal unknown, int throw)
+{
+    uint64_t bits = (uint64_t)unknown + UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(throw +1);
+    bits = (bits ^ (bits >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    bits = (bits ^ (bits >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (bits ^ (bits >> 31)) & 1 ? 1.0 : -1.0;
+}
+
+/* vector = base + half of rounding, with signs at random; a base of NULL is none. */
+static void throw_signs(Work *work, const double *base, int throw)
+{
+    const OstGlobal first = 3 * work->system->matrix->first_row;
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] = (base ? base[i] : 0.0) + 0.5 * sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
+}
+
+/* M^-1 v; v is divided by `size` before: preconditioners work in single precision too. */
+static OstStatus correct(Work *work, double *size)
+{
+    if (work->system->scaling)
+        ost_scaling_to_scaled(work->system->scaling, work->vector, work->vector);
+    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->vector, size));
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] /= *size;
+    return work->preconditioner->apply(work->preconditioner->data, work->vector, work->corrected);
+}
+
+/* |M^-1 v| over |u|. */
+static OstStatus measure_displacement(Work *work, double size, double *error)
+{
+    double square;
+    if (work->system->scaling)
+        ost_scaling_from_scaled(work->system->scaling, work->corrected, work->corrected);
+    for (size_t i = 0; i < work->n; i++)
+        work->corrected[i] *= size / work->displacement;
+    OST_TRY(sum_products(work, work->corrected, work->corrected, &square));
+    *error = sqrt(square);
+    return OST_SUCCESS;
+}
+
+/* What v, as a residual, says of the error. */
+static OstStatus measure(Work *work, double *error)
+{
+    double size, square;
+    OST_TRY(correct(work, &size));
+    OST_TRY(sum_products(work, work->vector, work->corrected, &square));
+    *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
+    return work->preconditioner->factors && square > 0.0 ? measure_displacement(work, size, error) : OST_SUCCESS;
+}
+
+/* The root of the mean square over throws. */
+static OstStatus look_closer(Work *work, OstEnergyError *error)
+{
+    double residual, one, squares = 0.0;
+    memcpy(work->vector, work->residual, work->n * sizeof(double));
+    OST_TRY(measure(work, &residual));
+    for (int throw = 1; throw <= THROWS; throw ++) {
+        throw_signs(work, NULL, throw);
+        OST_TRY(measure(work, &one));
+        squares += one * one;
+    }
+    error->rounding = sqrt(squares / THROWS);
+    error->whole = hypot(residual, error->rounding);
+    return OST_SUCCESS;
+}
+
+/* |u|, whose squares may be too small or too large for a number. */
+static OstStatus find_displacement(Work *work)
+{
+    double size, square;
+    OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->u, &size));
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] = work->u[i] / size;
+    OST_TRY(sum_products(work, work->vector, work->vector, &square));
+    work->displacement = size * sqrt(square);
+    return OST_SUCCESS;
+}
+
+static OstStatus estimate(Work *work, double smallest, const double *f, int exact, OstEnergyError *error)
+{
+    double energy;
+    OST_TRY(find_residual(work, f, exact));
+    OST_TRY(sum_products(work, f, work->u, &energy));
+    *error = (OstEnergyError){INFINITY, INFINITY};
+    work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
+    if (!(work->energy_norm > 0.0))
+        return OST_SUCCESS;
+    OST_TRY(find_displacement(work));
+    error->rounding = 0.0;
+    throw_signs(work, work->residual, 0);
+    OST_TRY(measure(work, &error->whole));
+    return error->whole > three_digits ? look_closer(work, error) : OST_SUCCESS;
+}
+
+static OstStatus allocate(OstContext *ctx, Work *work)
+{
+    OST_TRY(OST_NEW(ctx, &work->u, 3 * (size_t)work->system->matrix->columns));
+    OST_TRY(OST_NEW(ctx, &work->residual, work->n));
+    OST_TRY(OST_NEW(ctx, &work->rounding, work->n));
+    OST_TRY(OST_NEW(ctx, &work->vector, work->n));
+    return OST_NEW(ctx, &work->corrected, work->n);
+}
+
+OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
+                           const double *f, const double *u, int exact, OstEnergyError *error)
+{
+    const OstBlockMatrix *matrix = system->matrix;
+    Work work = {.system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows};
+    OstStatus status = ost_agree(matrix->ctx, allocate(matrix->ctx, &work));
+    if (status == OST_SUCCESS) {
+        memcpy(work.u, u, work.n * sizeof *u);
+        status = estimate(&work, smallest, f, exact, error);
+    }
+    OST_FREE(work.u);
+    OST_FREE(work.residual);
+    OST_FREE(work.rounding);
+    OST_FREE(work.vector);
+    OST_FREE(work.corrected);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_ENERGY_ERROR_H
+#define ORTHOSTAT_ALGEBRA_ENERGY_ERROR_H
+
+#include "algebra/cg.h"
+
+/* How far u is from the solution u* of A u = f, in the norm of the energy. With r = f - A u, M a preconditioner and l
+ * the smallest eigenvalue of M^-1 A, |u - u*|_A = |r|_{A^-1}  <=  sqrt(r·M^-1 r / l),      |u*|_A = sqrt(f·u*)
+ * (Axelsson and Kaporin, Error norm estimation and stopping criteria in preconditioned conjugate gradient iterations,
+ * Numer. Linear Algebra Appl. 8, 2001). l comes from the Lanczos coefficients of the solve and approaches the
+ * eigenvalue from above: an estimate, then, but one that sees how stiff each unknown is, where the 2-norm of r takes
+ * all alike.
+ *
+ * Where M is the factors of A, M^-1 r is the error itself: then its 2-norm over that of u is told, which is what is
+ * asked of a displacement, and owes nothing to l.
+ *
+ * A itself is rounded, each entry to half a unit in its last place: what that leaves is told by the same norm of half
+ * of what ost_term_rounding finds, with signs at random. It is added to r, so that one application of the
+ * preconditioner tells both. Where that leaves less than three digits, the two are told apart, and rounding by several
+ * throws of the signs: what rounding does to a badly conditioned body is its share in one softest mode, which one throw
+ * may miss. */
+typedef struct OstEnergyError {
+    double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution */
+    double rounding; /* of it, what rounding of A explains; 0 where three digits are left, and nobody asked */
+} OstEnergyError;
+
+/* Collective. Applies the preconditioner once, or ten times where less than three digits are left. `exact`: r is summed
+ * by ost_exact_residual. */
+OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
+                           const double *f, const double *u, int exact, OstEnergyError *error);
+
+#endif

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "elastic_block.h"
+
+#include "algebra/energy_error.h"
+#include "algebra/mumps.h"
+
+#include <float.h>
+
+static const ElasticBlock column = {
+    .bricks = {2, 2, 8}, .size = {1.0, 1.0, 1.0}, .modulus = 1e3, .poisson = 0.3, .contrast = 10.0, .held = 1};
+
+enum { CLOSE_LOOK = 10 }; /* applications where less than three digits are left */
+
+/* A problem with a known solution, and its factors: M = A. */
+typedef struct Known {
+    ElasticProblem problem;
+    OstScaling *scaling;
+    OstBlockMatrix *scaled;
+    OstMumps *factors;
+    size_t n;
+    double *solution, *f, *u, *work; /* work with ghosts */
+    int calls;
+    double sign;
+    int believed; /* the preconditioner says that it is factors */
+} Known;
+
+static OstStatus apply(void *data, const double *r, double *z)
+{
+    Known *known = data;
+    known->calls++;
+    OST_TRY(ost_mumps_solve(known->factors, r, z));
+    for (size_t i = 0; i < known->n; i++)
+        z[i] *= known->sign;
+    return OST_SUCCESS;
+}
+
+static double *numbers(size_t count)
+{
+    double *made = NULL;
+    assert_success(OST_NEW(ctx, &made, count));
+    return made;
+}
+
+static void multiply(Known *known, const double *u, double *product)
+{
+    memcpy(known->work, u, known->n * sizeof *u);
+    assert_success(ost_block_matrix_apply(known->problem.matrix, known->work, product));
+}
+
+static double dot(size_t n, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    assert_int_equal(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)), MPI_SUCCESS);
+    return sum;
+}
+
+/* The stiffness times `unit`, the displacement over it; `scaled`: iterated on in scaled unknowns. */
+static Known make(double unit, int scaled)
+{
+    Known known = {.sign = 1.0};
+    ElasticBlock block = column;
+    block.modulus *= unit;
+    assert_success(elastic_create(ctx, &block, &known.problem));
+    const OstBlockMatrix *matrix = known.problem.matrix;
+    known.n = 3 * (size_t)matrix->rows;
+    known.solution = numbers(known.n);
+    known.f = numbers(known.n);
+    known.u = numbers(known.n);
+    known.work = numbers(3 * (size_t)matrix->columns);
+    if (scaled) {
+        assert_success(ost_scaling_create(matrix, &known.scaling));
+        assert_success(ost_scaling_apply_matrix(known.scaling, matrix, &known.scaled));
+    }
+    assert_success(ost_mumps_create_of_rows(scaled ? known.scaled : matrix, 0.0, &known.factors));
+    for (size_t i = 0; i < known.n; i++)
+        known.solution[i] = sin(0.1 * (double)(3 * matrix->first_row) + 0.1 * (double)i) / unit;
+    multiply(&known, known.solution, known.f);
+    memcpy(known.u, known.solution, known.n * sizeof(double));
+    return known;
+}
+
+static void destroy(Known *known)
+{
+    ost_mumps_destroy(&known->factors);
+    ost_block_matrix_destroy(&known->scaled);
+    ost_scaling_destroy(&known->scaling);
+    elastic_destroy(&known->problem);
+    OST_FREE(known->solution);
+    OST_FREE(known->f);
+    OST_FREE(known->u);
+    OST_FREE(known->work);
+}
+
+static OstEnergyError estimate(Known *known)
+{
+    const OstCgSystem system = {
+        .matrix = known->problem.matrix, .scaled_matrix = known->scaled, .scaling = known->scaling};
+    const OstPreconditioner preconditioner = {.data = known, .apply = apply, .factors = known->believed};
+    OstEnergyError error;
+    known->calls = 0;
+    assert_success(ost_energy_error(&system, &preconditioner, 1.0, known->f, known->u, 0, &error));
+    return error;
+}
+
+/* u = solution + size × something of every mode; returns |u - solution|_A over sqrt(f·u). */
+static double displace(Known *known, double size, double unit)
+{
+    const OstGlobal first = 3 * known->problem.matrix->first_row;
+    double *off = numbers(known->n), *product = numbers(known->n);
+    for (size_t i = 0; i < known->n; i++) {
+        off[i] = size * cos(1.7 * (double)first + 1.7 * (double)i) / unit;
+        known->u[i] = known->solution[i] + off[i];
+    }
+    multiply(known, off, product);
+    const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->u));
+    OST_FREE(off);
+    OST_FREE(product);
+    return error;
+}
+
+static void with_the_matrix_itself_it_is_the_error_whatever_the_units(void **state)
+{
+    (void)state;
+    const double units[] = {1.0, 0x1p+600, 0x1p-600};
+    for (int k = 0; k < 6; k++) {
+        const double unit = units[k / 2];
+        Known known = make(unit, k % 2);
+        const double large = displace(&known, 0.1, unit);
+        OstEnergyError error = estimate(&known);
+        assert_close(error.whole, large, 1e-9 * large);
+        assert_true(error.rounding > 0.0 && error.rounding < 1e-12);
+        assert_int_equal(known.calls, CLOSE_LOOK);
+
+        const double small = displace(&known, 1e-6, unit);
+        error = estimate(&known);
+        assert_close(error.whole, small, 1e-6 * small);
+        assert_close(error.rounding, 0.0, 0.0);
+        assert_int_equal(known.calls, 1);
+        destroy(&known);
+    }
+}
+
+static void with_factors_it_is_the_error_of_the_displacement_itself(void **state)
+{
+    (void)state;
+    const double units[] = {1.0, 0x1p+600, 0x1p-600};
+    for (int k = 0; k < 6; k++) {
+        Known known = make(units[k / 2], k % 2);
+        double *off = numbers(known.n);
+        known.believed = 1;
+        displace(&known, 0.1, units[k / 2]);
+        for (size_t i = 0; i < known.n; i++) {
+            off[i] = (known.u[i] - known.solution[i]) * units[k / 2];
+            known.work[i] = known.u[i] * units[k / 2];
+        }
+        const double error = sqrt(dot(known.n, off, off) / dot(known.n, known.work, known.work));
+        assert_close(estimate(&known).whole, error, 1e-9 * error);
+        OST_FREE(off);
+        destroy(&known);
+    }
+}
+
+/* 1 or -1, the same for both entries of a pair. */
+static double sign_of_pair(OstGlobal i, OstGlobal j, int round)
+{
+    const double low = (double)(i < j ? i : j), high = (double)(i < j ? j : i);
+    return sin(12.9898 * low + 78.233 * high + 37.719 * low * high + 4.7 * round) > 0.0 ? 1.0 : -1.0;
+}
+
+/* Every entry up or down by a `share` of itself. */
+static void perturb(OstBlockMatrix *matrix, double share, int round)
+{
+    OstGlobal *number = NULL;
+    assert_success(OST_NEW(ctx, &number, matrix->columns));
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        number[i] = matrix->first_row + i;
+    assert_success(ost_halo_import(matrix->halo, sizeof *number, number));
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
+            for (int c = 0; c < 9; c++)
+                matrix->value[9 * (size_t)k + (size_t)c] *=
+                    1.0 + share * sign_of_pair(3 * number[i] + c / 3, 3 * number[matrix->column[k]] + c % 3, round);
+    OST_FREE(number);
+}
+
+/* How far the solution moves, over its own energy, when every entry of the matrix moves by that share of itself. */
+static double moved(Known *known, double share, int round)
+{
+    ElasticProblem other;
+    OstMumps *factors = NULL;
+    double *off = numbers(known->n), *product = numbers(known->n);
+    assert_success(elastic_create(ctx, &column, &other));
+    perturb(other.matrix, share, round);
+    assert_success(ost_mumps_create_of_rows(other.matrix, 0.0, &factors));
+    assert_success(ost_mumps_solve(factors, known->f, off));
+    for (size_t i = 0; i < known->n; i++)
+        off[i] -= known->solution[i];
+    multiply(known, off, product);
+    const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->solution));
+    ost_mumps_destroy(&factors);
+    elastic_destroy(&other);
+    OST_FREE(off);
+    OST_FREE(product);
+    return error;
+}
+
+/* A rounding a hundred million times coarser than that of double precision can be watched. */
+static void rounding_is_what_other_roundings_of_the_matrix_do(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 12 };
+    const double share = 1e-8;
+    Known known = make(1.0, 1);
+    double squares = 0.0;
+    for (int round = 0; round < ROUNDS; round++) {
+        const double one = moved(&known, share, round);
+        squares += one * one;
+    }
+    displace(&known, 0.01, 1.0);
+    const double rounding = estimate(&known).rounding / (0.5 * DBL_EPSILON);
+    const double watched = sqrt(squares / ROUNDS) / share;
+    assert_true(watched > 1.0);
+    assert_true(rounding < 3.0 * watched && watched < 3.0 * rounding);
+    destroy(&known);
+}
+
+static void what_cannot_be_measured_is_no_number(void **state)
+{
+    (void)state;
+    Known known = make(1.0, 1);
+    displace(&known, 0.1, 1.0);
+    known.sign = -1.0;
+    assert_true(isnan(estimate(&known).whole));
+    displace(&known, 1e-6, 1.0);
+    assert_true(isnan(estimate(&known).whole));
+    known.sign = 1.0;
+    for (size_t i = 0; i < known.n; i++)
+        known.u[i] = -known.solution[i];
+    assert_true(isinf(estimate(&known).whole) && isinf(estimate(&known).rounding));
+    memset(known.u, 0, known.n * sizeof(double));
+    assert_true(isinf(estimate(&known).whole));
+    destroy(&known);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(with_the_matrix_itself_it_is_the_error_whatever_the_units),
+    cmocka_unit_test(with_factors_it_is_the_error_of_the_displacement_itself),
+    cmocka_unit_test(rounding_is_what_other_roundings_of_the_matrix_do),
+    cmocka_unit_test(what_cannot_be_measured_is_no_number),
+};
+
+OST_TEST_MAIN(tests)
