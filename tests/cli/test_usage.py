@@ -1,9 +1,10 @@
 """The command line: help, versions, mistakes, quiet runs, JSON, and the default place of the output."""
 import json
 import os
+import subprocess
 import tempfile
 
-from program import check, run
+from program import PROGRAM, check, run
 
 CASE = """title: a bar pulled along
 mesh:
@@ -17,6 +18,16 @@ constraints:
 loads:
   - {on: {boundary: xmax}, total_force: [10, 0, 0]}
 """
+
+
+def a_full_standard_output_is_no_success(folder):
+    for words in (["check", "bar.yaml", "--json"], ["check", "bar.yaml"], ["explain", "bar.yaml"], ["--version"],
+                  ["material", "--youngs", "1", "--nu", "0.3", "--json"], ["solve", "bar.yaml", "--json", "-"]):
+        with open("/dev/full", "w") as full:
+            process = subprocess.run([PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=full,
+                                     stderr=subprocess.PIPE, text=True, timeout=240)
+        check(process.returncode == 2 and "standard output could not be written: No space" in process.stderr,
+              f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
 def main():
@@ -71,6 +82,7 @@ def main():
     check(lost.exit_code == 2 and "nowhere" in lost.errors, f"an output folder that is not there: {lost.errors}")
     full = run("solve", "bar.yaml", "--json", "/dev/full/x", folder=folder)
     check(full.exit_code == 2, "an impossible JSON path")
+    a_full_standard_output_is_no_success(folder)
 
 
 main()
