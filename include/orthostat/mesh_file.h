@@ -19,6 +19,9 @@ typedef struct OstFileMaterials {
  * Nodes and tets have the file's numbers as labels. Tets come in the file's order; those of a .msh file in the order of
  * their numbers. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
+
+/* Local. Is the file at `sought` one of those a mesh file consists of: itself, or included by it? */
+int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought);
 void ost_file_materials_destroy(OstFileMaterials **materials);
 
 /* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments) as ascending ranges between which

@@ -28,12 +28,16 @@ typedef struct OstPlanEffect {
 typedef enum { OST_EFFECT_TABLE(OST_PLAN_ENUM) OST_PLAN_COUNT } OstPlanIndex;
 #undef OST_PLAN_ENUM
 
+/* More than anything can hold; sums and multiples of it by a few still fit 64 bits. */
+#define OST_PLAN_MOST (INT64_MAX / 64)
+
 typedef struct OstPlan {
     OstPlanEffect effect[OST_PLAN_COUNT];
     OstSolverFacts facts; /* as far as they are known */
     OstSolverPlan solver;
     OstGlobal nodes, tets; /* of the mesh as given */
     OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
+    int least_ranks;       /* on fewer, one would hold more than can be numbered there, as far as is foreseen */
     /* Over all ranks, foreseen (the formulas are in src/case/plan_memory.c): pieces of the mesh with their halos; K by
      * blocks, its pattern and where each tet's blocks go; the recipe's copies and vectors; the output file. */
     double bytes_mesh, bytes_matrix, bytes_solver, bytes_output;
@@ -47,8 +51,13 @@ void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstF
 /* Local. Does anything act on the body: a load, or a displacement given that is not zero? */
 int ost_plan_acts(const OstCase *c, const OstPlan *plan);
 
-/* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. */
+/* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. Counts that are out of reach
+ * anyway end at OST_PLAN_MOST. */
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
+
+/* Local. Raises OST_LIMIT_EXCEEDED with the limit where the libraries below cannot number the unknowns of a mesh of so
+ * many nodes, on however many ranks. */
+OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
 
 /* Local. Turns the counts of a mesh file into those of the mesh that the case makes of it, refined and in its order:
  * the tets exactly, the nodes about. */

@@ -26,6 +26,10 @@ OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene *
 
 void ost_scene_destroy(OstScene **scene);
 
+/* Collective. Supports, loads and stiffness as the solve makes them, with every check that comes before its solver:
+ * what is refused here is refused there, in the same words. */
+OstStatus ost_scene_rehearse(const OstScene *scene);
+
 /* Collective. Supports, loads, stiffness, solve, checks, and the fields the case's output asks for. Raises
  * OST_NOT_CONVERGED or OST_CHECK_FAILED with the numbers; where result->reached, the result is filled then too, with
  * what is held against it, but is not an answer. The scene outlives the result. */

@@ -2,6 +2,7 @@
 #include "orthostat/plan.h"
 
 #include "case/plan_parts.h"
+#include "core/error.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -129,30 +130,48 @@ void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstF
     ost_plan_memory(c, ranks, plan);
 }
 
+static OstGlobal bounded(double count)
+{
+    return count < (double)OST_PLAN_MOST ? (OstGlobal)count : OST_PLAN_MOST;
+}
+
+/* Doubles hold all counts that are of use exactly, and no product of divisions is too large for them. */
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
 {
     /* A refinement doubles a shape's divisions, and so does, for the nodes, a node on every edge. */
-    const OstGlobal fine = (OstGlobal)1 << c->refinement;
-    const OstGlobal nodal = c->order == 2 ? 2 * fine : fine;
+    const double fine = (double)(1 << c->refinement);
+    const double nodal = c->order == 2 ? 2.0 * fine : fine;
     const OstTubeShape *tube = &c->tube;
     const OstSectorShape *sector = &c->sector;
-    const OstGlobal around = c->octant.around;
+    const double around = c->octant.around;
     const OstLocal *n = c->block.divisions;
-    *nodes = *tets = 0;
+    double points = 0.0, cells = 0.0;
     if (c->mesh_kind == OST_MESH_TUBE) {
-        *nodes = (nodal * tube->axial + 1) * nodal * tube->around * (nodal * tube->radial + 1);
-        *tets = (OstGlobal)6 * tube->axial * tube->around * tube->radial;
+        points = (nodal * tube->axial + 1.0) * nodal * tube->around * (nodal * tube->radial + 1.0);
+        cells = (double)tube->axial * tube->around * tube->radial;
     } else if (c->mesh_kind == OST_MESH_SECTOR) {
-        *nodes = (nodal * sector->axial + 1) * (nodal * sector->around + 1) * (nodal * sector->radial + 1);
-        *tets = (OstGlobal)6 * sector->axial * sector->around * sector->radial;
+        points = (nodal * sector->axial + 1.0) * (nodal * sector->around + 1.0) * (nodal * sector->radial + 1.0);
+        cells = (double)sector->axial * sector->around * sector->radial;
     } else if (c->mesh_kind == OST_MESH_OCTANT) {
-        *nodes = (3 * nodal * around * (nodal * around + 1) + 1) * (nodal * c->octant.radial + 1);
-        *tets = 18 * around * around * c->octant.radial;
+        points = (3.0 * nodal * around * (nodal * around + 1.0) + 1.0) * (nodal * c->octant.radial + 1.0);
+        cells = 3.0 * around * around * c->octant.radial;
     } else if (c->mesh_kind == OST_MESH_BLOCK) {
-        *nodes = (nodal * n[0] + 1) * (nodal * n[1] + 1) * (nodal * n[2] + 1);
-        *tets = (OstGlobal)6 * n[0] * n[1] * n[2];
+        points = (nodal * n[0] + 1.0) * (nodal * n[1] + 1.0) * (nodal * n[2] + 1.0);
+        cells = (double)n[0] * n[1] * n[2];
     }
-    *tets *= fine * fine * fine;
+    *nodes = bounded(points);
+    *tets = bounded(6.0 * cells * fine * fine * fine);
+}
+
+OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
+{
+    const OstGlobal most = INT32_MAX / 3;
+    if (nodes <= most)
+        return OST_SUCCESS;
+    return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,
+                     "%s: %s%lld nodes have three unknowns each; Epetra and ML number at most 2^31 - 1 over all ranks, "
+                     "which is %lld nodes: use a coarser mesh",
+                     c->path, nodes == OST_PLAN_MOST ? "more than " : "", (long long)nodes, (long long)most);
 }
 
 void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets)
@@ -163,13 +182,13 @@ void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, O
     if (quadratic)
         *nodes -= 7 * *tets / 6;
     for (int r = 0; r < c->refinement; r++) {
-        *nodes += 7 * *tets / 6;
-        *tets *= 8;
+        *nodes = bounded((double)*nodes + 7.0 * (double)*tets / 6.0);
+        *tets = bounded(8.0 * (double)*tets);
     }
     if (c->order != 0)
         quadratic = c->order == 2;
     if (quadratic)
-        *nodes += 7 * *tets / 6;
+        *nodes = bounded((double)*nodes + 7.0 * (double)*tets / 6.0);
 }
 
 int ost_plan_acts(const OstCase *c, const OstPlan *plan)

@@ -63,6 +63,14 @@ static double output_bytes(const OstCase *c, const OstPlan *plan)
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 
+/* See assembly/limits.h: nonzeros of K, and nodes of tets, on a rank. Parts are alike, but for their halos. */
+static int least_ranks(const OstCase *c, double nodes, double tets)
+{
+    const double nodes_per_tet = c->order == 2 ? 10.0 : 4.0;
+    const double counts = fmax(9.0 * matrix_blocks(nodes, tets), nodes_per_tet * tets);
+    return (int)fmin(fmax(ceil(counts / INT32_MAX), 1.0), INT32_MAX);
+}
+
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
 {
     const double nodes = (double)plan->nodes;
@@ -70,6 +78,7 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     const double halo = halo_factor(nodes, ranks);
     const double axes = plan->effect[OST_PLAN_VARYING_AXES].on ? tet_axes_bytes : 0.0;
     const double value_bytes = matrix_blocks(nodes, tets) * block_bytes;
+    plan->least_ranks = least_ranks(c, nodes, tets);
     plan->bytes_mesh = halo * (nodes * mesh_node_bytes + tets * (mesh_tet_bytes + axes));
     plan->bytes_matrix = value_bytes + nodes * row_bytes + halo * tets * scatter_bytes;
     plan->bytes_solver = solver_bytes(plan, value_bytes);

@@ -5,16 +5,15 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/scene.h"
-#include "solve/boundary_conditions.h"
-#include "solve/freedom.h"
 #include "study/watch.h"
 
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char doc[] =
-    "Read a case, make its mesh, materials, axes and selections, and say what is wrong with them. Nothing is solved.";
+static const char doc[] = "Read a case, make its mesh, materials, axes, selections and equations, and say what is "
+                          "wrong with them. Nothing is "
+                          "solved.";
 
 /* What the checks found beyond errors. */
 typedef struct Findings {
@@ -94,24 +93,23 @@ static OstStatus check_conditions(const OstScene *scene, Findings *findings)
 }
 
 /* What the word exact stands for is known to `verify` alone. */
-static int knows_supports(const OstCase *c)
+static int says_exact(const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++)
         for (int k = 0; k < 3; k++)
             if (c->constraints[i].exact[k])
-                return 0;
-    return c->constraint_count > 0 || c->free_body;
+                return 1;
+    for (int i = 0; i < c->load_count; i++)
+        if (c->loads[i].exact)
+            return 1;
+    return 0;
 }
 
-static OstStatus check_freedom(const OstScene *scene)
+/* A body without constraints is warned of below. */
+static OstStatus rehearse(const OstScene *scene)
 {
-    OstSupports *supports = NULL;
-    if (!knows_supports(scene->c))
-        return OST_SUCCESS;
-    OST_TRY(ost_scene_supports(scene, &supports));
-    const OstStatus status = ost_freedom_check(scene->mesh, supports, scene->c->path, scene->c->free_body);
-    ost_supports_destroy(&supports);
-    return status;
+    const OstCase *c = scene->c;
+    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_rehearse(scene);
 }
 
 static void look_for_oddities(const OstScene *scene, const Findings *findings)
@@ -179,7 +177,7 @@ static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments
     OST_TRY_DONE(ost_choose_output(c, NULL, findings->output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(check_conditions(scene, findings));
-    OST_TRY_DONE(check_freedom(scene));
+    OST_TRY_DONE(rehearse(scene));
     OST_TRY_DONE(ost_watch_check(scene));
     look_for_oddities(scene, findings);
     if (ost_rank(ctx) == 0 && arguments->json)

@@ -4,6 +4,7 @@
 #include "case/sections.h"
 #include "core/error.h"
 #include "formats/vtkhdf.h"
+#include "orthostat/mesh_file.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -84,6 +85,11 @@ static int is_same_place(const char *path, const char *other)
            same_inode(&a, &b);
 }
 
+static int is_list_of(const OstSelection *on, const char *path)
+{
+    return is_same_existing_file(path, on->vertices_file);
+}
+
 /* What the case reads that lies here, in words; or NULL. */
 static const char *input_at(const OstCase *c, const char *path)
 {
@@ -91,11 +97,16 @@ static const char *input_at(const OstCase *c, const char *path)
         return "the case itself";
     if (is_same_existing_file(path, c->mesh_file))
         return "the mesh that the case reads";
+    if (c->mesh_file && access(path, F_OK) == 0 && ost_mesh_file_reads(c->ctx, c->mesh_file, path))
+        return "a file that the mesh includes";
     for (int i = 0; i < c->constraint_count; i++)
-        if (is_same_existing_file(path, c->constraints[i].on.vertices_file))
+        if (is_list_of(&c->constraints[i].on, path))
             return "a list of vertices that the case reads";
     for (int i = 0; i < c->load_count; i++)
-        if (is_same_existing_file(path, c->loads[i].on.vertices_file))
+        if (is_list_of(&c->loads[i].on, path))
+            return "a list of vertices that the case reads";
+    for (int i = 0; i < c->watch_count; i++)
+        if (is_list_of(&c->watches[i].on, path))
             return "a list of vertices that the case reads";
     for (int i = 0; i < c->material_count; i++)
         if (is_same_existing_file(path, c->materials[i].axes.cells_file))
@@ -119,15 +130,24 @@ static OstStatus check_folder(OstContext *ctx, const char *path)
     return OST_SUCCESS;
 }
 
+static OstStatus check_no_input(const OstCase *c, const char *path, const char *ending)
+{
+    char whole[OST_LONGEST_PATH];
+    snprintf(whole, sizeof whole, "%s%s", path, ending);
+    const char *input = input_at(c, whole);
+    if (!input)
+        return OST_SUCCESS;
+    return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", whole, input);
+}
+
 static OstStatus check_file(const OstCase *c, const char *path)
 {
     struct stat there;
     OST_TRY(check_length(c->ctx, path, OST_LONGEST_PATH - sizeof partial));
     if (*name_in_folder(path) == '\0')
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' names no file to write", path);
-    const char *input = input_at(c, path);
-    if (input)
-        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", path, input);
+    OST_TRY(check_no_input(c, path, ""));
+    OST_TRY(check_no_input(c, path, partial));
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' is there already and is not a regular file; name another%s",
                          path, S_ISDIR(there.st_mode) ? ", or one in it" : "");

@@ -29,6 +29,7 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
         tets = chunk->global_tets;
         ost_plan_file_size(c, chunk->nodes_per_tet, &nodes, &tets);
     }
+    OST_TRY_DONE(ost_plan_check_size(c, nodes));
     ost_plan_make(c, nodes, tets, materials, ost_size(ctx), plan);
     OST_TRY_DONE(ost_memory_free(ctx, &plan->facts.free_memory));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
@@ -69,6 +70,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
+    if (plan->least_ranks > ranks)
+        printf("  %-20s %14d at least: one holds 2^31 - 1 nonzeros of the stiffness, or nodes of tets, at most\n",
+               "ranks", plan->least_ranks);
     printf("\nMemory foreseen, over %d rank%s\n", ranks, ranks == 1 ? "" : "s");
     print_bytes("mesh", plan->bytes_mesh);
     print_bytes("stiffness", plan->bytes_matrix);
@@ -79,13 +83,14 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
-    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
+    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
                              "case", c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
                              ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver),
                              "relative_residual", c->solver.relative_residual, "vertices", (json_int_t)plan->nodes,
                              "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks",
-                             ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver",
-                             plan->bytes_solver, "in_all", total_bytes(plan), "output_file", plan->bytes_output);
+                             ranks, "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
+                             plan->bytes_matrix, "solver", plan->bytes_solver, "in_all", total_bytes(plan),
+                             "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

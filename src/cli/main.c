@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 
+#include <errno.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -93,12 +94,23 @@ static int answer_at_once(int argc, char **argv)
     return argc > 1 ? 0 : ost_status_exit_code(OST_INVALID_USAGE);
 }
 
+/* What was printed may still be lost: a full disk shows when the last of it leaves. Under mpirun a pipe takes it. */
+static int end_with(int exit_code)
+{
+    errno = 0;
+    const int lost = fflush(stdout) != 0 || ferror(stdout);
+    if (lost)
+        fprintf(stderr, "orthostat: error: standard output could not be written%s%s\n", errno ? ": " : "",
+                errno ? strerror(errno) : "");
+    return lost && exit_code == 0 ? ost_status_exit_code(OST_FILE_FAILED) : exit_code;
+}
+
 int main(int argc, char **argv)
 {
     const int level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)
-        return answered;
+        return end_with(answered);
     ost_keep_freed_memory();
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS) {
         fputs("orthostat: error: MPI could not be started\n", stderr);
@@ -112,7 +124,7 @@ int main(int argc, char **argv)
     } else {
         fputs("orthostat: error: no memory for the first few bytes\n", stderr);
     }
-    fflush(stdout);
+    exit_code = end_with(exit_code);
     ost_context_destroy(&ctx);
     MPI_Finalize();
     return exit_code;

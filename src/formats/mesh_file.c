@@ -9,6 +9,7 @@
 
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 static OstStatus read_gmsh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
@@ -49,14 +50,27 @@ static OstStatus read_parallel(OstContext *ctx, const char *path, OstMeshChunk *
     return ost_vtkhdf_read(ctx, path, chunk);
 }
 
-OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+static const char *ending_of(const char *path)
 {
     const char *name = strrchr(path, '/');
     const char *ending = strrchr(name ? name : path, '.');
+    return ending ? ending : "";
+}
+
+int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
+{
+    struct stat a, b;
+    if (strcasecmp(ending_of(path), ".veg") == 0)
+        return ost_veg_reads(ctx, path, sought);
+    return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    const char *ending = ending_of(path);
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
     *materials = NULL;
-    ending = ending ? ending : "";
     const int format = find_format(ending);
     if (format < SERIAL_FORMATS)
         status = read_serial(ctx, format, path, chunk, materials);

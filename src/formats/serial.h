@@ -8,4 +8,7 @@
 OstStatus ost_gmsh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 OstStatus ost_veg_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
+/* Local. Is the file at `sought` this .veg file, or one that it includes? Mistakes in it are left to the reader. */
+int ost_veg_reads(OstContext *ctx, const char *path, const char *sought);
+
 #endif

@@ -28,6 +28,8 @@ typedef struct OstVeg {
     int depth; /* files open: the first, those that it includes, ... */
     int included;
     OstLineReader reader[OST_VEG_DEPTH];
+    const char *sought; /* a path, or NULL */
+    int met;            /* one of the files that were opened lies there */
 
     OstGlobal vertex_count;
     double *coordinates;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial.h"
 #include "formats/veg.h"
 
 #include <string.h>
@@ -17,19 +18,29 @@ OstLineReader *ost_veg_reader(OstVeg *veg)
     return &veg->reader[veg->depth - 1];
 }
 
+static int same_inode(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+static int lies_at(const OstLineReader *reader, const char *path)
+{
+    struct stat x, y;
+    return fstat(fileno(reader->file), &x) == 0 && stat(path, &y) == 0 && same_inode(&x, &y);
+}
+
+static int same_file(const OstLineReader *a, const OstLineReader *b)
+{
+    struct stat x, y;
+    return fstat(fileno(a->file), &x) == 0 && fstat(fileno(b->file), &y) == 0 && same_inode(&x, &y);
+}
+
 OstStatus ost_veg_open(OstContext *ctx, const char *path, OstVeg *veg)
 {
     *veg = (OstVeg){.ctx = ctx};
     OST_TRY(ost_lines_open(ctx, path, &veg->reader[0]));
     veg->depth = 1;
     return OST_SUCCESS;
-}
-
-static int same_file(const OstLineReader *a, const OstLineReader *b)
-{
-    struct stat x, y;
-    return fstat(fileno(a->file), &x) == 0 && fstat(fileno(b->file), &y) == 0 && x.st_dev == y.st_dev &&
-           x.st_ino == y.st_ino;
 }
 
 static OstStatus check_include(OstVeg *veg, const OstLineReader *opened)
@@ -56,6 +67,8 @@ static OstStatus enter(OstVeg *veg, const char *path)
         return OST_FILE_FAILED;
     }
     OST_TRY(status);
+    if (veg->sought && lies_at(&opened, veg->sought))
+        veg->met = 1;
     status = check_include(veg, &opened);
     if (status == OST_SUCCESS)
         veg->reader[veg->depth++] = opened;
@@ -107,6 +120,19 @@ OstStatus ost_veg_next(OstVeg *veg, int *found)
             veg->depth--;
         }
     }
+}
+
+int ost_veg_reads(OstContext *ctx, const char *path, const char *sought)
+{
+    OstVeg veg;
+    int more = ost_veg_open(ctx, path, &veg) == OST_SUCCESS;
+    if (more)
+        veg.met = lies_at(&veg.reader[0], sought);
+    veg.sought = sought;
+    while (more && !veg.met)
+        more = ost_veg_next(&veg, &more) == OST_SUCCESS && more;
+    ost_veg_close(&veg);
+    return veg.met;
 }
 
 OstStatus ost_veg_expect(OstVeg *veg, const char *what)

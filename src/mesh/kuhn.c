@@ -45,8 +45,8 @@ OstStatus ost_kuhn_share(OstContext *ctx, const char *shape, const char *what, O
     const OstGlobal rank = ost_rank(ctx);
     if (each >= INT32_MAX / KUHN_TETS)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "%s: %lld %s on %d ranks are more than the %d that one rank can number; use more ranks", shape,
-                         (long long)total, what, size, INT32_MAX / KUHN_TETS);
+                         "%s: %lld %s on %d rank%s are more than the %d that one rank can number; use more ranks",
+                         shape, (long long)total, what, size, size == 1 ? "" : "s", INT32_MAX / KUHN_TETS);
     *first = rank * each + (rank < rest ? rank : rest);
     *count = (OstLocal)(each + (rank < rest ? 1 : 0));
     return OST_SUCCESS;

@@ -224,6 +224,31 @@ static OstStatus raise_objections(const OstResult *result, OstStatus solved)
     return OST_RAISE(result->ctx, OST_CHECK_FAILED, "%s", text);
 }
 
+/* All that is checked before a solver is made. */
+static OstStatus prepare(const OstScene *scene, OstResult *result, Work *work)
+{
+    const OstCase *c = scene->c;
+    OST_TRY(ost_scene_supports(scene, &work->supports));
+    OST_TRY(ost_freedom_check(scene->mesh, work->supports, c->path, c->free_body));
+    OST_TRY(ost_scene_loads(scene, result->force));
+    if (c->free_body)
+        OST_TRY(ost_free_body_check_loads(scene->mesh, result->force, c->path));
+    return assemble(scene, result, work);
+}
+
+OstStatus ost_scene_rehearse(const OstScene *scene)
+{
+    Work work = {0};
+    OstResult *result = NULL;
+    OstStatus status = ost_agree(scene->ctx, create_result(scene, &result));
+    if (status == OST_SUCCESS)
+        status = prepare(scene, result, &work);
+    release_system(&work);
+    ost_supports_destroy(&work.supports);
+    ost_result_destroy(&result);
+    return status;
+}
+
 OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
 {
     OstContext *ctx = scene->ctx;
@@ -233,12 +258,7 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
     OstStatus status = ost_agree(ctx, create_result(scene, &result));
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_scene_supports(scene, &work.supports));
-    OST_TRY_DONE(ost_freedom_check(scene->mesh, work.supports, scene->c->path, scene->c->free_body));
-    OST_TRY_DONE(ost_scene_loads(scene, result->force));
-    if (scene->c->free_body)
-        OST_TRY_DONE(ost_free_body_check_loads(scene->mesh, result->force, scene->c->path));
-    OST_TRY_DONE(assemble(scene, result, &work));
+    OST_TRY_DONE(prepare(scene, result, &work));
     result->unknowns = 3 * work.system->matrix->global_rows;
     status = solve_system(scene, result, &work);
     if (!result->reached)

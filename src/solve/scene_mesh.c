@@ -3,11 +3,15 @@
 
 #include "core/error.h"
 #include "mesh/merge.h"
+#include "orthostat/plan.h"
 #include "orthostat/refine.h"
 #include "solve/scene_cut.h"
 
 static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
+    OstGlobal nodes = 0, tets = 0;
+    ost_plan_shape_size(c, &nodes, &tets);
+    OST_TRY(ost_plan_check_size(c, nodes));
     switch (c->mesh_kind) {
     case OST_MESH_TUBE:
         return ost_chunk_create_tube(c->ctx, &c->tube, chunk);

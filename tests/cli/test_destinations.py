@@ -98,6 +98,41 @@ def refuses_the_mesh_it_reads(folder):
     write(folder, "held.bou", "1,2,3,4")
     write(folder, "listed.yaml", CASE.replace("boundary: xmin", "vertices: held.bou"))
     refused(folder, ["over a list of vertices that the case reads"], "listed.yaml", "--json", "held.bou")
+    write(folder, "watched.yaml", CASE + "watch: {pull: {reaction: {vertices: held.bou}, component: x}}\n")
+    refused(folder, ["over a list of vertices that the case reads"], "watched.yaml", "--json", "held.bou")
+
+
+VEG = """*VERTICES
+4 3 0 0
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+*INCLUDE parts/elements.txt
+"""
+
+
+def refuses_what_the_mesh_includes(folder):
+    """Also two files deep, and where it is only the file that is written aside first."""
+    os.mkdir(os.path.join(folder, "parts"))
+    write(folder, "tet.veg", VEG)
+    write(folder, "parts/elements.txt", "*ELEMENTS\nTET\n1 4 0\n1 1 2 3 4\n*INCLUDE deep.json.partial\n")
+    write(folder, "parts/deep.json.partial", "# nothing more\n")
+    write(folder, "tet.yaml", """mesh: {file: tet.veg}
+constraints:
+  - {on: {vertices: [1, 2, 3]}, displacement: [0, 0, 0]}
+loads:
+  - {on: {vertices: [4]}, point_force: [0, 0, -1]}
+""")
+    before = read(folder, "parts/elements.txt")
+    refused(folder, ["over a file that the mesh includes"], "tet.yaml", "--json", "parts/elements.txt")
+    refused(folder, ["over a file that the mesh includes"], "tet.yaml", "--json", "parts/deep.json")
+    for report in "--csv", "--json", "--picture":
+        finished = run("cost", "tet.yaml", report, "parts/elements.txt", folder=folder)
+        check(finished.exit_code == 2 and "over a file that the mesh includes" in finished.errors, f"{finished.errors}")
+    check(read(folder, "parts/elements.txt") == before, "the included file was changed")
+    finished = run("solve", "-q", "tet.yaml", "--json", "parts/other.txt", folder=folder)
+    check(finished.exit_code == 0, f"beside an included file: {finished.errors}")
 
 
 def a_full_disk_costs_no_result(folder):
@@ -184,6 +219,7 @@ def main():
     refuses_folders_that_are_not_there(folder)
     refuses_what_is_too_long(folder)
     refuses_the_mesh_it_reads(folder)
+    refuses_what_the_mesh_includes(folder)
     a_full_disk_costs_no_result(folder)
     check_says_where_it_goes(folder)
     a_body_at_rest_is_pointed_out(folder)

@@ -1,9 +1,10 @@
 """The command line: help, versions, mistakes, quiet runs, JSON, and the default place of the output."""
 import json
 import os
+import subprocess
 import tempfile
 
-from program import check, run
+from program import PROGRAM, check, run
 
 CASE = """title: a bar pulled along
 mesh:
@@ -17,6 +18,36 @@ constraints:
 loads:
   - {on: {boundary: xmax}, total_force: [10, 0, 0]}
 """
+
+
+def a_full_standard_output_is_no_success(folder):
+    for words in (["check", "bar.yaml", "--json"], ["check", "bar.yaml"], ["explain", "bar.yaml"], ["--version"],
+                  ["material", "--youngs", "1", "--nu", "0.3", "--json"], ["solve", "bar.yaml", "--json", "-"]):
+        with open("/dev/full", "w") as full:
+            process = subprocess.run([PROGRAM, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=full,
+                                     stderr=subprocess.PIPE, text=True, timeout=240)
+        check(process.returncode == 2 and "standard output could not be written: No space" in process.stderr,
+              f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
+
+
+def impossible_sizes_are_told_by_their_limit(folder):
+    """2^31 - 1 unknowns are 715,827,882 nodes, which no ranks help beyond; the nonzeros of a rank they do help."""
+    for divisions, refine in (([100000, 100000, 100000], 0), ([1000000, 1000000, 1000000], 8), ([894, 894, 894], 0)):
+        with open(os.path.join(folder, "huge.yaml"), "w") as stream:
+            stream.write(CASE.replace("[4, 2, 2]}", f"{divisions}}}\n  refine: {refine}"))
+        for command in "explain", "check", "solve":
+            refused = run(command, "huge.yaml", folder=folder)
+            check(refused.exit_code == 2 and "2^31 - 1 over all ranks, which is 715827882 nodes: use a coarser mesh"
+                  in refused.errors and not refused.output, f"{command} {divisions}: {refused.output}{refused.errors}")
+    with open(os.path.join(folder, "large.yaml"), "w") as stream:
+        stream.write(CASE.replace("[4, 2, 2]", "[890, 890, 890]"))
+    told = run("explain", "large.yaml", folder=folder)
+    # Kuhn's six tets a cell: 15 blocks a vertex, each of 9 nonzeros
+    least = 891 ** 3 * 15 * 9 / (2 ** 31 - 1)
+    check(told.exit_code == 0 and "at least: one holds 2^31 - 1 nonzeros" in told.output, f"{told.output}{told.errors}")
+    ranks = json.loads(run("explain", "large.yaml", "--json", folder=folder).output)["ranks_at_least"]
+    check(abs(ranks - least) <= 1 + 0.01 * least, f"at least {ranks} ranks, {least} by hand")
+    check("ranks  " not in run("explain", "bar.yaml", folder=folder).output, "one rank will do, and nothing is said")
 
 
 def main():
@@ -71,6 +102,8 @@ def main():
     check(lost.exit_code == 2 and "nowhere" in lost.errors, f"an output folder that is not there: {lost.errors}")
     full = run("solve", "bar.yaml", "--json", "/dev/full/x", folder=folder)
     check(full.exit_code == 2, "an impossible JSON path")
+    a_full_standard_output_is_no_success(folder)
+    impossible_sizes_are_told_by_their_limit(folder)
 
 
 main()
