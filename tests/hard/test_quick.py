@@ -1,4 +1,4 @@
-"""A sample of the hard grid, on one rank and on two: what is sound is solved, flaws are named, the ranks are of one mind."""
+"""A sample of the hard grid, on one rank and two: the sound is solved, flaws are named, the ranks are of one mind."""
 import json
 import os
 import sys
