@@ -1,4 +1,4 @@
-"""A sample of the hard grid, on one rank and on two: nothing false, every flaw named, and the ranks of one mind."""
+"""A sample of the hard grid, on one rank and two: the sound is solved, flaws are named, the ranks are of one mind."""
 import json
 import os
 import sys
@@ -23,12 +23,7 @@ def grid(folder, ranks, *shapes):
 
 def check_sound(point):
     name = point["point"]
-    if point["outcome"] not in SOLVED:  # where double precision holds no digit, and for that reason
-        check(point["outcome"] == "refused rightly" and "less than one digit" in point["reason"],
-              f"{name}: {point['outcome']}: {point['reason']}")
-        lost = [point["plain_factors_error"], point["moved_by_rounding"]]
-        check(None in lost or max(lost) > 0.1, f"{name}: refused, and loses only {lost}")
-        return
+    check(point["outcome"] in SOLVED, f"{name}: {point['outcome']}: {point['reason']}")
     check(point["unknowns"] > 3000, f"{name}: only {point['unknowns']} unknowns, which any case has factored")
     check(point["rounding_limited"] == (point["outcome"] == "solved to rounding"), f"{name}: {point['outcome']}")
     check(point["rounding_limited"] or point["relative_residual"] <= 1e-8, f"{name}: {point['relative_residual']}")
@@ -40,7 +35,7 @@ def check_ranks(name, one, two):
     if one["outcome"] != two["outcome"]:  # at the very limit of double precision one may just reach 1e-8
         check({one["outcome"], two["outcome"]} == SOLVED and max(one["floor"], two["floor"]) > 1e-10,
               f"{name}: {one['outcome']} on one rank, {two['outcome']} on two")
-    if one["flawed"] or one["outcome"] not in SOLVED:
+    if one["flawed"]:
         return
     apart = abs(one["size"] - two["size"]) / one["size"]
     least = max(one["plain_factors_error"], two["plain_factors_error"], 1e-15)
@@ -60,7 +55,6 @@ def main():
             check(point["outcome"] == "refused rightly", f"{name}: {point['outcome']}: {point['reason']}")
         else:
             check_sound(point)
-    check(sum(one[name]["outcome"] in SOLVED for name in sound) >= 0.9 * len(sound), "too many are refused")
     for name in two:
         check_ranks(name, one[name], two[name])
 
