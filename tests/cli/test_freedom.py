@@ -67,6 +67,10 @@ REFUSED = [
      case("free_body", "  - {on: {nearest: [0, 0, 0]}, point_force: [0, 1, 0]}\n"
                        "  - {on: {nearest: [1, 0, 0]}, point_force: [0, -1, 0]}"), [ONE],
      "these leave a force (0, 0, 0) of loads of size 2, and a moment (0, 0, -1)"),
+    ("a balance but for rounding", case("free_body", "".join(
+        f"  - {{on: {{nearest: {at}}}, point_force: [0, 0, {f}]}}\n"
+        for at, f in (([0, 0, 0], 0.1), ([1, 0, 0], 0.2), ([0, 1, 0], -0.3)))), [ONE],
+     "leave a force (0, 0, 0) of loads of size 0.6, and a moment (-0.3, -0.2, 0)"),
     ("moduli beyond the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e180"), [ONE],
      "the stiffest nodes are of size"),
     ("moduli below the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e-150"), [ONE],
