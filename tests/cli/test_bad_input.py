@@ -1,8 +1,7 @@
 """Every mistake gets a message one can act on, exit status 2 on all ranks, and leaves existing output alone."""
 import os
-import tempfile
 
-from program import check, run
+from program import check, new_folder, run
 
 GOOD = """mesh:
   block: {size: [2, 1, 1], divisions: [4, 2, 2]}
@@ -153,7 +152,7 @@ MISTAKES = [
 def main():
     for name, text, files, wanted in MISTAKES:
         for ranks in (1, 2):
-            folder = tempfile.mkdtemp(prefix="orthostat-")
+            folder = new_folder()
             for file, content in files.items():
                 with open(os.path.join(folder, file), "w") as stream:
                     stream.write(content)

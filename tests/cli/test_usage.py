@@ -2,9 +2,8 @@
 import json
 import os
 import subprocess
-import tempfile
 
-from program import PROGRAM, check, run
+from program import PROGRAM, check, new_folder, run
 
 CASE = """title: a bar pulled along
 mesh:
@@ -51,7 +50,7 @@ def impossible_sizes_are_told_by_their_limit(folder):
 
 
 def main():
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     with open(os.path.join(folder, "bar.yaml"), "w") as stream:
         stream.write(CASE)
 
