@@ -2,6 +2,7 @@
 #include "mesh/part_ranks.h"
 
 #include "core/error.h"
+#include "core/gather.h"
 #include "core/halo.h"
 #include "core/memory.h"
 #include "mesh/route.h"
@@ -169,34 +170,14 @@ done:
 /* Joins the sets of all ranks on each: there are few links, one per pair of sets and ranks that meet. */
 static OstStatus join_everywhere(OstContext *ctx, const Links *mine, OstLocal *parent)
 {
-    int *count = NULL; /* per rank, and where its links start */
-    Link *all = NULL;
-    MPI_Datatype pair = MPI_DATATYPE_NULL;
-    const int my_count = mine->count;
-    const int size = ost_size(ctx);
-    OstGlobal total = 0;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &count, 2 * (size_t)size));
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&my_count, 1, MPI_INT, count, 1, MPI_INT, ost_comm(ctx))));
-    for (int r = 0; r < size && total <= INT32_MAX; r++) {
-        count[size + r] = (int)total;
-        total += count[r];
-    }
-    if (total > INT32_MAX)
-        OST_TRY_DONE(OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "the mesh falls into too many parts to count"));
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &all, total)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_contiguous(2, MPI_INT32_T, &pair)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_commit(&pair)));
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allgatherv(mine->link, my_count, pair, all, count, count + size, pair, ost_comm(ctx))));
-    for (OstGlobal i = 0; i < total; i++)
+    void *gathered = NULL;
+    OstLocal total = 0;
+    const OstStatus status = ost_gather_items(ctx, sizeof *mine->link, mine->count, mine->link,
+                                              "the mesh falls into too many parts to count", &gathered, &total);
+    const Link *all = gathered;
+    for (OstLocal i = 0; status == OST_SUCCESS && i < total; i++)
         ost_set_join(parent, all[i].a, all[i].b);
-done:
-    if (pair != MPI_DATATYPE_NULL)
-        MPI_Type_free(&pair);
-    OST_FREE(count);
-    OST_FREE(all);
+    OST_FREE(gathered);
     return status;
 }
 

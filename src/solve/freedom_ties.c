@@ -2,6 +2,7 @@
 #include "solve/freedom_ties.h"
 
 #include "core/error.h"
+#include "core/gather.h"
 #include "core/memory.h"
 #include "core/small.h"
 
@@ -239,31 +240,11 @@ done:
 
 static OstStatus gather(OstContext *ctx, const OstTies *mine, OstTies *all)
 {
-    int *count = NULL; /* per rank, and where its ties start */
-    MPI_Datatype item = MPI_DATATYPE_NULL;
-    const int my_count = mine->count;
-    const int size = ost_size(ctx);
-    OstGlobal total = 0;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &count, 2 * (size_t)size));
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&my_count, 1, MPI_INT, count, 1, MPI_INT, ost_comm(ctx))));
-    for (int r = 0; r < size && total <= INT32_MAX; r++) {
-        count[size + r] = (int)total;
-        total += count[r];
-    }
-    if (total > INT32_MAX)
-        OST_TRY_DONE(OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "the mesh falls into too many parts to tell what holds them"));
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &all->tie, total)));
-    all->count = (OstLocal)total;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_contiguous((int)sizeof(OstTie), MPI_BYTE, &item)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Type_commit(&item)));
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allgatherv(mine->tie, my_count, item, all->tie, count, count + size, item, ost_comm(ctx))));
-done:
-    if (item != MPI_DATATYPE_NULL)
-        MPI_Type_free(&item);
-    OST_FREE(count);
+    void *gathered = NULL;
+    const OstStatus status =
+        ost_gather_items(ctx, sizeof *mine->tie, mine->count, mine->tie,
+                         "the mesh falls into too many parts to tell what holds them", &gathered, &all->count);
+    all->tie = gathered;
     return status;
 }
 
