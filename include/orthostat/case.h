@@ -11,6 +11,11 @@
  * Files that a case reads (mesh, axes, .bou lists) are named relative to the case file's folder; the file it writes,
  * relative to the directory the program is called in. */
 
+/* Where a word stands in the case file, from 1, for messages; zeros: nowhere. */
+typedef struct OstPlace {
+    int line, column;
+} OstPlace;
+
 typedef enum {
     OST_SELECT_ALL,
     OST_SELECT_BOUNDARY, /* named groups of points, curves or faces */
@@ -24,14 +29,14 @@ typedef enum {
 
 typedef struct OstSelection {
     OstSelectionKind kind;
-    int line;            /* in the case file, for messages */
+    OstPlace place;
     OstNames boundaries; /* BOUNDARY */
     double point[3];     /* PLANE, SPHERE centre, CYLINDER origin, NEAREST; BOX minimum */
     double direction[3]; /* PLANE normal, CYLINDER axis; BOX maximum */
     double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
     double
         tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
-    OstGlobal range_count;  /* VERTICES: labels, ranges ascending and apart; of vertices_file where that is named */
+    OstGlobal range_count; /* VERTICES: labels, ranges ascending and apart; of vertices_file where that is named */
     OstLabelRange *ranges;
     char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
@@ -64,6 +69,7 @@ typedef struct OstLoad {
     int line;
     OstSelection on; /* not used by GRAVITY and BODY_FORCE */
     char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
+    OstPlace region_place;
     double vector[3];
     double pressure;
     int exact;      /* TRACTION, BODY_FORCE: the formula's (the word exact) */
@@ -73,6 +79,7 @@ typedef struct OstLoad {
 
 typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
+    OstPlace region_place, axes_place;
     int line;
     OstOrthotropic constants;
     double density;
@@ -109,9 +116,10 @@ typedef struct OstCase {
     OstSectorShape sector;
     OstOctantShape octant;
     char *mesh_file; /* resolved path */
-    double merge;    /* FILE: vertices no farther apart than this are joined; 0: none are */
-    int refinement;  /* uniform refinements of the mesh as given: each cuts a tet in eight */
-    int order;       /* of the elements: 1 or 2; 0: as the mesh has it */
+    OstPlace mesh_place;
+    double merge;   /* FILE: vertices no farther apart than this are joined; 0: none are */
+    int refinement; /* uniform refinements of the mesh as given: each cuts a tet in eight */
+    int order;      /* of the elements: 1 or 2; 0: as the mesh has it */
     int material_count;
     OstCaseMaterial *materials;
     int free_body; /* the word free_body instead of constraints: loads balance each other, and nothing is held */
@@ -146,6 +154,9 @@ typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } O
  * is none, OST_INVALID_INPUT as "path:line:column: what was found, what was expected, what to do" (unknown keys with
  * the nearest known one). Nothing of the mesh is looked at. */
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
+
+/* Local. Puts the place in front of a failure raised further down, as "path:line:column: text"; passes success. */
+OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
 void ost_case_destroy(OstCase **c);
 
 /* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from

@@ -67,6 +67,10 @@ void ost_material_rotate_compliance(const double compliance[36], const double ax
 /* Eigenvalues, ascending, of the normalised normal block. */
 OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *constants, double eigenvalues[3]);
 
+/* The Poisson's ratio of the isotropic material that has this least eigenvalue, 1 - 2 nu. It is to be held against
+ * limits that people write, such as 0.45, so that it is given to 1e-12: rounding does not decide whether one is met. */
+double ost_equivalent_poisson(double least_eigenvalue);
+
 /* The common factor up to which all Poisson's ratios may grow (below 1: they are too large already), from the
  * eigenvalues; INFINITY if all are 0. */
 double ost_orthotropic_stable_scale(const double eigenvalues[3]);

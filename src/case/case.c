@@ -122,19 +122,24 @@ static OstStatus read_bytes(OstCase *c, const char *bytes, size_t size)
     return status;
 }
 
+OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status)
+{
+    char *text = NULL;
+    if (status == OST_SUCCESS || place.line == 0)
+        return status;
+    OST_TRY(ost_copy_string(c->ctx, ost_error_text(c->ctx), &text));
+    OST_RAISE(c->ctx, status, "%s:%d:%d: %s", c->path, place.line, place.column, text);
+    OST_FREE(text);
+    return status;
+}
+
 static OstStatus read_vertex_file(OstCase *c, OstSelection *selection)
 {
     if (!selection->vertices_file)
         return OST_SUCCESS;
-    const OstStatus status =
-        ost_vertex_list_read(c->ctx, selection->vertices_file, &selection->range_count, &selection->ranges);
-    if (status == OST_SUCCESS)
-        return OST_SUCCESS;
-    char *text = NULL;
-    OST_TRY(ost_copy_string(c->ctx, ost_error_text(c->ctx), &text));
-    OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, selection->line, text);
-    OST_FREE(text);
-    return status;
+    return ost_case_located(
+        c, selection->place,
+        ost_vertex_list_read(c->ctx, selection->vertices_file, &selection->range_count, &selection->ranges));
 }
 
 static OstStatus read_vertex_files(OstCase *c)

@@ -71,7 +71,7 @@ static void add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest,
     const double most = fmax(e[0], fmax(e[1], e[2]));
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     if (ost_orthotropic_eigenvalues(ctx, k, eigenvalues) == OST_SUCCESS)
-        facts->poisson = fmax(facts->poisson, 0.5 * (1.0 - eigenvalues[0]));
+        facts->poisson = fmax(facts->poisson, ost_equivalent_poisson(eigenvalues[0]));
     *softest = *softest > 0.0 ? fmin(*softest, least) : least;
     *stiffest = fmax(*stiffest, most);
     facts->anisotropy = fmax(facts->anisotropy, most / least);

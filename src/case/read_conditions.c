@@ -138,8 +138,10 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         load->share = OST_SHARE_VERTICES;
     if (keys[SHARE].value)
         OST_TRY(read_share(yaml, keys[SHARE].value, load));
-    if (keys[REGION].value)
+    if (keys[REGION].value) {
         OST_TRY(ost_read_string(yaml, keys[REGION].value, &load->region));
+        load->region_place = ost_yaml_at(keys[REGION].value);
+    }
     if (load->region && strcmp(load->region, "all") == 0)
         OST_FREE(load->region);
     if (load->kind == OST_LOAD_PRESSURE)

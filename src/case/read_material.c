@@ -187,6 +187,8 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_read_string(yaml, keys[REGION].value, &material->region));
     material->line = ost_yaml_line(node);
+    material->region_place = ost_yaml_at(keys[REGION].value);
+    material->axes_place = ost_yaml_at(keys[AXES].value ? keys[AXES].value : node);
     snprintf(what, sizeof what, "region '%.80s'", material->region);
     OST_TRY(read_youngs(yaml, keys[YOUNGS].value, &stated));
     OST_TRY(read_poissons(yaml, keys[POISSONS].value, &stated));

@@ -129,6 +129,7 @@ static OstStatus read_block(const OstYaml *yaml, const OstYamlNode *node, OstCas
 static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OST_TRY(ost_read_path(yaml, node, &c->mesh_file));
+    c->mesh_place = ost_yaml_at(node);
     if (ost_has_ending(c->mesh_file, ".msh") || ost_has_ending(c->mesh_file, ".veg") ||
         ost_has_ending(c->mesh_file, ".vtkhdf"))
         return OST_SUCCESS;

@@ -167,7 +167,7 @@ OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSe
     OST_TRY(ost_yaml_mapping(yaml, node, keys, FORMS));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
     selection->kind = forms[form].kind;
-    selection->line = ost_yaml_line(node);
+    selection->place = ost_yaml_at(keys[form].value);
     selection->tolerance = -1.0;
     return forms[form].read(yaml, keys[form].value, selection);
 }

@@ -19,14 +19,14 @@ static const double relative_tolerance = 1e-6;
 OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
 {
     char message[2048];
-    char line[32] = "";
+    char place[32] = "";
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    if (selection->line > 0)
-        snprintf(line, sizeof line, ":%d", selection->line);
-    return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s%s: %s", c->path, line, message);
+    if (selection->place.line > 0)
+        snprintf(place, sizeof place, ":%d:%d", selection->place.line, selection->place.column);
+    return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s%s: %s", c->path, place, message);
 }
 
 static OstStatus raise_unknown_boundary(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,

@@ -19,6 +19,11 @@ int ost_yaml_line(const OstYamlNode *node)
     return (int)node->line + 1;
 }
 
+OstPlace ost_yaml_at(const OstYamlNode *node)
+{
+    return (OstPlace){(int)node->line + 1, (int)node->column + 1};
+}
+
 int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind)
 {
     return (OstYamlKind)ost_yaml_follow(yaml, node)->kind == kind;

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_CASE_YAML_READ_H
 
 #include "case/yaml_tree.h"
+#include "orthostat/case.h"
 
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
  * "path:line:column: what was found, what was expected". */
@@ -28,6 +29,7 @@ OstStatus ost_yaml_located(const OstYaml *yaml, const OstYamlNode *node, OstStat
 /* The node an alias stands for, or the node itself; its line from 1. */
 const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node);
 int ost_yaml_line(const OstYamlNode *node);
+OstPlace ost_yaml_at(const OstYamlNode *node);
 int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
 
 /* Fills the keys' values; refuses unknown, doubled and missing keys and keys without a value. */

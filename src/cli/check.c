@@ -63,8 +63,8 @@ static OstStatus check_load(const OstScene *scene, const OstLoad *load)
         char names[1024];
         ost_names_list(&scene->mesh->regions, names, sizeof names);
         return names_no_region(scene, load->region)
-                   ? OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: the mesh has no region '%s'; it has: %s",
-                               scene->c->path, load->line, load->region, names)
+                   ? OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d:%d: the mesh has no region '%s'; it has: %s",
+                               scene->c->path, load->region_place.line, load->region_place.column, load->region, names)
                    : OST_SUCCESS;
     }
     OstGlobal nodes;

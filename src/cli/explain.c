@@ -24,7 +24,7 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
     OstStatus status = OST_SUCCESS;
     ost_plan_shape_size(c, &nodes, &tets);
     if (c->mesh_kind == OST_MESH_FILE) {
-        OST_TRY_DONE(ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials));
+        OST_TRY_DONE(ost_case_located(c, c->mesh_place, ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials)));
         nodes = chunk->global_nodes;
         tets = chunk->global_tets;
         ost_plan_file_size(c, chunk->nodes_per_tet, &nodes, &tets);

@@ -9,29 +9,39 @@
 #include <string.h>
 #include <unistd.h>
 
-/* 0, or why not. */
-static int set_aside(const char *path, OstGlobal bytes)
+/* 0, or why not. Whoever makes the file says better why it cannot be opened. */
+static int set_aside(const char *path, int flags, OstGlobal bytes)
 {
     int reason = 0;
-    const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int descriptor = open(path, O_WRONLY | flags, 0666);
     if (descriptor < 0)
-        return errno;
+        return 0;
     do
         reason = fallocate(descriptor, 0, 0, (off_t)bytes) == 0 ? 0 : errno;
     while (reason == EINTR);
     close(descriptor);
-    remove(path);
     return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
+}
+
+static OstStatus answer(OstContext *ctx, const char *path, OstGlobal bytes, int reason)
+{
+    return reason == 0 ? OST_SUCCESS
+                       : OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot have the %.3g MiB that it takes: %s", path,
+                                   (double)bytes / 1048576.0, strerror(reason));
 }
 
 OstStatus ost_disk_space_check(OstContext *ctx, const char *path, OstGlobal bytes)
 {
     OstStatus status = OST_SUCCESS;
     if (ost_rank(ctx) == 0) {
-        const int reason = set_aside(path, bytes);
-        if (reason != 0)
-            status = OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot have the %.3g MiB that it takes: %s", path,
-                               (double)bytes / 1048576.0, strerror(reason));
+        status = answer(ctx, path, bytes, set_aside(path, O_CREAT | O_TRUNC, bytes));
+        remove(path);
     }
     return ost_agree(ctx, status);
+}
+
+OstStatus ost_disk_space_keep(OstContext *ctx, const char *path, OstGlobal bytes)
+{
+    const int reason = ost_rank(ctx) == 0 ? set_aside(path, 0, bytes) : 0;
+    return ost_agree(ctx, answer(ctx, path, bytes, reason));
 }

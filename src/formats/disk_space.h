@@ -10,4 +10,8 @@
  * system that cannot set room aside is trusted. Raises OST_FILE_FAILED with the size and what the system says. */
 OstStatus ost_disk_space_check(OstContext *ctx, const char *path, OstGlobal bytes);
 
+/* Collective. The same for a file that is there and stays: the room is its own while it is written, whoever else fills
+ * the disk. It has this size then; HDF5 cuts what it does not use when it closes the file. */
+OstStatus ost_disk_space_keep(OstContext *ctx, const char *path, OstGlobal bytes);
+
 #endif

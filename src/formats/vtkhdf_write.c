@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/disk_space.h"
 #include "formats/vtkhdf_groups.h"
 #include "formats/vtkhdf_piece.h"
 
@@ -143,11 +144,41 @@ static OstStatus write_contents(OstHdf5 *h5, OstPiece *piece, int count, const O
     return ost_groups_write(h5, piece->mesh);
 }
 
+/* At most, beside what HDF5 needs for itself: ghosts are counted with the nodes, as some of them are written twice. */
+static double piece_bytes(const OstMesh *mesh, int count, const OstOutputArray *arrays)
+{
+    double node = 24.0 + 8.0;                                       /* place and label */
+    double tet = 8.0 * mesh->nodes_per_tet + 8.0 + 1.0 + 8.0 + 4.0; /* nodes, offset, type, label, region */
+    double names = 0.0;
+    if (mesh->tet_axes)
+        tet += 9.0 * 8.0;
+    for (int a = 0; a < count; a++)
+        *(arrays[a].centring == OST_ON_NODES ? &node : &tet) += (double)row_bytes(&arrays[a]);
+    for (int b = 0; b < mesh->boundary_count; b++)
+        names += 8.0 * mesh->boundaries[b].nodes_per_item * (double)mesh->boundaries[b].count;
+    return node * (double)mesh->node_count + tet * (double)mesh->owned_tets + names;
+}
+
+static OstStatus find_bytes(const OstMesh *mesh, int count, const OstOutputArray *arrays, OstGlobal *bytes)
+{
+    static const double for_hdf5 = 1 << 18; /* measured: 30 kB */
+    double sum = piece_bytes(mesh, count, arrays);
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
+    *bytes = (OstGlobal)(sum + for_hdf5);
+    return OST_SUCCESS;
+}
+
+/* A full disk is found before HDF5 has anything to write, and the room is kept for as long as it writes. */
 static OstStatus write_file(const char *path, OstPiece *piece, int count, const OstOutputArray *arrays,
                             const OstOutputMark *mark)
 {
     OstHdf5 h5;
+    OstGlobal bytes = 0;
+    OST_TRY(find_bytes(piece->mesh, count, arrays, &bytes));
+    OST_TRY(ost_disk_space_check(piece->mesh->ctx, path, bytes));
     OstStatus status = ost_hdf5_create(piece->mesh->ctx, path, &h5);
+    if (status == OST_SUCCESS)
+        status = ost_disk_space_keep(piece->mesh->ctx, path, bytes);
     if (status == OST_SUCCESS)
         status = write_contents(&h5, piece, count, arrays, mark);
     const OstStatus closed = ost_hdf5_close(&h5);

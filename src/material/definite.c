@@ -40,6 +40,11 @@ OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *con
     return ost_symmetric_eigen(ctx, 3, block, eigenvalues, NULL);
 }
 
+double ost_equivalent_poisson(double least_eigenvalue)
+{
+    return round(0.5e12 * (1.0 - least_eigenvalue)) / 1e12; /* a quotient of whole numbers: the double nearest */
+}
+
 double ost_orthotropic_stable_scale(const double eigenvalues[3])
 {
     /* The block is I - t M with M's trace 0, so its smallest eigenvalue is 1 - t max(M). */

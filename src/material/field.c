@@ -224,16 +224,16 @@ done:
     return status;
 }
 
-/* The part m of a material's one stiff mode beyond `limit`, or zeros. */
-static OstStatus find_stiff_mode(OstContext *ctx, const OstOrthotropic *constants, double limit, double mode[3],
+/* The part m of a material's one stiff mode beyond that of `nu_limit`, or zeros. */
+static OstStatus find_stiff_mode(OstContext *ctx, const OstOrthotropic *constants, double nu_limit, double mode[3],
                                  int *found)
 {
     double ratios[3], block[9], eigenvalues[3], vectors[9];
     ost_orthotropic_normalised_ratios(constants, ratios);
     ost_normalised_block(ratios, block);
     OST_TRY(ost_symmetric_eigen(ctx, 3, block, eigenvalues, vectors));
-    *found = eigenvalues[0] < limit && eigenvalues[1] >= limit;
-    const double excess = *found ? 1.0 / eigenvalues[0] - 1.0 / limit : 0.0;
+    *found = ost_equivalent_poisson(eigenvalues[0]) > nu_limit && ost_equivalent_poisson(eigenvalues[1]) <= nu_limit;
+    const double excess = *found ? 1.0 / eigenvalues[0] - 1.0 / (1.0 - 2.0 * nu_limit) : 0.0;
     for (int a = 0; a < 3; a++)
         mode[a] = vectors[a] * sqrt(constants->youngs_modulus[a] * excess);
     return OST_SUCCESS;
@@ -246,8 +246,8 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
     OST_TRY(OST_NEW(field->ctx, &modes, 3 * field->region_count));
     for (int r = 0; r < field->region_count; r++) {
         int found = 0;
-        const OstStatus status = find_stiff_mode(field->ctx, &field->material[r].constants, 1.0 - 2.0 * nu_limit,
-                                                 modes + 3 * (size_t)r, &found);
+        const OstStatus status =
+            find_stiff_mode(field->ctx, &field->material[r].constants, nu_limit, modes + 3 * (size_t)r, &found);
         if (status != OST_SUCCESS) {
             OST_FREE(modes);
             return status;

@@ -41,6 +41,12 @@ static json_t *steps_json(const OstSolveReport *report)
     return steps;
 }
 
+/* 0 where none was made. */
+static json_t *estimate_json(double estimate)
+{
+    return estimate > 0.0 ? number_json(estimate) : json_null();
+}
+
 static json_t *solver_json(const OstSolveReport *report)
 {
     json_t *levels = json_array();
@@ -49,7 +55,7 @@ static json_t *solver_json(const OstSolveReport *report)
     return json_pack("{s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:o, s:o}", "recipe",
                      ost_recipe_name(report->recipe), "iterations", report->iterations, "relative_residual",
                      number_json(report->relative_residual), "attainable_residual",
-                     number_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
+                     estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
                      "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
                      levels, "operator_complexity", report->operator_complexity, "condition_estimate",
                      number_json(report->condition_estimate), "error_estimate", number_json(report->error_estimate),

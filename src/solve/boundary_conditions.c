@@ -101,7 +101,8 @@ static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, in
         return OST_SUCCESS;
     char names[1024];
     ost_names_list(&scene->mesh->regions, names, sizeof names);
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "the mesh has no region '%s'; it has: %s", load->region, names);
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d:%d: the mesh has no region '%s'; it has: %s", scene->c->path,
+                     load->region_place.line, load->region_place.column, load->region, names);
 }
 
 /* Gravity with no mass anywhere is a mistake, not a load of zero. */

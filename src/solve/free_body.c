@@ -123,6 +123,14 @@ OstStatus ost_free_body_supports(const OstMesh *mesh, OstSupports **supports)
     return status;
 }
 
+/* What rounding leaves of sums of this size is printed as 0. */
+static void drop_rounding(double size, double vector[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (fabs(vector[i]) <= 1e-14 * size)
+            vector[i] = 0.0;
+}
+
 /* Sums of the loads: force, its size, moment about a centre, its size. */
 enum { SUM_FORCE, SUM_FORCE_SIZE = 3, SUM_MOMENT, SUM_MOMENT_SIZE = 7, SUM_COUNT };
 
@@ -149,10 +157,12 @@ OstStatus ost_free_body_check_loads(const OstMesh *mesh, const double *force, co
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_load(mesh->coordinates + 3 * (size_t)n, force + 3 * (size_t)n, centre, sums);
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
-    const double *f = sums + SUM_FORCE;
-    const double *m = sums + SUM_MOMENT;
+    double *f = sums + SUM_FORCE;
+    double *m = sums + SUM_MOMENT;
     if (ost_norm3(f) <= balance * sums[SUM_FORCE_SIZE] && ost_norm3(m) <= balance * sums[SUM_MOMENT_SIZE])
         return OST_SUCCESS;
+    drop_rounding(sums[SUM_FORCE_SIZE], f);
+    drop_rounding(sums[SUM_MOMENT_SIZE], m);
     return OST_RAISE(
         ctx, OST_INVALID_INPUT,
         "%s: free_body needs loads that balance each other, but these leave a force (%g, %g, %g) of loads of "

@@ -43,12 +43,12 @@ static OstStatus hold_boundary(const OstScene *scene, const char *name, int pote
 }
 
 /* Specs borrow their names from the case. */
-static int line_of(const OstCase *c, const OstAxesSpec *spec)
+static OstPlace place_of(const OstCase *c, const OstAxesSpec *spec)
 {
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.from[0] == spec->from[0])
-            return c->materials[i].line;
-    return 0;
+            return c->materials[i].axes_place;
+    return (OstPlace){0, 0};
 }
 
 /* The lowest label of the vertices that both boundaries hold, or none_shared. */
@@ -60,8 +60,10 @@ static OstStatus find_shared(const OstScene *scene, const OstAxesSpec *spec, int
     OstStatus status = OST_SUCCESS;
     for (int side = 0; side < 2; side++) {
         char *names[1] = {side == 0 ? spec->from[potential] : spec->to[potential]};
-        const OstSelection boundary = {
-            .kind = OST_SELECT_BOUNDARY, .line = line_of(scene->c, spec), .boundaries = {1, names}, .tolerance = -1.0};
+        const OstSelection boundary = {.kind = OST_SELECT_BOUNDARY,
+                                       .place = place_of(scene->c, spec),
+                                       .boundaries = {1, names},
+                                       .tolerance = -1.0};
         OST_TRY_DONE(ost_select_flags(scene->c, mesh, &boundary, &flags[side]));
     }
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
@@ -79,11 +81,12 @@ static OstStatus check_apart(const OstScene *scene, int region, const OstAxesSpe
     for (int potential = 0; potential < 2; potential++) {
         OstGlobal shared;
         OST_TRY(find_shared(scene, spec, potential, &shared));
+        const OstPlace place = place_of(scene->c, spec);
         if (shared != none_shared)
             return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                             "%s:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "
+                             "%s:%d:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "
                              "%lld; a potential needs them apart",
-                             scene->c->path, line_of(scene->c, spec), scene->mesh->regions.name[region], potential + 1,
+                             scene->c->path, place.line, place.column, scene->mesh->regions.name[region], potential + 1,
                              spec->from[potential], spec->to[potential], (long long)shared);
     }
     return OST_SUCCESS;

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/disk_space.h"
 #include "formats/vtkhdf.h"
 #include "orthostat/scene.h"
-
-#include <stdio.h>
 
 static const char *const field_word[OST_FIELD_COUNT] = {
 #define OST_FIELD_WORD(name, word) word,
@@ -91,36 +88,6 @@ const char *ost_result_status(const OstResult *result)
     return result->objections.count == 0 ? "accepted" : result->unfinished ? "unfinished" : "refused";
 }
 
-/* At most, beside what HDF5 needs for itself: ghosts are counted with the nodes, as some of them are written twice. */
-static double file_bytes(const OstMesh *mesh, int count, const OstOutputArray *arrays)
-{
-    double node = 24.0 + 8.0;                                       /* place and label */
-    double tet = 8.0 * mesh->nodes_per_tet + 8.0 + 1.0 + 8.0 + 4.0; /* nodes, offset, type, label, region */
-    if (mesh->tet_axes)
-        tet += 9.0 * 8.0;
-    double names = 0.0;
-    for (int a = 0; a < count; a++) {
-        const double row = (arrays[a].type == OST_VALUES_DOUBLE ? 8.0 : 4.0) * arrays[a].components;
-        *(arrays[a].centring == OST_ON_NODES ? &node : &tet) += row;
-    }
-    for (int b = 0; b < mesh->boundary_count; b++)
-        names += 8.0 * mesh->boundaries[b].nodes_per_item * (double)mesh->boundaries[b].count;
-    return node * (double)mesh->node_count + tet * (double)mesh->owned_tets + names;
-}
-
-/* A full disk is found before a file is begun; see ost_disk_space_check. */
-static OstStatus check_disk_space(const OstMesh *mesh, const char *path, int count, const OstOutputArray *arrays)
-{
-    static const double for_hdf5 = 1 << 18; /* measured: 30 kB */
-    char partial[OST_VTKHDF_LONGEST_PATH + sizeof ".partial"];
-    double bytes = file_bytes(mesh, count, arrays);
-    const int letters = snprintf(partial, sizeof partial, "%s.partial", path);
-    if (letters < 0 || (size_t)letters >= sizeof partial)
-        return OST_SUCCESS; /* the writer refuses so long a path */
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
-    return ost_disk_space_check(mesh->ctx, partial, (OstGlobal)(bytes + for_hdf5));
-}
-
 OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path)
 {
     OstContext *ctx = result->ctx;
@@ -138,8 +105,6 @@ OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char
         if (has_field(result, c, (OstOutputFieldBit)field))
             status = describe_field(result, (OstOutputFieldBit)field, &derived, &arrays[count++]);
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = check_disk_space(result->mesh, path, count, arrays);
     if (status == OST_SUCCESS)
         status = ost_vtkhdf_write(ctx, path, result->mesh, count, arrays, objections->count > 0 ? &mark : NULL);
     OST_FREE(derived.axes);

@@ -29,8 +29,8 @@ static OstStatus take_from_case(const OstCase *c, const OstNames *regions, const
         char names[NAME_LIST_SIZE];
         ost_names_list(regions, names, sizeof names);
         return OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                         "%s:%d: the mesh has no region '%s'; it has: %s. 'all' stands for every one", c->path,
-                         stated->line, stated->region, names);
+                         "%s:%d:%d: the mesh has no region '%s'; it has: %s. 'all' stands for every one", c->path,
+                         stated->region_place.line, stated->region_place.column, stated->region, names);
     }
     for (int r = 0; r < regions->count; r++) {
         if (!all && r != only)
@@ -113,6 +113,6 @@ OstStatus ost_scene_read_cell_axes(const OstCase *c, OstMeshChunk *chunk)
 {
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind == OST_AXES_CELLS && c->materials[i].axes.cells_file)
-            OST_TRY(read_cell_axes(&c->materials[i], chunk));
+            OST_TRY(ost_case_located(c, c->materials[i].axes_place, read_cell_axes(&c->materials[i], chunk)));
     return OST_SUCCESS;
 }

@@ -22,7 +22,7 @@ static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMater
     case OST_MESH_OCTANT:
         return ost_chunk_create_octant(c->ctx, &c->octant, chunk);
     case OST_MESH_FILE:
-        return ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials);
+        return ost_case_located(c, c->mesh_place, ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials));
     }
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
 }

@@ -83,8 +83,8 @@ void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
         energy = fmax(energy, reports[i]->energy_imbalance);
         seconds += reports[i]->seconds;
     }
-    printf("%d of %d cases pass. Worst balance: force %.1e, moment %.1e, energy %.1e. %.0f s\n", passed, count, force,
-           moment, energy, seconds);
+    printf("%d of %d cases pass. Worst balance: force %.1e, moment %.1e, energy %.1e. %.*f s\n", passed, count, force,
+           moment, energy, seconds < 10.0, seconds);
     for (int i = 0; i < count; i++)
         if (!reports[i]->passed)
             printf("  failed: %s\n", reports[i]->name);

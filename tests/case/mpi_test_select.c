@@ -135,7 +135,7 @@ static void vertices_go_by_their_labels(void **state)
     OstLocal count;
     OstLocal *nodes = NULL;
     assert_failure(ost_select_nodes(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &nodes),
-                   OST_INVALID_INPUT, ".yaml:4: 2 of 4 listed vertices are not in the mesh, the first is 61");
+                   OST_INVALID_INPUT, ".yaml:4:21: 2 of 4 listed vertices are not in the mesh, the first is 61");
     assert_null(nodes);
     drop_scene(&scene);
 }
@@ -163,7 +163,7 @@ static void names_that_do_not_exist_come_with_those_that_do(void **state)
     int n;
     OstLocal *nodes = NULL;
     assert_failure(ost_select_nodes(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &nodes),
-                   OST_INVALID_INPUT, ".yaml:4: there is no boundary 'xmim'; did you mean 'xmin'? The mesh has: ");
+                   OST_INVALID_INPUT, ".yaml:4:21: there is no boundary 'xmim'; did you mean 'xmin'? The mesh has: ");
     assert_non_null(strstr(ost_error_text(ctx), "ymax"));
     assert_failure(ost_select_faces(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &n, &nodes),
                    OST_INVALID_INPUT, "there is no boundary 'xmim'");
@@ -182,7 +182,7 @@ static void an_empty_selection_says_where_the_body_is(void **state)
     OstLocal *nodes = NULL;
     assert_failure(ost_select_nodes(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &nodes),
                    OST_INVALID_INPUT,
-                   ".yaml:4: the selection holds no vertex; the body reaches from (0, 0, 0) to (4, 3, 2)");
+                   ".yaml:4:19: the selection holds no vertex; the body reaches from (0, 0, 0) to (4, 3, 2)");
     drop_scene(&scene);
 }
 
@@ -256,7 +256,7 @@ static void a_curve_among_faces_is_refused(void **state)
     curve->dimension = 1;
     assert_failure(ost_select_faces(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &n, &faces),
                    OST_INVALID_INPUT,
-                   ".yaml:4: boundary 'zmax' is one of curves, and others listed with it are of "
+                   ".yaml:4:21: boundary 'zmax' is one of curves, and others listed with it are of "
                    "faces; name boundaries of faces alone");
     assert_null(faces);
     assert_success(ost_select_nodes(scene.c, scene.mesh, &scene.c->constraints[0].on, &count, &faces));

@@ -209,7 +209,7 @@ static const OstSelection *read_selection(const char *text)
     assert_success(read_text(whole, &c));
     assert_int_equal(c->constraints[0].kind, OST_CONSTRAIN_SLIDE);
     assert_close(c->constraints[0].normal[2], 1.0, 0.0);
-    assert_int_equal(c->constraints[0].on.line, 4);
+    assert_int_equal(c->constraints[0].on.place.line, 4);
     return &c->constraints[0].on;
 }
 

@@ -143,6 +143,21 @@ static void the_recipe_follows_the_size_unless_the_case_says(void **state)
     assert_string_equal(plan.solver.reason[0], "the case asks for it");
 }
 
+static void nearly_incompressible_begins_above_its_limit(void **state)
+{
+    (void)state;
+    const char *const moduli[2] = {"1", "[1, 1000, 1]"};
+    for (int k = 0; k < 2; k++) {
+        char text[512];
+        for (int above = 0; above < 2; above++) {
+            snprintf(text, sizeof text, CUBE "materials: [{region: all, youngs_modulus: %s, poissons_ratio: %s}]\n",
+                     moduli[k], above ? "0.4500001" : "0.45");
+            make_plan(text);
+            assert_close(plan.solver.options.aggregate_nodes, above ? 15.0 : 40.0, 0.0);
+        }
+    }
+}
+
 /* The paper's tube: 25,620 vertices and 129,600 tets; an independent count of its edges gives 13.7 blocks a row. */
 static void the_papers_tube_is_foreseen(void **state)
 {
@@ -211,6 +226,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(supports_are_explained),
     cmocka_unit_test(loads_are_explained),
     cmocka_unit_test(the_recipe_follows_the_size_unless_the_case_says),
+    cmocka_unit_test(nearly_incompressible_begins_above_its_limit),
     cmocka_unit_test(the_papers_tube_is_foreseen),
     cmocka_unit_test(more_ranks_hold_more_halo),
     cmocka_unit_test(the_scenes_of_the_house_are_read),

@@ -1,6 +1,8 @@
 """Runs the program as a user would, for the tests of this folder."""
+import atexit
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 
@@ -16,6 +18,13 @@ class Finished:
         self.errors = process.stderr
 
 
+def new_folder():
+    """A folder that goes when the test ends, however it ends."""
+    folder = tempfile.mkdtemp(prefix="orthostat-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
 def run(*arguments, ranks=1, folder=None, timeout=240):
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
@@ -27,7 +36,7 @@ def run(*arguments, ranks=1, folder=None, timeout=240):
 
 def solve(case_text, ranks=1, folder=None, name="case.yaml", extra=()):
     """Writes a case, solves it, and returns (finished, json or None, path of the result)."""
-    folder = folder or tempfile.mkdtemp(prefix="orthostat-")
+    folder = folder or new_folder()
     with open(os.path.join(folder, name), "w") as stream:
         stream.write(case_text)
     summary = os.path.join(folder, "summary.json")

@@ -1,8 +1,7 @@
 """Every mistake gets a message one can act on, exit status 2 on all ranks, and leaves existing output alone."""
 import os
-import tempfile
 
-from program import check, run
+from program import check, new_folder, run
 
 GOOD = """mesh:
   block: {size: [2, 1, 1], divisions: [4, 2, 2]}
@@ -111,9 +110,13 @@ MISTAKES = [
     ("not a number", GOOD.replace("1000,", ".nan,"), {}, ["case.yaml:4:"]),
     ("infinite force", GOOD.replace("-1]", "-.inf]"), {}, ["case.yaml:8:"]),
     ("not yaml", GOOD + "  - {", {}, ["case.yaml:"]),
-    ("missing mesh file", with_mesh("lost.veg"), {}, ["lost.veg"]),
-    ("unknown boundary", GOOD.replace("xmax", "tip"), {}, ["tip", "xmin", "xmax"]),
-    ("unknown region", GOOD.replace("region: all", "region: bone"), {}, ["bone", "block"]),
+    ("missing mesh file", with_mesh("lost.veg"), {}, ["case.yaml:2:9: lost.veg: cannot be read"]),
+    ("unknown boundary", GOOD.replace("xmax", "tip"), {}, ["case.yaml:8:21: there is no boundary 'tip'", "xmin", "xmax"]),
+    ("unknown region", GOOD.replace("region: all", "region: bone"), {}, ["case.yaml:4:14: the mesh has no region 'bone'", "block"]),
+    ("a load on an unknown region", GOOD.replace("output", "  - {body_force: [0, 0, 1], region: bone}\noutput"), {},
+     ["case.yaml:9:37: the mesh has no region 'bone'"]),
+    ("missing axes", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: lost.txt}}"), {},
+     ["case.yaml:4:76: lost.txt: cannot be read"]),
     ("a constraint that holds nothing", GOOD.replace("[0, 0, 0]", "[free, free, free]"), {}, ["case.yaml:6:", "holds nothing"]),
     ("nothing held", GOOD.replace("constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), {}, ["held"]),
     ("indefinite material", GOOD.replace("1000, poissons_ratio: 0.3", "1000, poissons_ratio: 0.6"), {}, ["case.yaml:4:", "0.5"]),
@@ -127,10 +130,10 @@ MISTAKES = [
     ("two orders in one mesh", with_mesh("m.msh"), {"m.msh": tet10_msh(more="2 4 2 1 1 1 2 3 4\n")}, ["m.msh:", "one order"]),
     ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
     ("a curve among faces", with_mesh("m.msh").replace("nearest: [1, 0, 0]", "boundary: [lid, rim]"), {"m.msh": MSH},
-     ["case.yaml:8:", "'rim' is one of curves"]),
+     ["case.yaml:8:21: ", "'rim' is one of curves"]),
     ("potentials that meet", GOOD.replace("1000,", "[1000, 10, 10],").replace(
         "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmin, to: ymin}}}}"), {},
-     ["case.yaml:4: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
+     ["case.yaml:4:78: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
       "needs them apart"]),
     ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
     ("one tet twice", with_mesh("m.veg"), {"m.veg": TWICE.replace("SECOND", "1 2 0 3")}, ["tets 0 and 1", "doubled or overlapping"]),
@@ -140,7 +143,7 @@ MISTAKES = [
     ("left-handed axes", GOOD.replace("1000,", "[10, 20, 30],").replace(
         "0.3}", "0.3, axes: {fixed: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]}}"), {}, ["case.yaml:4:", "left-handed"]),
     ("axes that are no numbers", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: a.txt}}"),
-     {"a.txt": "nan 0 0 0 1 0 0 0 1\n" * 96}, ["a.txt:1:", "nan"]),
+     {"a.txt": "nan 0 0 0 1 0 0 0 1\n" * 96}, ["case.yaml:4:76: a.txt:1:", "nan"]),
     ("no stiffness", GOOD.replace("1000,", "0,"), {}, ["case.yaml:4:", "above 0"]),
     ("stiffness beyond squares", GOOD.replace("1000,", "1e300,"), {}, ["stiffest", "units"]),
     ("softness beyond squares", GOOD.replace("1000,", "1e-300,"), {}, ["stiffest", "units"]),
@@ -153,7 +156,7 @@ MISTAKES = [
 def main():
     for name, text, files, wanted in MISTAKES:
         for ranks in (1, 2):
-            folder = tempfile.mkdtemp(prefix="orthostat-")
+            folder = new_folder()
             for file, content in files.items():
                 with open(os.path.join(folder, file), "w") as stream:
                     stream.write(content)

@@ -5,9 +5,8 @@ import resource
 import shutil
 import signal
 import subprocess
-import tempfile
 
-from program import PROGRAM, SOURCE, check, run
+from program import PROGRAM, SOURCE, check, new_folder, run
 
 CASE = """mesh:
   block: {size: [2, 1, 1], divisions: [2, 1, 1]}
@@ -212,7 +211,7 @@ def the_script_takes_words_in_any_order(folder):
 
 
 def main():
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     os.mkdir(os.path.join(folder, "folder"))
     os.mkdir(os.path.join(folder, "folder.vtkhdf"))
     refuses_what_would_be_lost(folder)

@@ -1,8 +1,7 @@
 """What nothing holds is refused in words, before the solve; a floating body under balanced loads is solved when asked."""
 import os
-import tempfile
 
-from program import check, read_points, run, solve
+from program import check, new_folder, read_points, run, solve
 
 TETS = [(0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3)]
 
@@ -67,6 +66,10 @@ REFUSED = [
      case("free_body", "  - {on: {nearest: [0, 0, 0]}, point_force: [0, 1, 0]}\n"
                        "  - {on: {nearest: [1, 0, 0]}, point_force: [0, -1, 0]}"), [ONE],
      "these leave a force (0, 0, 0) of loads of size 2, and a moment (0, 0, -1)"),
+    ("a balance but for rounding", case("free_body", "".join(
+        f"  - {{on: {{nearest: {at}}}, point_force: [0, 0, {f}]}}\n"
+        for at, f in (([0, 0, 0], 0.1), ([1, 0, 0], 0.2), ([0, 1, 0], -0.3)))), [ONE],
+     "leave a force (0, 0, 0) of loads of size 0.6, and a moment (-0.3, -0.2, 0)"),
     ("moduli beyond the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e180"), [ONE],
      "the stiffest nodes are of size"),
     ("moduli below the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e-150"), [ONE],
@@ -87,7 +90,7 @@ def refusals():
             for ranks in (1, 3):
                 if command == "check" and ranks > 1:
                     continue
-                folder = tempfile.mkdtemp(prefix="orthostat-")
+                folder = new_folder()
                 for file, content in (("m.veg", veg(cells)), ("case.yaml", text), ("result.vtkhdf", "precious")):
                     with open(os.path.join(folder, file), "w") as stream:
                         stream.write(content)
@@ -111,7 +114,7 @@ def merged():
     for name, mesh, cells in (("whole", "file: m.veg", [ONE, (1, 0, 0, 0)]),
                               ("merged", "file: m.veg, merge: 0.01", [ONE, SIDE])):
         for ranks in (1, 4):
-            folder = tempfile.mkdtemp(prefix="orthostat-")
+            folder = new_folder()
             with open(os.path.join(folder, "m.veg"), "w") as stream:
                 stream.write(veg(cells))
             finished, report, _ = solve(case(HELD, pull, mesh), ranks=ranks, folder=folder)
@@ -126,7 +129,7 @@ def merged():
 
 def held_apart():
     """Parts that are all held are solved, with a word on vertices that coincide."""
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     with open(os.path.join(folder, "m.veg"), "w") as stream:
         stream.write(veg([ONE, SIDE]))
     for ranks in (1, 3):

@@ -2,11 +2,10 @@
 import json
 import os
 import subprocess
-import tempfile
 
 from matplotlib.image import imread
 
-from program import SOURCE, check, run
+from program import SOURCE, check, new_folder, run
 
 CASE = """title: a block that is given too few iterations
 mesh:
@@ -88,7 +87,7 @@ def an_answer(folder, ranks):
 
 def main():
     for ranks in (1, 2):
-        folder = tempfile.mkdtemp(prefix="orthostat-")
+        folder = new_folder()
         without_keep(folder, ranks)
         with_keep(folder, ranks)
         an_answer(folder, ranks)

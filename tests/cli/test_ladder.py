@@ -1,9 +1,8 @@
 """The solver's ladder as a user sees it: its plan, its climb in summary and JSON, its refusals; on one rank and on two."""
 import json
 import os
-import tempfile
 
-from program import check, read_points, run, solve
+from program import check, new_folder, read_points, run, solve
 
 CASE = """
 title: a tube, stiff around
@@ -85,7 +84,7 @@ def what_rounding_allows_is_refused_or_taken():
 
 
 def the_plan_is_explained():
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     first = "metric"
     for modulus in ("1e9", "1e12"):
         with open(os.path.join(folder, "case.yaml"), "w") as stream:

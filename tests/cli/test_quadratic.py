@@ -1,9 +1,8 @@
 """Quadratic tets: p-multigrid, the direct solver and any number of ranks give one pose, and it is softer than that of linear tets."""
 import json
 import os
-import tempfile
 
-from program import check, read_points, run as run_program, solve
+from program import check, new_folder, read_points, run as run_program, solve
 
 CASE = """
 title: a short tube of quadratic tets
@@ -47,7 +46,7 @@ def foreseen_sizes_are_the_real_ones():
     for shape in ("sector: {axis: z, length: 1, radii: [1, 2], angle: 90, divisions: {around: 3, radial: 2, axial: 1}}",
                   "octant: {radii: [1, 2], divisions: {around: 2, radial: 1}}",
                   "tube: {axis: x, length: 1, radii: [1, 2], divisions: {around: 6, radial: 1, axial: 2}}"):
-        folder = tempfile.mkdtemp(prefix="orthostat-")
+        folder = new_folder()
         with open(os.path.join(folder, "case.yaml"), "w") as stream:
             stream.write(FORESEEN.replace("SHAPE", shape))
         foreseen = run_program("explain", "case.yaml", "--json", folder=folder)

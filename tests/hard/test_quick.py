@@ -2,10 +2,9 @@
 import json
 import os
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import check, run  # noqa: E402
+from program import check, new_folder, run  # noqa: E402
 
 SHAPES = {"tube", "beam", "plate", "slivers", "layers", "soft", "stiff", "checker"}
 SOLVED = {"solved", "solved to rounding"}
@@ -43,7 +42,7 @@ def check_ranks(name, one, two):
 
 
 def main():
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     one, two = grid(folder, 1), grid(folder, 2, "tube", "slivers", "stiff")
     sound = [name for name, point in one.items() if not point["flawed"]]
     check({one[name]["shape"] for name in sound} == SHAPES, "a shape is missing")

@@ -179,6 +179,24 @@ static void scale_meets_the_boundary(void **state)
     assert_true(isinf(ost_orthotropic_stable_scale(eigenvalues)));
 }
 
+/* Isotropic and family alike: 0.45 is not above 0.45, but the next number a person would write is. */
+static void rounding_decides_no_limit(void **state)
+{
+    (void)state;
+    const double e[4][3] = {{1, 1, 1}, {2.1e11, 2.1e11, 2.1e11}, {1, 1000, 1}, {3, 0.7, 1e9}};
+    for (int k = 0; k < 4; k++)
+        for (int i = 1; i < 500; i++) {
+            const double nu = i / 1000.0;
+            const OstOrthotropic limit = ost_orthotropic_family(e[k], nu, OST_SHEAR_GEOMETRIC);
+            const OstOrthotropic above = ost_orthotropic_family(e[k], nu + 2e-12, OST_SHEAR_GEOMETRIC);
+            double eigenvalues[3];
+            assert_success(ost_orthotropic_eigenvalues(ctx, &limit, eigenvalues));
+            assert_true(ost_equivalent_poisson(eigenvalues[0]) == nu);
+            assert_success(ost_orthotropic_eigenvalues(ctx, &above, eigenvalues));
+            assert_true(ost_equivalent_poisson(eigenvalues[0]) > nu);
+        }
+}
+
 static void auxetic_materials_are_welcome(void **state)
 {
     (void)state;
@@ -223,6 +241,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(bad_numbers_are_refused_by_name_and_value),
     cmocka_unit_test(ratios_are_stable_inside_their_range_only),
     cmocka_unit_test(scale_meets_the_boundary),
+    cmocka_unit_test(rounding_decides_no_limit),
     cmocka_unit_test(auxetic_materials_are_welcome),
     cmocka_unit_test(naive_boundary_lies_where_equation_16_says),
 };

@@ -33,6 +33,7 @@ def run(*arguments, ranks=1, folder=None):
 class Cost(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="orthostat-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         with open(self.path("beam.yaml"), "w") as stream:
             stream.write(CASE)
 

@@ -2,10 +2,9 @@
 import json
 import os
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SOURCE, check, run  # noqa: E402
+from program import SOURCE, check, new_folder, run  # noqa: E402
 
 CASES = os.path.join(SOURCE, "cases")
 os.environ["ORTHOSTAT_CASES"] = CASES
@@ -29,7 +28,7 @@ def fails_when(folder, name, old, new):
 
 
 def main():
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     report = os.path.join(folder, "verify.json")
     finished = run("verify", "--quick", "--json", report, ranks=2)
     check(finished.exit_code == 0, f"verify --quick: {finished.output[-4000:]}{finished.errors}")

@@ -2,10 +2,9 @@
 import json
 import os
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SOURCE, check, run  # noqa: E402
+from program import SOURCE, check, new_folder, run  # noqa: E402
 
 TURTLE = os.path.join(SOURCE, "..", "shared", "data", "turtle")
 
@@ -30,7 +29,7 @@ def main():
     if not os.path.isdir(TURTLE):
         print(f"skipped: the turtle's files are not at hand ({TURTLE})")
         return
-    folder = tempfile.mkdtemp(prefix="orthostat-")
+    folder = new_folder()
     case = os.path.join(folder, "turtle.yaml")
     summary = os.path.join(folder, "turtle.json")
     for kind, energy in ENERGY.items():
