@@ -78,19 +78,22 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
     print_bytes("in all", total_bytes(plan));
+    print_bytes("free now", plan->facts.free_memory);
+    if (total_bytes(plan) > plan->facts.free_memory)
+        puts("  This does not fit: take a coarser mesh, or more machines.");
     print_bytes("output file", plan->bytes_output);
 }
 
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
-    json_t *root = json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f}}",
-                             "case", c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
-                             ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver),
-                             "relative_residual", c->solver.relative_residual, "vertices", (json_int_t)plan->nodes,
-                             "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks",
-                             ranks, "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
-                             plan->bytes_matrix, "solver", plan->bytes_solver, "in_all", total_bytes(plan),
-                             "output_file", plan->bytes_output);
+    json_t *root = json_pack(
+        "{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f}}", "case",
+        c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
+        ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver), "relative_residual",
+        c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets,
+        "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks, "ranks_at_least", plan->least_ranks, "bytes",
+        "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "in_all",
+        total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

@@ -49,10 +49,23 @@ def impossible_sizes_are_told_by_their_limit(folder):
     check("ranks  " not in run("explain", "bar.yaml", folder=folder).output, "one rank will do, and nothing is said")
 
 
+def what_does_not_fit_is_said(folder):
+    """A body of 2e9 tets is foreseen without being made; the bar fits."""
+    with open(os.path.join(folder, "huge.yaml"), "w") as stream:
+        stream.write(CASE.replace("[4, 2, 2]", "[700, 700, 700]"))
+    for case, fits in (("bar.yaml", True), ("huge.yaml", False)):
+        foreseen = run("explain", case, folder=folder)
+        check(foreseen.exit_code == 0, foreseen.errors)
+        check(("does not fit" in foreseen.output) != fits, f"{case}: {foreseen.output}")
+        size = json.loads(run("explain", case, "--json", folder=folder).output)["bytes"]
+        check((size["in_all"] <= size["free"]) == fits, f"{case}: {size}")
+
+
 def main():
     folder = new_folder()
     with open(os.path.join(folder, "bar.yaml"), "w") as stream:
         stream.write(CASE)
+    what_does_not_fit_is_said(folder)
 
     helped = run("--help")
     check(helped.exit_code == 0 and "solve" in helped.output and not helped.errors, "orthostat --help")

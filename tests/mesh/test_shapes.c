@@ -250,7 +250,7 @@ static void too_many_cells_are_refused_before_anything_is_allocated(void **state
     (void)state;
     OstMeshChunk *chunk = NULL;
     OstBlockShape block = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {2000, 2000, 2000}};
-    assert_failure(ost_chunk_create_block(ctx, &block, &chunk), OST_LIMIT_EXCEEDED, "8000000000 cells on 1 ranks");
+    assert_failure(ost_chunk_create_block(ctx, &block, &chunk), OST_LIMIT_EXCEEDED, "8000000000 cells on 1 rank are");
     for (int d = 0; d < 3; d++)
         block.divisions[d] = INT32_MAX;
     assert_failure(ost_chunk_create_block(ctx, &block, &chunk), OST_LIMIT_EXCEEDED, "64-bit");
