@@ -2,16 +2,36 @@
 #include "solve/scene_mesh.h"
 
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "mesh/merge.h"
 #include "orthostat/plan.h"
 #include "orthostat/refine.h"
 #include "solve/scene_cut.h"
+
+/* A shape too large for the machines is refused before it is made; what a solve holds at the least is compared, so that
+ * nothing is refused that would fit. */
+static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
+{
+    OstPlan plan;
+    double left = 0.0;
+    ost_plan_make(c, nodes, tets, NULL, ost_size(c->ctx), &plan);
+    OST_TRY(ost_memory_free(c->ctx, &left));
+    const double wanted = plan.bytes_mesh + plan.bytes_matrix;
+    if (wanted > left)
+        return OST_RAISE(
+            c->ctx, OST_LIMIT_EXCEEDED,
+            "%s: %lld tets and their stiffness take about %.1f GiB at the least, and %.1f GiB are free; use "
+            "a coarser mesh, or more machines",
+            c->path, (long long)tets, wanted / 1073741824.0, left / 1073741824.0);
+    return OST_SUCCESS;
+}
 
 static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstGlobal nodes = 0, tets = 0;
     ost_plan_shape_size(c, &nodes, &tets);
     OST_TRY(ost_plan_check_size(c, nodes));
+    OST_TRY(check_memory(c, nodes, tets));
     switch (c->mesh_kind) {
     case OST_MESH_TUBE:
         return ost_chunk_create_tube(c->ctx, &c->tube, chunk);

@@ -59,6 +59,8 @@ def what_does_not_fit_is_said(folder):
         check(("does not fit" in foreseen.output) != fits, f"{case}: {foreseen.output}")
         size = json.loads(run("explain", case, "--json", folder=folder).output)["bytes"]
         check((size["in_all"] <= size["free"]) == fits, f"{case}: {size}")
+    refused = run("solve", "huge.yaml", folder=folder)
+    check(refused.exit_code == 2 and "GiB are free; use a coarser mesh" in refused.errors, refused.errors)
 
 
 def main():
