@@ -107,7 +107,7 @@ static OstStatus iterate(Cg *cg, double *u, OstGoal *goal)
 {
     double norm;
     OST_TRY(recursive_norm(cg, &norm));
-    int on = norm > goal->target && goal->iterations < goal->most_iterations;
+    int on = (norm > goal->target || goal->settled > 0.0) && goal->iterations < goal->most_iterations;
     for (int first = 1; on; first = 0) {
         double alpha = 0.0;
         double beta = 0.0;
@@ -172,8 +172,9 @@ static OstStatus report_error(const Cg *cg, const double *f, const double *u, co
         OST_TRY(ost_energy_error(cg->system, cg->preconditioner, smallest, f, u, goal->exact, &error));
     const int known = !isnan(error.whole) && !isnan(error.rounding);
     report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
-    report->error_estimate = known ? error.whole : 0.0;
-    report->rounding_error = known ? error.rounding : 0.0;
+    /* Factors whose steps do not settle are what rounding made them. */
+    report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
+    report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
     return OST_SUCCESS;
 }
 

@@ -30,6 +30,9 @@ typedef struct Refinement {
     double *correction; /* of u */
     double *candidate;  /* u + correction; 3 × columns */
     double *left;       /* the residual of that */
+    int taken;          /* was the correction? */
+    double contraction; /* of corrections, from the last one taken to the next */
+    double moved;       /* largest number of the correction over that of u + correction; where goal->settled asks */
     OstGoal *goal;
 } Refinement;
 
@@ -124,8 +127,11 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
     return OST_SUCCESS;
 }
 
+/* What a candidate is judged by. */
+enum { SQUARE, ENERGY, SUMS };
+
 /* left = f - A candidate, and what it says: its square, and twice the energy that the correction takes away. */
-static OstStatus examine(Refinement *work, double sums[2])
+static OstStatus examine(Refinement *work, double sums[SUMS])
 {
     if (work->goal->exact) {
         OST_TRY(ost_exact_residual(work->matrix, work->f, work->candidate, work->left));
@@ -134,30 +140,53 @@ static OstStatus examine(Refinement *work, double sums[2])
         for (size_t i = 0; i < work->n; i++)
             work->left[i] = work->f[i] - work->left[i];
     }
-    sums[0] = dot(work->n, work->left, work->left);
-    sums[1] = dot(work->n, work->correction, work->residual) + dot(work->n, work->correction, work->left);
-    return sum(work->matrix->ctx, 2, sums);
+    sums[SQUARE] = dot(work->n, work->left, work->left);
+    sums[ENERGY] = dot(work->n, work->correction, work->residual) + dot(work->n, work->correction, work->left);
+    return sum(work->matrix->ctx, SUMS, sums);
 }
 
 static OstStatus first_residual(Refinement *work)
 {
-    double sums[2];
+    double sums[SUMS];
     memcpy(work->candidate, work->u, work->n * sizeof(double));
     OST_TRY(examine(work, sums));
     memcpy(work->residual, work->left, work->n * sizeof(double));
-    work->goal->norm = sqrt(sums[0]);
+    work->goal->norm = sqrt(sums[SQUARE]);
+    return OST_SUCCESS;
+}
+
+/* How much the correction moves, and by the sum of a geometric series all that would follow. */
+static OstStatus find_moved(Refinement *work)
+{
+    double largest[2] = {0.0}; /* no squares: numbers may be of any unit */
+    for (size_t i = 0; i < work->n; i++) {
+        largest[0] = fmax(largest[0], fabs(work->correction[i]));
+        largest[1] = fmax(largest[1], fabs(work->candidate[i]));
+    }
+    OST_TRY(OST_MPI(work->matrix->ctx,
+                    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, ost_comm(work->matrix->ctx))));
+    const double before = work->moved;
+    work->moved = largest[1] > 0.0 ? largest[0] / largest[1] : 0.0;
+    if (work->taken)
+        work->contraction = work->moved / before;
+    const int stands = work->moved <= work->goal->settled;
+    const double series = work->contraction < 1.0 ? work->moved / (1.0 - work->contraction) : HUGE_VAL;
+    work->goal->drift = stands ? work->moved : series;
     return OST_SUCCESS;
 }
 
 /* u + correction, if that is better. */
 static OstStatus take_correction(Refinement *work)
 {
-    double sums[2];
+    double sums[SUMS];
     for (size_t i = 0; i < work->n; i++)
         work->candidate[i] = work->u[i] + work->correction[i];
+    if (work->goal->settled > 0.0)
+        OST_TRY(find_moved(work));
     OST_TRY(examine(work, sums));
-    const double norm = sqrt(sums[0]);
-    if (!isfinite(norm) || !(norm < work->goal->norm || sums[1] > 0.0))
+    const double norm = sqrt(sums[SQUARE]);
+    work->taken = isfinite(norm) && (norm < work->goal->norm || sums[ENERGY] > 0.0);
+    if (!work->taken)
         return OST_SUCCESS;
     memcpy(work->u, work->candidate, work->n * sizeof(double));
     memcpy(work->residual, work->left, work->n * sizeof(double));
@@ -178,11 +207,18 @@ static OstStatus find_limit(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* The goal was missed: where rounding is near, residuals are worth more care from here on. */
+/* A body may hardly resist what is wrong with u: then the residual is small long before u stands still. */
+static int is_done(const Refinement *work)
+{
+    const OstGoal *goal = work->goal;
+    return goal->norm <= goal->target && !(goal->settled > 0.0 && work->moved > goal->settled);
+}
+
+/* The goal is missed yet: where rounding is near, residuals are worth more care from here on. */
 static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
-    if (goal->exact || !(goal->norm > goal->target))
+    if (goal->exact || is_done(work))
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
     goal->exact = goal->norm <= exact_below * goal->limit;
@@ -215,15 +251,19 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
     OST_TRY(first_residual(work));
     ost_pace_start(&goal->pace, goal->norm);
     int stalls = 0;
+    work->moved = HUGE_VAL;
     do {
         const double before = goal->norm;
+        const double moved_before = work->moved;
         memset(work->correction, 0, work->n * sizeof(double));
         const OstStatus status = inner(data, work->residual, work->correction, goal);
         OST_TRY(take_correction(work));
         OST_TRY(status);
         OST_TRY(look_for_rounding(work));
-        stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
-    } while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS);
+        const int gained =
+            goal->norm > goal->target ? goal->norm < least_gain * before : work->moved < least_gain * moved_before;
+        stalls = gained ? 0 : stalls + 1;
+    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < MOST_STALLS);
     if (goal->norm > goal->target)
         return judge(work);
     goal->end = OST_END_REACHED;

@@ -28,6 +28,8 @@ typedef struct OstGoal {
     int most_iterations;
     int patience;           /* 0: endless */
     int attainable_will_do; /* less than the target, where rounding holds no more */
+    double settled;         /* beyond the target, until a correction is no larger than this beside u; 0: not so */
+    double drift;           /* then: how far corrections would still move u, over u, by their geometric series */
     OstPace pace;
     OstEnd end;
     char words[200]; /* the end, unless reached */

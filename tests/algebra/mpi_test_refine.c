@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "elastic_block.h"
+
+#include "algebra/refine.h"
+
+/* The bar of ones: A = 2 I, so that what a step leaves is known. */
+static ElasticProblem twice_the_identity(void)
+{
+    const ElasticBlock bar = {.bricks = {1, 1, 3}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.0, .held = 0};
+    ElasticProblem problem;
+    assert_success(elastic_create(ctx, &bar, &problem));
+    OstBlockMatrix *matrix = problem.matrix;
+    memset(matrix->value, 0, 9 * (size_t)matrix->row_start[matrix->rows] * sizeof *matrix->value);
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        for (int c = 0; c < 3; c++) {
+            matrix->value[9 * (size_t)matrix->diagonal[i] + (size_t)(4 * c)] = 2.0;
+            problem.force[3 * i + c] = 1.0;
+        }
+    return problem;
+}
+
+typedef struct Inner {
+    size_t n;
+    double share; /* of the correction that is due */
+} Inner;
+
+static OstStatus take_share(void *data, const double *r, double *u, OstGoal *goal)
+{
+    const Inner *inner = data;
+    goal->iterations++;
+    for (size_t i = 0; i < inner->n; i++)
+        u[i] = inner->share * r[i] / 2.0;
+    return OST_SUCCESS;
+}
+
+/* Refines from 0 towards half the right-hand side; gives what is missing, over u. */
+static double refined(double share, double settled, OstGoal *goal)
+{
+    ElasticProblem problem = twice_the_identity();
+    OstSolverOptions options = ost_solver_default_options();
+    Inner inner = {.n = 3 * (size_t)problem.matrix->rows, .share = share};
+    double *u = NULL, missing = 0.0;
+    options.relative_residual = 0.5;
+    assert_success(OST_NEW(ctx, &u, inner.n + 1));
+    assert_success(ost_goal_set(problem.matrix, problem.force, &options, goal));
+    goal->settled = settled;
+    assert_success(ost_refine(problem.matrix, take_share, &inner, problem.force, u, goal));
+    for (size_t i = 0; i < inner.n; i++)
+        missing = fmax(missing, fabs(u[i] - 0.5) / 0.5);
+    MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    OST_FREE(u);
+    elastic_destroy(&problem);
+    return missing;
+}
+
+static void the_residual_asked_for_is_enough_where_nothing_else_is(void **state)
+{
+    (void)state;
+    OstGoal goal;
+    assert_close(refined(0.7, 0.0, &goal), 0.3, 1e-15);
+    assert_int_equal(goal.iterations, 1);
+    assert_int_equal(goal.end, OST_END_REACHED);
+    assert_true(goal.drift == 0.0);
+}
+
+static void u_is_refined_until_it_stands(void **state)
+{
+    (void)state;
+    OstGoal goal;
+    const double missing = refined(0.7, 1e-3, &goal); /* corrections of 0.7 × 0.3^k */
+    assert_close(missing, pow(0.3, 7), 1e-15);
+    assert_int_equal(goal.iterations, 7);
+    assert_true(goal.drift >= missing && goal.drift <= 1e-3);
+}
+
+/* Each correction is 0.95 of the one before: too slow, and what would follow is 19 times the last. */
+static void what_does_not_settle_is_told_by_its_drift(void **state)
+{
+    (void)state;
+    OstGoal goal;
+    const double missing = refined(0.05, 1e-3, &goal);
+    assert_true(goal.norm <= goal.target || goal.end == OST_END_STALLED);
+    assert_true(missing > 0.1);
+    assert_true(goal.drift >= missing && goal.drift <= 10.0 * missing);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_residual_asked_for_is_enough_where_nothing_else_is),
+    cmocka_unit_test(u_is_refined_until_it_stands),
+    cmocka_unit_test(what_does_not_settle_is_told_by_its_drift),
+};
+
+OST_TEST_MAIN(tests)
