@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A digit that a statement about digits may be off by: the condition is an estimate, from below. */
-static const double slack = 10.0;
+/* The stated error is an estimate; it may be less than the error by this factor, and no more. */
+static const double slack = 3.0;
 
 /* The error of a factorisation's solution, or the move that rounding the stiffness makes, from which on double
  * precision is said to hold no answer. */
