@@ -214,11 +214,13 @@ static int is_done(const Refinement *work)
     return goal->norm <= goal->target && !(goal->settled > 0.0 && work->moved > goal->settled);
 }
 
-/* The goal is missed yet: where rounding is near, residuals are worth more care from here on. */
+/* The goal is missed yet, or a second correction has not let u stand: where rounding is near, residuals are worth more
+ * care from here on. */
 static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
-    if (goal->exact || is_done(work))
+    const int missed = goal->norm > goal->target || (work->contraction > 0.0 && !is_done(work));
+    if (goal->exact || !missed)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
     goal->exact = goal->norm <= exact_below * goal->limit;
