@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/mesh_file.h"
+#include "orthostat/verify.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -150,6 +151,8 @@ static OstStatus read_vertex_files(OstCase *c)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
     for (int i = 0; i < c->watch_count; i++)
         OST_TRY(read_vertex_file(c, &c->watches[i].on));
+    for (int i = 0; c->verify && i < c->verify->quantity_count; i++)
+        OST_TRY(read_vertex_file(c, &c->verify->quantity[i].on));
     return OST_SUCCESS;
 }
 

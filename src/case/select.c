@@ -7,8 +7,8 @@
 #include "core/memory.h"
 #include "core/small.h"
 #include "mesh/label_ranges.h"
+#include "mesh/nearest.h"
 
-#include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,29 +145,22 @@ static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
-/* The nearest of all ranks' nodes; among equals, the one with the lowest label. */
-static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
+/* A place farther from the body than the body's own edges there is likely a slip. */
+static OstStatus flag_nearest(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
+                              unsigned char *flags)
 {
-    OstContext *ctx = mesh->ctx;
-    double mine = DBL_MAX;
-    double nearest = DBL_MAX;
-    OstLocal best = -1;
-    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const double *x = mesh->coordinates + 3 * (size_t)n;
-        const double d[3] = {x[0] - selection->point[0], x[1] - selection->point[1], x[2] - selection->point[2]};
-        const double distance = ost_norm3(d);
-        if (best < 0 || distance < mine || (distance == mine && mesh->node_label[n] < mesh->node_label[best])) {
-            mine = distance;
-            best = n;
-        }
-    }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &nearest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
-    const int candidate = best >= 0 && mine == nearest;
-    const OstGlobal label = candidate ? mesh->node_label[best] : INT64_MAX;
-    OstGlobal lowest = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&label, &lowest, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
-    if (candidate && label == lowest)
-        flags[best] = 1;
+    double shortest = 0.0, longest = 0.0;
+    OstNearest vertex;
+    OST_TRY(ost_mesh_nearest(mesh, selection->point, &vertex));
+    OST_TRY(ost_mesh_edges_at(mesh, &vertex, &shortest, &longest));
+    if (vertex.distance > longest)
+        ost_warn(c->ctx,
+                 "%s:%d:%d: the vertex nearest to (%g, %g, %g) is at (%g, %g, %g), %g away; the edges there are no "
+                 "longer than %g",
+                 c->path, selection->place.line, selection->place.column, selection->point[0], selection->point[1],
+                 selection->point[2], vertex.at[0], vertex.at[1], vertex.at[2], vertex.distance, longest);
+    if (vertex.node >= 0)
+        flags[vertex.node] = 1;
     return OST_SUCCESS;
 }
 
@@ -247,7 +240,7 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
         status = flag_labels(c, mesh, selection, *flags);
         break;
     case OST_SELECT_NEAREST:
-        status = flag_nearest(mesh, selection, *flags);
+        status = flag_nearest(c, mesh, selection, *flags);
         break;
     default:
         status = flag_shape(mesh, selection, *flags);

@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "mesh/nearest.h"
 #include "orthostat/verify.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,101 +14,15 @@
 /* A place this share of an edge away from its vertex is another place. */
 static const double near_enough = 0.1;
 
-static const double *point_of(const OstMesh *mesh, OstLocal node)
-{
-    return mesh->coordinates + 3 * (size_t)node;
-}
-
-static double distance(const double a[3], const double b[3])
-{
-    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return ost_norm3(d);
-}
-
-/* A vertex of the body: where it lies, and who has it. */
-typedef struct Vertex {
-    OstLocal node; /* on its owner; elsewhere -1 */
-    int owner;
-    double distance; /* from the place asked for */
-    double at[3];
-} Vertex;
-
-static void keep_nearer(const OstMesh *mesh, const double place[3], OstLocal node, Vertex *vertex)
-{
-    const double away = distance(point_of(mesh, node), place);
-    if (away > vertex->distance)
-        return;
-    if (away == vertex->distance && vertex->node >= 0 && mesh->node_label[node] >= mesh->node_label[vertex->node])
-        return;
-    vertex->distance = away;
-    vertex->node = node;
-}
-
-/* Of vertices that are equally near the one with the lowest label is meant, whoever owns it. */
-static OstStatus agree_on_vertex(const OstMesh *mesh, Vertex *vertex)
-{
-    OstContext *ctx = mesh->ctx;
-    double nearest = DBL_MAX;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&vertex->distance, &nearest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
-    const int candidate = vertex->node >= 0 && vertex->distance == nearest;
-    const OstGlobal label = candidate ? mesh->node_label[vertex->node] : INT64_MAX;
-    OstGlobal lowest = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&label, &lowest, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
-    const int chosen = candidate && label == lowest;
-    const int mine = chosen ? ost_rank(ctx) : -1;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &vertex->owner, 1, MPI_INT, MPI_MAX, ost_comm(ctx))));
-    vertex->distance = nearest;
-    if (!chosen)
-        vertex->node = -1;
-    return OST_SUCCESS;
-}
-
-/* Mid-edge nodes are no tet's corner. */
-static OstStatus find_vertex(const OstMesh *mesh, const double place[3], Vertex *vertex)
-{
-    vertex->node = -1;
-    vertex->distance = DBL_MAX;
-    for (OstLocal t = 0; t < mesh->tet_count; t++)
-        for (int k = 0; k < 4; k++) {
-            const OstLocal node = mesh->tet_nodes[(size_t)t * (size_t)mesh->nodes_per_tet + (size_t)k];
-            if (node < mesh->owned_nodes)
-                keep_nearer(mesh, place, node, vertex);
-        }
-    OST_TRY(agree_on_vertex(mesh, vertex));
-    if (vertex->node >= 0)
-        memcpy(vertex->at, point_of(mesh, vertex->node), sizeof vertex->at);
-    return OST_MPI(mesh->ctx, MPI_Bcast(vertex->at, 3, MPI_DOUBLE, vertex->owner, ost_comm(mesh->ctx)));
-}
-
-static int is_corner(const OstLocal *tet, OstLocal node)
-{
-    return tet[0] == node || tet[1] == node || tet[2] == node || tet[3] == node;
-}
-
-/* The shortest edge at a vertex; its owner holds all its tets. */
-static OstStatus shortest_edge(const OstMesh *mesh, const Vertex *vertex, double *length)
-{
-    *length = DBL_MAX;
-    for (OstLocal t = 0; vertex->node >= 0 && t < mesh->tet_count; t++) {
-        const OstLocal *tet = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
-        if (!is_corner(tet, vertex->node))
-            continue;
-        for (int k = 0; k < 4; k++)
-            if (tet[k] != vertex->node)
-                *length = fmin(*length, distance(point_of(mesh, tet[k]), vertex->at));
-    }
-    return OST_MPI(mesh->ctx, MPI_Bcast(length, 1, MPI_DOUBLE, vertex->owner, ost_comm(mesh->ctx)));
-}
-
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
 {
     if (watch->kind != OST_WATCH_DISPLACEMENT)
         return OST_SUCCESS;
     double *place = watch->on.point;
-    double edge = 0.0;
-    Vertex vertex;
-    OST_TRY(find_vertex(mesh, place, &vertex));
-    OST_TRY(shortest_edge(mesh, &vertex, &edge));
+    double edge = 0.0, longest = 0.0;
+    OstNearest vertex;
+    OST_TRY(ost_mesh_nearest(mesh, place, &vertex));
+    OST_TRY(ost_mesh_edges_at(mesh, &vertex, &edge, &longest));
     if (vertex.distance > near_enough * edge)
         ost_warn(mesh->ctx,
                  "'%s' is watched at (%g, %g, %g), the vertex nearest to (%g, %g, %g); the edges there are %g "
@@ -126,9 +40,9 @@ static void take(const double vector[3], int component, OstWatched *watched)
 static OstStatus displacement(const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     const OstMesh *mesh = result->mesh;
-    Vertex vertex;
+    OstNearest vertex;
     double u[3] = {0.0};
-    OST_TRY(find_vertex(mesh, watch->on.point, &vertex));
+    OST_TRY(ost_mesh_nearest(mesh, watch->on.point, &vertex));
     if (vertex.node >= 0)
         memcpy(u, result->displacement + 3 * (size_t)vertex.node, sizeof u);
     OST_TRY(OST_MPI(mesh->ctx, MPI_Bcast(u, 3, MPI_DOUBLE, vertex.owner, ost_comm(mesh->ctx))));

@@ -155,6 +155,27 @@ static void the_nearest_vertex_is_one(void **state)
     drop_scene(&scene);
 }
 
+static void remember(void *text, const char *warning)
+{
+    snprintf(text, 256, "%s", warning);
+}
+
+/* A slip of a digit would load another place than is meant. */
+static void a_place_off_the_body_is_warned_of(void **state)
+{
+    (void)state;
+    char warning[256] = "";
+    ost_warn_listen(ctx, remember, warning);
+    assert_int_equal(count_nodes(block, "nearest: [4, 3.9, 2]"), 1);
+    assert_string_equal(warning, "");
+    assert_int_equal(count_nodes(block, "nearest: [4, 5, 2]"), 1);
+    ost_warn_listen(ctx, NULL, NULL);
+    if (ost_rank(ctx) == 0) /* which alone hears warnings; the cells' edges are 1, their diagonals 1.73205 */
+        assert_non_null(strstr(warning,
+                               ".yaml:4:20: the vertex nearest to (4, 5, 2) is at (4, 3, 2), 2 away; the edges "
+                               "there are no longer than 1.73205"));
+}
+
 static void names_that_do_not_exist_come_with_those_that_do(void **state)
 {
     (void)state;
@@ -279,6 +300,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(shapes_in_space_hold_what_lies_in_them),
     cmocka_unit_test(vertices_go_by_their_labels),
     cmocka_unit_test(the_nearest_vertex_is_one),
+    cmocka_unit_test(a_place_off_the_body_is_warned_of),
     cmocka_unit_test(names_that_do_not_exist_come_with_those_that_do),
     cmocka_unit_test(an_empty_selection_says_where_the_body_is),
     cmocka_unit_test(faces_point_outwards),

@@ -53,6 +53,19 @@ static void a_section_is_read_as_it_stands(void **state)
     ost_case_destroy(&c);
 }
 
+static void a_quantitys_vertex_list_is_read_with_the_case(void **state)
+{
+    (void)state;
+    char whole[2048];
+    section(
+        "  ladder: [{order: 1, refinements: [1]}]\n"
+        "  quantities:\n"
+        "    tip: {displacement: [0, 0, 2], on: {vertices: nowhere.bou}, expected: 1, error: [1], rate: [1]}\n",
+        whole, sizeof whole);
+    assert_failure(read_text(whole, &c), OST_FILE_FAILED, "nowhere.bou");
+    assert_null(c);
+}
+
 static void the_word_exact_is_read(void **state)
 {
     (void)state;
@@ -102,6 +115,7 @@ static void mistakes_are_named(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_section_is_read_as_it_stands),
+    cmocka_unit_test(a_quantitys_vertex_list_is_read_with_the_case),
     cmocka_unit_test(the_word_exact_is_read),
     cmocka_unit_test(mistakes_are_named),
 };
