@@ -9,26 +9,34 @@
 /* How far given axes may be from orthonormal. */
 static const double given_tolerance = 1e-6;
 
+/* The angle first: rows that are skew are often not of unit length either, and it is the angle that is meant. */
+static OstStatus check_angles(OstContext *ctx, const char *what, const double axes[9])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const double lengths = ost_norm3(axes + 3 * i) * ost_norm3(axes + 3 * j);
+        const double cosine = ost_dot3(axes + 3 * i, axes + 3 * j) / lengths;
+        if (lengths > 0.0 && fabs(cosine) > given_tolerance)
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "%s: e%d and e%d are not orthogonal (%.9g degrees lie between them); orthonormal axes are "
+                             "expected",
+                             what, i + 1, j + 1, acos(fmax(-1.0, fmin(1.0, cosine))) * 180.0 / M_PI);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus check_rows(OstContext *ctx, const char *what, const double axes[9])
 {
     for (int i = 0; i < 9; i++)
         if (!isfinite(axes[i]))
             return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: component %d of e%d is %g; a finite number is expected", what,
                              i % 3 + 1, i / 3 + 1, axes[i]);
+    OST_TRY(check_angles(ctx, what, axes));
     for (int i = 0; i < 3; i++) {
         const double length = ost_norm3(axes + 3 * i);
         if (fabs(length - 1.0) > given_tolerance)
             return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: e%d has length %.9g; a unit vector is expected", what, i + 1,
                              length);
-    }
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        const double cosine = ost_dot3(axes + 3 * i, axes + 3 * j);
-        if (fabs(cosine) > given_tolerance)
-            return OST_RAISE(
-                ctx, OST_INVALID_INPUT,
-                "%s: e%d and e%d are not orthogonal (their product is %.6g); orthonormal axes are expected", what,
-                i + 1, j + 1, cosine);
     }
     if (ost_determinant3(axes) < 0.0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,

@@ -28,11 +28,14 @@ static void skew_stretched_and_broken_axes_are_refused(void **state)
 {
     (void)state;
     double skew[9] = {1, 0, 0, 0.6, 0.8, 0, 0, 0, 1};
+    double leaning[9] = {1, 0, 0, 3, 4, 0, 0, 0, 1};
     double slightly_skew[9] = {1, 0, 0, 2e-6, 1, 0, 0, 0, 1};
     double stretched[9] = {1, 0, 0, 0, 1.5, 0, 0, 0, 1};
     double zero[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0};
     double broken[9] = {1, 0, 0, 0, 1, NAN, 0, 0, 1};
     assert_failure(ost_axes_check(ctx, "wood", skew), OST_INVALID_INPUT, "wood: e1 and e2 are not orthogonal");
+    /* atan(4/3) */
+    assert_failure(ost_axes_check(ctx, "wood", leaning), OST_INVALID_INPUT, "(53.1301024 degrees lie between them)");
     assert_failure(ost_axes_check(ctx, "wood", slightly_skew), OST_INVALID_INPUT, "e1 and e2 are not orthogonal");
     assert_failure(ost_axes_check(ctx, "wood", stretched), OST_INVALID_INPUT, "e2 has length 1.5");
     assert_failure(ost_axes_check(ctx, "wood", zero), OST_INVALID_INPUT, "e3 has length 0");
