@@ -24,9 +24,8 @@ typedef struct Coarsening {
     OstContext *ctx;
     OstSolverOptions options;
     OstMetricLevels *levels;
-    const double *modes;  /* near-null space of the coarsest level so far */
-    double *coarse_modes; /* the same, once it is ours */
-    OstGlobal unknowns;   /* on all ranks */
+    double **modes;     /* near-null space of the coarsest level so far */
+    OstGlobal unknowns; /* on all ranks */
 } Coarsening;
 
 static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
@@ -64,9 +63,8 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
 
 static void take_modes(Coarsening *work, OstTentative *tentative)
 {
-    OST_FREE(work->coarse_modes);
-    work->coarse_modes = tentative->modes;
-    work->modes = tentative->modes;
+    OST_FREE(*work->modes);
+    *work->modes = tentative->modes;
     tentative->modes = NULL;
 }
 
@@ -77,10 +75,11 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     const int l = levels->count - 1;
     OstTentative *tentative = NULL;
     OstExactMatrix *coarse = NULL;
-    OstStatus status = ost_tentative_create(levels->coarsest, aggregates, work->modes, &tentative);
+    OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, &tentative);
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
+    ost_metric_graph_destroy(&levels->graph[l]); /* as all that goes early here: the Galerkin product is the peak */
     OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
     const OstGlobal first = tentative->first_coarse;
     take_modes(work, tentative);
@@ -114,11 +113,11 @@ static OstStatus coarsen(Coarsening *work)
     }
 done:
     ost_aggregates_destroy(&aggregates);
-    OST_FREE(work->coarse_modes);
+    OST_FREE(*work->modes);
     return status;
 }
 
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *modes, OstMetricGraph **finest_graph,
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, double **modes, OstMetricGraph **finest_graph,
                                    const OstSolverOptions *options, OstMetricLevels *levels)
 {
     Coarsening work = {

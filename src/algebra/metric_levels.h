@@ -14,14 +14,14 @@ typedef struct OstMetricLevels {
     OstLevelMatrix *matrix[OST_MAX_LEVELS];
     OstProlongator *prolongator[OST_MAX_LEVELS]; /* [l]: from level l + 1 to level l */
     OstSmoother *smoother[OST_MAX_LEVELS];       /* of all but the last level */
-    OstMetricGraph *graph[OST_MAX_LEVELS];
-    OstExactMatrix *coarsest; /* the last of the matrices in double precision */
+    OstMetricGraph *graph[OST_MAX_LEVELS];       /* of the last level */
+    OstExactMatrix *coarsest;                    /* the last of the matrices in double precision */
 } OstMetricLevels;
 
-/* Collective. `modes` are the near-null space of `matrix` (6 columns of 3 × rows). A matrix no larger than
- * options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate; `coarsest` is then a
- * view of it. */
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const double *modes, OstMetricGraph **finest_graph,
+/* Collective. `modes` are the near-null space of `matrix` (6 columns of 3 × rows); they and the graph are taken over. A
+ * matrix no larger than options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate;
+ * `coarsest` is then a view of it. */
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, double **modes, OstMetricGraph **finest_graph,
                                    const OstSolverOptions *options, OstMetricLevels *levels);
 void ost_metric_levels_clear(OstMetricLevels *levels);
 

@@ -88,7 +88,7 @@ static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, co
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
-    OST_TRY_DONE(ost_metric_levels_create(scaled, modes, &graph, &metric->options, &levels));
+    OST_TRY_DONE(ost_metric_levels_create(scaled, &modes, &graph, &metric->options, &levels));
     OST_TRY_DONE(measure_levels(metric, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
 done:
