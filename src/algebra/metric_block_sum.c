@@ -5,7 +5,9 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-enum { BLOCK = OST_MODES * OST_MODES };
+/* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed. Room
+ * for these from the start is not touched before it is used; growing would be, twice over. */
+enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
 
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum)
 {
@@ -14,6 +16,9 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
     OstStatus status = ost_index_create(ctx, &(*sum)->ghost);
     if (status == OST_SUCCESS)
         status = ost_index_create(ctx, &(*sum)->entry);
+    (*sum)->room = LIKELY_ENTRIES * owned + 64;
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &(*sum)->value, OST_MODES * (size_t)(*sum)->room);
     if (status != OST_SUCCESS)
         ost_block_sum_destroy(sum);
     return status;
@@ -45,7 +50,7 @@ OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, Os
     OstLocal place;
     OST_TRY(ost_index_place(sum->entry, (OstGlobal)row << 32 | column, &place));
     if (place >= sum->room) {
-        const OstLocal room = sum->room + sum->room / 2 + 64;
+        const OstLocal room = sum->room + sum->room / 4;
         OST_TRY(OST_RESIZE(sum->ctx, &sum->value, OST_MODES * (size_t)room));
         sum->room = room;
     }
