@@ -5,8 +5,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-/* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed. Room
- * for these from the start is not touched before it is used; growing would be, twice over. */
+/* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed.
+ * Room for these from the start is not touched before it is used; growing would be, twice over. */
 enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
 
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum)
