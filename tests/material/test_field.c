@@ -184,9 +184,10 @@ static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
     assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
                    OST_INVALID_INPUT, "tet 104 (material 'wood'): given axes: the axes are left-handed");
     assert_null(field);
-    given[9 * 1] += 0.5;
+    for (int i = 0; i < 3; i++)
+        given[9 * 1 + i] *= 1.5;
     assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
-                   OST_INVALID_INPUT, "tet 102 (material 'wood'): given axes: e1 has length");
+                   OST_INVALID_INPUT, "tet 102 (material 'wood'): given axes: e1 has length 1.5");
     assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "tet by tet, but none came");
 }
