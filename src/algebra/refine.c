@@ -2,6 +2,7 @@
 #include "algebra/refine.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/exact_step.h"
 #include "algebra/term_rounding.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -33,6 +34,9 @@ typedef struct Refinement {
     int taken;          /* was the correction? */
     double contraction; /* of corrections, from the last one taken to the next */
     double moved;       /* largest number of the correction over that of u + correction; where goal->settled asks */
+    double least_moved; /* of all corrections */
+    int contracts;      /* did the last one lower that by least_gain? Noise would, against the one before */
+    OstExactStep *step; /* of factors' corrections, once residuals are summed exactly */
     OstGoal *goal;
 } Refinement;
 
@@ -169,13 +173,17 @@ static OstStatus find_moved(Refinement *work)
     work->moved = largest[1] > 0.0 ? largest[0] / largest[1] : 0.0;
     if (work->taken)
         work->contraction = work->moved / before;
+    work->contracts = work->moved < least_gain * work->least_moved;
+    work->least_moved = fmin(work->least_moved, work->moved);
     const int stands = work->moved <= work->goal->settled;
     const double series = work->contraction < 1.0 ? work->moved / (1.0 - work->contraction) : HUGE_VAL;
     work->goal->drift = stands ? work->moved : series;
     return OST_SUCCESS;
 }
 
-/* u + correction, if that is better. */
+/* u + correction, if that is better. Where u's own rounding is all that residuals show, they are summed exactly, and
+ * corrections that contract tell it (Demmel et al., Error bounds from extra-precise iterative refinement, ACM Trans.
+ * Math. Softw. 32, 2006). */
 static OstStatus take_correction(Refinement *work)
 {
     double sums[SUMS];
@@ -185,7 +193,8 @@ static OstStatus take_correction(Refinement *work)
         OST_TRY(find_moved(work));
     OST_TRY(examine(work, sums));
     const double norm = sqrt(sums[SQUARE]);
-    work->taken = isfinite(norm) && (norm < work->goal->norm || sums[ENERGY] > 0.0);
+    const int contracts = work->step && work->contracts;
+    work->taken = isfinite(norm) && (norm < work->goal->norm || sums[ENERGY] > 0.0 || contracts);
     if (!work->taken)
         return OST_SUCCESS;
     memcpy(work->u, work->candidate, work->n * sizeof(double));
@@ -247,23 +256,34 @@ static OstStatus judge(Refinement *work)
     return OST_SUCCESS;
 }
 
+/* What `inner` makes of the residual; where factors make it, and rounding is near, as conjugate gradients have it. */
+static OstStatus find_correction(Refinement *work, OstInnerSolve inner, void *data)
+{
+    OstGoal *goal = work->goal;
+    memset(work->correction, 0, work->n * sizeof(double));
+    OST_TRY(inner(data, work->residual, work->correction, goal));
+    if (!goal->exact || goal->settled == 0.0)
+        return OST_SUCCESS;
+    if (!work->step)
+        OST_TRY(ost_exact_step_create(work->matrix, &work->step));
+    return ost_exact_step_turn(work->step, work->residual, work->correction);
+}
+
 static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
     OstGoal *goal = work->goal;
     OST_TRY(first_residual(work));
     ost_pace_start(&goal->pace, goal->norm);
     int stalls = 0;
-    work->moved = HUGE_VAL;
+    work->moved = work->least_moved = HUGE_VAL;
+    double least_norm = goal->norm;
     do {
-        const double before = goal->norm;
-        const double moved_before = work->moved;
-        memset(work->correction, 0, work->n * sizeof(double));
-        const OstStatus status = inner(data, work->residual, work->correction, goal);
+        const OstStatus status = find_correction(work, inner, data);
         OST_TRY(take_correction(work));
         OST_TRY(status);
         OST_TRY(look_for_rounding(work));
-        const int gained =
-            goal->norm > goal->target ? goal->norm < least_gain * before : work->moved < least_gain * moved_before;
+        const int gained = work->contracts || (goal->norm > goal->target && goal->norm < least_gain * least_norm);
+        least_norm = fmin(least_norm, goal->norm);
         stalls = gained ? 0 : stalls + 1;
     } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < MOST_STALLS);
     if (goal->norm > goal->target)
@@ -296,6 +316,7 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
     OST_TRY_DONE(refine(&work, inner, data));
 done:
     ost_progress(ctx, "solve", -1.0);
+    ost_exact_step_destroy(&work.step);
     OST_FREE(work.residual);
     OST_FREE(work.correction);
     OST_FREE(work.left);
