@@ -2,6 +2,8 @@
 #ifndef ORTHOSTAT_TESTS_ALGEBRA_ELASTIC_BLOCK_H
 #define ORTHOSTAT_TESTS_ALGEBRA_ELASTIC_BLOCK_H
 
+#include "support.h"
+
 #include "algebra/block_matrix.h"
 #include "algebra/solver.h"
 #include "core/error.h"
@@ -232,6 +234,22 @@ static inline OstStatus elastic_create(OstContext *context, const ElasticBlock *
     OST_TRY(elastic_halo(&slab, matrix));
     elastic_fill(&slab, matrix);
     return elastic_geometry(&slab, problem);
+}
+
+/* A bar whose matrix is diagonal, the same three numbers at every node; forces are 1. */
+static inline ElasticProblem diagonal_bar(const double diagonal[3])
+{
+    const ElasticBlock bar = {.bricks = {1, 1, 3}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.0, .held = 0};
+    ElasticProblem problem;
+    assert_success(elastic_create(ctx, &bar, &problem));
+    OstBlockMatrix *matrix = problem.matrix;
+    memset(matrix->value, 0, 9 * (size_t)matrix->row_start[matrix->rows] * sizeof *matrix->value);
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        for (int c = 0; c < 3; c++) {
+            matrix->value[9 * (size_t)matrix->diagonal[i] + (size_t)(4 * c)] = diagonal[c];
+            problem.force[3 * i + c] = 1.0;
+        }
+    return problem;
 }
 
 #endif

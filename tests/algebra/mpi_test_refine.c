@@ -5,22 +5,6 @@
 
 #include "algebra/refine.h"
 
-/* The bar of ones: A = 2 I, so that what a step leaves is known. */
-static ElasticProblem twice_the_identity(void)
-{
-    const ElasticBlock bar = {.bricks = {1, 1, 3}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.0, .held = 0};
-    ElasticProblem problem;
-    assert_success(elastic_create(ctx, &bar, &problem));
-    OstBlockMatrix *matrix = problem.matrix;
-    memset(matrix->value, 0, 9 * (size_t)matrix->row_start[matrix->rows] * sizeof *matrix->value);
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        for (int c = 0; c < 3; c++) {
-            matrix->value[9 * (size_t)matrix->diagonal[i] + (size_t)(4 * c)] = 2.0;
-            problem.force[3 * i + c] = 1.0;
-        }
-    return problem;
-}
-
 typedef struct Inner {
     size_t n;
     double share; /* of the correction that is due */
@@ -38,7 +22,7 @@ static OstStatus take_share(void *data, const double *r, double *u, OstGoal *goa
 /* Refines from 0 towards half the right-hand side; gives what is missing, over u. */
 static double refined(double share, double settled, OstGoal *goal)
 {
-    ElasticProblem problem = twice_the_identity();
+    ElasticProblem problem = diagonal_bar((const double[3]){2.0, 2.0, 2.0}); /* so that what a step leaves is known */
     OstSolverOptions options = ost_solver_default_options();
     Inner inner = {.n = 3 * (size_t)problem.matrix->rows, .share = share};
     double *u = NULL, missing = 0.0;
