@@ -3,6 +3,7 @@
 
 #include "algebra/energy_error.h"
 #include "algebra/lanczos.h"
+#include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -3,6 +3,7 @@
 
 #include "algebra/exact_residual.h"
 #include "algebra/term_rounding.h"
+#include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -44,15 +45,6 @@ static OstStatus find_residual(Work *work, const double *f, int exact)
     return OST_SUCCESS;
 }
 
-static OstStatus sum_products(const Work *work, const double *a, const double *b, double *sum)
-{
-    OstContext *ctx = work->system->matrix->ctx;
-    *sum = 0.0;
-    for (size_t i = 0; i < work->n; i++)
-        *sum += a[i] * b[i];
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
-}
-
 /* 1 or -1, as an unknown's global number and the throw have it (the finaliser of SplitMix64). */
 static double sign_of(OstGlobal unknown, int throw)
 {
@@ -89,7 +81,7 @@ static OstStatus measure_displacement(Work *work, double size, double *error)
         ost_scaling_from_scaled(work->system->scaling, work->corrected, work->corrected);
     for (size_t i = 0; i < work->n; i++)
         work->corrected[i] *= size / work->displacement;
-    OST_TRY(sum_products(work, work->corrected, work->corrected, &square));
+    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->corrected, work->corrected, &square));
     *error = sqrt(square);
     return OST_SUCCESS;
 }
@@ -99,7 +91,7 @@ static OstStatus measure(Work *work, double *error)
 {
     double size, square;
     OST_TRY(correct(work, &size));
-    OST_TRY(sum_products(work, work->vector, work->corrected, &square));
+    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->vector, work->corrected, &square));
     *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
     return work->preconditioner->factors && square > 0.0 ? measure_displacement(work, size, error) : OST_SUCCESS;
 }
@@ -127,7 +119,7 @@ static OstStatus find_displacement(Work *work)
     OST_TRY(ost_vector_size(work->system->matrix->ctx, work->n, work->u, &size));
     for (size_t i = 0; i < work->n; i++)
         work->vector[i] = work->u[i] / size;
-    OST_TRY(sum_products(work, work->vector, work->vector, &square));
+    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->vector, work->vector, &square));
     work->displacement = size * sqrt(square);
     return OST_SUCCESS;
 }
@@ -136,7 +128,7 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
 {
     double energy;
     OST_TRY(find_residual(work, f, exact));
-    OST_TRY(sum_products(work, f, work->u, &energy));
+    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
     *error = (OstEnergyError){INFINITY, INFINITY};
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
     if (!(work->energy_norm > 0.0))

@@ -2,6 +2,7 @@
 #include "algebra/exact_step.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -34,23 +35,13 @@ void ost_exact_step_destroy(OstExactStep **step)
     OST_FREE(*step);
 }
 
-static OstStatus sum_products(const OstExactStep *step, const double *a, const double *b, double *sum)
-{
-    const size_t n = 3 * (size_t)step->matrix->rows;
-    *sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        *sum += a[i] * b[i];
-    return OST_MPI(step->matrix->ctx,
-                   MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(step->matrix->ctx)));
-}
-
 /* p = correction, made conjugate to the last p where there is one. */
 static OstStatus next_direction(OstExactStep *step, const double *correction)
 {
     const size_t n = 3 * (size_t)step->matrix->rows;
     double overlap = 0.0;
     if (step->energy > 0.0)
-        OST_TRY(sum_products(step, correction, step->product, &overlap));
+        OST_TRY(ost_vector_dot(step->matrix->ctx, n, correction, step->product, &overlap));
     const double beta = step->energy > 0.0 ? overlap / step->energy : 0.0;
     for (size_t i = 0; i < n; i++)
         step->direction[i] = correction[i] - beta * step->direction[i];
@@ -66,8 +57,8 @@ OstStatus ost_exact_step_turn(OstExactStep *step, const double *residual, double
     OST_TRY(ost_exact_residual(step->matrix, step->product, step->direction, step->product));
     for (size_t i = 0; i < n; i++)
         step->product[i] = -step->product[i];
-    OST_TRY(sum_products(step, step->direction, step->product, &step->energy));
-    OST_TRY(sum_products(step, step->direction, residual, &gain));
+    OST_TRY(ost_vector_dot(step->matrix->ctx, n, step->direction, step->product, &step->energy));
+    OST_TRY(ost_vector_dot(step->matrix->ctx, n, step->direction, residual, &gain));
     if (!(step->energy > 0.0 && isfinite(step->energy))) {
         step->energy = 0.0;
         return OST_SUCCESS;

@@ -4,6 +4,7 @@
 #include "algebra/cg.h"
 #include "algebra/metric_cycle.h"
 #include "algebra/metric_quadratic.h"
+#include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -103,16 +103,6 @@ static double dot(size_t n, const double *restrict a, const double *restrict b)
     return total;
 }
 
-OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size)
-{
-    double largest = 0.0;
-    for (size_t i = 0; i < n; i++)
-        largest = fabs(values[i]) <= largest ? largest : fabs(values[i]);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
-    *size = largest >= DBL_MIN && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
-    return OST_SUCCESS;
-}
-
 OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal)
 {
     OstContext *ctx = matrix->ctx;

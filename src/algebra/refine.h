@@ -50,10 +50,6 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
 OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *data, const double *f, double *u,
                      OstGoal *goal);
 
-/* Collective. The power of two next below the largest number of all ranks, 1 if that is 0 or not finite: dividing by it
- * is exact. */
-OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size);
-
 /* Local. OST_SUCCESS if the goal, or what will do, was reached, else OST_NOT_CONVERGED with its words and the residual
  * reached. */
 OstStatus ost_goal_verdict(const OstGoal *goal);

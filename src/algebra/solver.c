@@ -5,6 +5,7 @@
 #include "algebra/exact_residual.h"
 #include "algebra/rung.h"
 #include "algebra/solver_options.h"
+#include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 

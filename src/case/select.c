@@ -145,12 +145,21 @@ static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
-/* A place farther from the body than the body's own edges there is likely a slip. */
-static OstStatus flag_nearest(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
-                              unsigned char *flags)
+static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
+{
+    OstNearest vertex;
+    OST_TRY(ost_mesh_nearest(mesh, selection->point, &vertex));
+    if (vertex.node >= 0)
+        flags[vertex.node] = 1;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const OstSelection *selection)
 {
     double shortest = 0.0, longest = 0.0;
     OstNearest vertex;
+    if (selection->kind != OST_SELECT_NEAREST)
+        return OST_SUCCESS;
     OST_TRY(ost_mesh_nearest(mesh, selection->point, &vertex));
     OST_TRY(ost_mesh_edges_at(mesh, &vertex, &shortest, &longest));
     if (vertex.distance > longest)
@@ -159,8 +168,6 @@ static OstStatus flag_nearest(const OstCase *c, const OstMesh *mesh, const OstSe
                  "longer than %g",
                  c->path, selection->place.line, selection->place.column, selection->point[0], selection->point[1],
                  selection->point[2], vertex.at[0], vertex.at[1], vertex.at[2], vertex.distance, longest);
-    if (vertex.node >= 0)
-        flags[vertex.node] = 1;
     return OST_SUCCESS;
 }
 
@@ -240,7 +247,7 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
         status = flag_labels(c, mesh, selection, *flags);
         break;
     case OST_SELECT_NEAREST:
-        status = flag_nearest(c, mesh, selection, *flags);
+        status = flag_nearest(mesh, selection, *flags);
         break;
     default:
         status = flag_shape(mesh, selection, *flags);

@@ -12,6 +12,9 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
 int ost_selection_names(const OstSelection *selection, const char *boundary);
 OstStatus ost_select_check_names(const OstCase *c, const OstMesh *mesh, const OstSelection *selection);
 
+/* Collective. Warns of a nearest vertex farther from its place than the body's edges are long there: likely a slip. */
+OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const OstSelection *selection);
+
 /* Local. Raises with the selection's line of the case in front. */
 OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -14,9 +14,9 @@
  * leaves of the stiffness: with multigrid in the norm of the energy, by the smallest Ritz value of the solve; with
  * factors the displacement's own (algebra/energy_error.h), or what their steps would still move it, if that is more
  * (algebra/refine.h). It is an estimate, not a bound: the Ritz value comes from above, and a displacement may be less
- * right where little energy is. PLAIN
- * keeps its coefficients to itself, and states no digits. -log10 of it is the digits. Fewer digits than the requested
- * residual leaves are the user's choice; less than one digit left by rounding is objected to. The 2-norm of the
+ * right where little energy is. PLAIN keeps its coefficients to itself, and states no digits. -log10 of it is the
+ * digits. Fewer digits than the requested residual leaves are the user's choice; less than one digit left by rounding
+ * is objected to. The 2-norm of the
  * residual times the condition, which needs no preconditioner, is of no use where stiffness is uneven: it takes the
  * residual at a stiff inclusion for one at what is soft, and denied digits to answers that held five.
  *

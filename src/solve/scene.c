@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/scene.h"
 
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/mesh_file.h"
@@ -125,6 +126,15 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
     return ost_field_mean_dilatation(scene->field, 0.5, &regions); /* linear tets have no use for it */
 }
 
+static OstStatus check_places(const OstCase *c, const OstMesh *mesh)
+{
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(ost_select_check_place(c, mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(ost_select_check_place(c, mesh, &c->loads[i].on));
+    return OST_SUCCESS;
+}
+
 /* The mesh is the case's, or made of the chunk if there is one. */
 static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
 {
@@ -141,6 +151,7 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
                        : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
     ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
+    OST_TRY_DONE(check_places(c, made->mesh));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:

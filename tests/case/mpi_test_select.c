@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case_text.h"
 
+#include "case/select.h"
 #include "core/halo.h"
 #include "core/memory.h"
 
@@ -160,15 +161,23 @@ static void remember(void *text, const char *warning)
     snprintf(text, 256, "%s", warning);
 }
 
+static void check_place(const char *selection)
+{
+    Scene scene = make_scene(block, selection);
+    assert_success(ost_select_check_place(scene.c, scene.mesh, &scene.c->constraints[0].on));
+    drop_scene(&scene);
+}
+
 /* A slip of a digit would load another place than is meant. */
 static void a_place_off_the_body_is_warned_of(void **state)
 {
     (void)state;
     char warning[256] = "";
     ost_warn_listen(ctx, remember, warning);
-    assert_int_equal(count_nodes(block, "nearest: [4, 3.9, 2]"), 1);
+    check_place("nearest: [4, 3.9, 2]");
+    check_place("sphere: {center: [40, 1, 1], radius: 1}");
     assert_string_equal(warning, "");
-    assert_int_equal(count_nodes(block, "nearest: [4, 5, 2]"), 1);
+    check_place("nearest: [4, 5, 2]");
     ost_warn_listen(ctx, NULL, NULL);
     if (ost_rank(ctx) == 0) /* which alone hears warnings; the cells' edges are 1, their diagonals 1.73205 */
         assert_non_null(strstr(warning,

@@ -185,6 +185,11 @@ def a_place_between_vertices_is_pointed_out(folder):
               f"{command}: {finished.errors}")
     write(folder, "watch.yaml", CASE + "watch: {tip: {displacement: {nearest: [2, 1, 1]}, component: z}}\n")
     check(not run("solve", "watch.yaml", folder=folder).errors, "a vertex is watched where it lies")
+    write(folder, "slip.yaml", CASE.replace("boundary: xmax", "nearest: [20, 0, 0]"))
+    for command in "solve", "check":
+        finished = run(command, "slip.yaml", ranks=2, folder=folder)
+        check(finished.exit_code == 0 and finished.errors.count("slip.yaml:8:19: the vertex nearest to (20, 0, 0)") == 1,
+              f"{command}: {finished.errors}")
 
 
 def the_script_takes_words_in_any_order(folder):
