@@ -188,7 +188,7 @@ def a_place_between_vertices_is_pointed_out(folder):
     write(folder, "slip.yaml", CASE.replace("boundary: xmax", "nearest: [20, 0, 0]"))
     for command in "solve", "check":
         finished = run(command, "slip.yaml", ranks=2, folder=folder)
-        check(finished.exit_code == 0 and finished.errors.count("slip.yaml:8:19: the vertex nearest to (20, 0, 0)") == 1,
+        check(finished.exit_code == 0 and finished.errors.count("slip.yaml:8:20: the vertex nearest to (20, 0, 0)") == 1,
               f"{command}: {finished.errors}")
 
 
