@@ -80,16 +80,19 @@ static int is_speaker(void)
     return !rank || strcmp(rank, "0") == 0;
 }
 
-/* Version and help come at once, without waiting for MPI; returns -1 if there is more to do. */
+/* Version and help come at once, without waiting for MPI; returns -1 if there is more to do. Ranks that say nothing
+ * succeed: mpirun ends the one that speaks as soon as another fails. */
 static int answer_at_once(int argc, char **argv)
 {
     const int asks_version = argc == 2 && is_one_of(argv[1], "--version", "-V");
     const int asks_help = argc == 2 && is_one_of(argv[1], "--help", "-h");
     if (argc > 1 && !asks_version && !asks_help)
         return -1;
-    if (is_speaker() && asks_version)
+    if (!is_speaker())
+        return 0;
+    if (asks_version)
         puts("orthostat " ORTHOSTAT_VERSION);
-    else if (is_speaker())
+    else
         print_help(asks_help ? stdout : stderr);
     return argc > 1 ? 0 : ost_status_exit_code(OST_INVALID_USAGE);
 }
