@@ -18,52 +18,6 @@ void ost_block_matrix_destroy(OstBlockMatrix **matrix)
     OST_FREE(*matrix);
 }
 
-static OstStatus copy_halo(const OstBlockMatrix *matrix, OstHalo **halo)
-{
-    OstLocal *same = NULL;
-    OST_TRY(OST_NEW(matrix->ctx, &same, matrix->columns));
-    for (OstLocal i = 0; i < matrix->columns; i++)
-        same[i] = i;
-    const OstStatus status = ost_halo_subset(matrix->halo, same, halo);
-    OST_FREE(same);
-    return status;
-}
-
-static OstStatus copy_pattern(const OstBlockMatrix *matrix, OstBlockMatrix *like)
-{
-    OstContext *ctx = matrix->ctx;
-    const size_t rows = (size_t)matrix->rows;
-    const size_t blocks = (size_t)matrix->row_start[rows];
-    OST_TRY(OST_NEW(ctx, &like->row_start, rows + 1));
-    OST_TRY(OST_NEW(ctx, &like->column, blocks));
-    OST_TRY(OST_NEW(ctx, &like->diagonal, rows));
-    OST_TRY(OST_NEW(ctx, &like->value, 9 * blocks));
-    memcpy(like->row_start, matrix->row_start, (rows + 1) * sizeof *like->row_start);
-    memcpy(like->column, matrix->column, blocks * sizeof *like->column);
-    memcpy(like->diagonal, matrix->diagonal, rows * sizeof *like->diagonal);
-    return copy_halo(matrix, &like->halo);
-}
-
-OstStatus ost_block_matrix_create_like(const OstBlockMatrix *matrix, OstBlockMatrix **like)
-{
-    OstBlockMatrix *made = NULL;
-    *like = NULL;
-    OstStatus status = OST_NEW(matrix->ctx, &made, 1);
-    if (status == OST_SUCCESS) {
-        made->ctx = matrix->ctx;
-        made->rows = matrix->rows;
-        made->columns = matrix->columns;
-        made->first_row = matrix->first_row;
-        made->global_rows = matrix->global_rows;
-        status = copy_pattern(matrix, made);
-    }
-    status = ost_agree(matrix->ctx, status);
-    if (status != OST_SUCCESS)
-        ost_block_matrix_destroy(&made);
-    *like = made;
-    return status;
-}
-
 void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *restrict x, double *restrict y)
 {
     const OstLocal *restrict column = matrix->column;

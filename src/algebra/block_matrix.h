@@ -21,9 +21,6 @@ typedef struct OstBlockMatrix {
 
 void ost_block_matrix_destroy(OstBlockMatrix **matrix);
 
-/* Collective. A matrix of the same pattern (its own copy of pattern and halo) and values all zero. */
-OstStatus ost_block_matrix_create_like(const OstBlockMatrix *matrix, OstBlockMatrix **like);
-
 /* Collective over neighbours. y = A x; x has room for 3 × columns numbers, and its ghosts are filled here; y 3 × rows.
  */
 OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y);

@@ -11,23 +11,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of p·p: what rounding may leave of p·Ap, some tens of units in the last place. */
+/* Of p·Dp, D being A's diagonal: what rounding may leave of p·Ap, some tens of units in the last place. */
 static const double rounding = 1e-13;
 
 typedef struct Cg {
     OstContext *ctx;
     const OstCgSystem *system;
     const OstPreconditioner *preconditioner;
-    const OstBlockMatrix *matrix; /* the one of the iteration, scaled or not */
-    size_t n;                     /* unknowns this rank owns */
-    double *direction;            /* p, with room for ghosts */
-    double *product;              /* A' p */
-    double *residual;             /* r' */
-    double *corrected;            /* z */
-    double energy;                /* p·A'p of the last direction */
-    double weight;                /* r·z of the last direction */
-    int blind;                    /* rounding hides that energy: p does not lead to a next direction */
-    double size;                  /* what r' was divided by, a power of two */
+    size_t n;          /* unknowns this rank owns */
+    double *direction; /* p */
+    double *unscaled;  /* S^T p, with room for ghosts */
+    double *product;   /* A' p */
+    double *residual;  /* r' */
+    double *corrected; /* z */
+    double energy;     /* p·A'p of the last direction */
+    double weight;     /* r·z of the last direction */
+    int blind;         /* rounding hides that energy: p does not lead to a next direction */
+    double size;       /* what r' was divided by, a power of two */
     int runs;
     OstLanczos lanczos; /* of the first run */
 } Cg;
@@ -72,32 +72,68 @@ static OstStatus next_direction(Cg *cg, OstGoal *goal, int first, double *beta)
     return OST_SUCCESS;
 }
 
-/* p·Ap is not positive. Scaled matrices have ones on the diagonal and a norm of some tens, so that rounding may turn
- * the sign of what is small beside p·p. */
-static OstStatus judge_energy(Cg *cg, OstGoal *goal, double square)
+/* A' p = S (A (S^T p)). */
+static OstStatus find_product(Cg *cg)
 {
-    if (cg->energy < -rounding * square || (!cg->system->scaling && cg->energy < 0.0))
-        return ost_goal_refuse_indefinite(goal, cg->energy);
-    goal->end = OST_END_STALLED;
-    snprintf(goal->words, sizeof goal->words,
-             "in iteration %d p·Ap = %g beside p·p = %g: the stiffness is singular to rounding", goal->iterations + 1,
-             cg->energy, square);
+    const OstScaling *scaling = cg->system->scaling;
+    if (scaling)
+        ost_scaling_from_scaled(scaling, cg->direction, cg->unscaled);
+    else
+        memcpy(cg->unscaled, cg->direction, cg->n * sizeof *cg->unscaled);
+    OST_TRY(ost_block_matrix_apply(cg->system->matrix, cg->unscaled, cg->product));
+    if (scaling)
+        ost_scaling_to_scaled(scaling, cg->product, cg->product);
     return OST_SUCCESS;
 }
 
-/* The step along p that leaves the least energy; all of p, where that is what factors made and rounding hides p·Ap, or
- * is so near that who asked finds the step. */
+/* p·Dp: beside that, rounding hides what is small of p·Ap and may turn its sign. */
+static OstStatus size_energy(const Cg *cg, double *size)
+{
+    const OstBlockMatrix *matrix = cg->system->matrix;
+    *size = 0.0;
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[i], *p = cg->unscaled + 3 * (size_t)i;
+        *size += fabs(block[0]) * p[0] * p[0] + fabs(block[4]) * p[1] * p[1] + fabs(block[8]) * p[2] * p[2];
+    }
+    return sum(cg, 1, size);
+}
+
+/* p·Ap is not positive. */
+static OstStatus judge_energy(const Cg *cg, OstGoal *goal)
+{
+    double size;
+    OST_TRY(size_energy(cg, &size));
+    if (cg->energy < -rounding * size)
+        return ost_goal_refuse_indefinite(goal, cg->energy);
+    goal->end = OST_END_STALLED;
+    snprintf(goal->words, sizeof goal->words,
+             "in iteration %d p·Ap = %g beside p·Dp = %g: the stiffness is singular to rounding", goal->iterations + 1,
+             cg->energy, size);
+    return OST_SUCCESS;
+}
+
+/* Factors made p: is p·Ap no more than rounding, or rounding so near that who asked finds the step? */
+static OstStatus look_for_rounding(Cg *cg, const OstGoal *goal)
+{
+    double size;
+    cg->blind = cg->preconditioner->factors && goal->exact;
+    if (!cg->preconditioner->factors || goal->exact)
+        return OST_SUCCESS;
+    OST_TRY(size_energy(cg, &size));
+    cg->blind = fabs(cg->energy) <= rounding * size;
+    return OST_SUCCESS;
+}
+
+/* The step along p that leaves the least energy; all of p, where the energy is not to be seen. */
 static OstStatus step(Cg *cg, OstGoal *goal, double *u, double *alpha)
 {
-    OST_TRY(ost_block_matrix_apply(cg->matrix, cg->direction, cg->product));
-    double sums[3] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual),
-                      dot(cg->n, cg->direction, cg->direction)};
-    OST_TRY(sum(cg, 3, sums));
+    OST_TRY(find_product(cg));
+    double sums[2] = {dot(cg->n, cg->direction, cg->product), dot(cg->n, cg->direction, cg->residual)};
+    OST_TRY(sum(cg, 2, sums));
     cg->energy = sums[0];
-    const int hidden = goal->exact || fabs(cg->energy) <= rounding * sums[2];
-    cg->blind = cg->preconditioner->factors && cg->system->scaling && hidden;
+    OST_TRY(look_for_rounding(cg, goal));
     if (!cg->blind && !(cg->energy > 0.0 && isfinite(cg->energy)))
-        return judge_energy(cg, goal, sums[2]);
+        return judge_energy(cg, goal);
     *alpha = cg->blind ? 1.0 : sums[1] / sums[0];
     for (size_t i = 0; i < cg->n; i++) {
         u[i] += *alpha * cg->direction[i];
@@ -157,7 +193,8 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
 
 static OstStatus cg_allocate(Cg *cg, int steps)
 {
-    OST_TRY(OST_NEW(cg->ctx, &cg->direction, 3 * (size_t)cg->matrix->columns));
+    OST_TRY(OST_NEW(cg->ctx, &cg->direction, cg->n));
+    OST_TRY(OST_NEW(cg->ctx, &cg->unscaled, 3 * (size_t)cg->system->matrix->columns));
     OST_TRY(OST_NEW(cg->ctx, &cg->product, cg->n));
     OST_TRY(OST_NEW(cg->ctx, &cg->residual, cg->n));
     OST_TRY(OST_NEW(cg->ctx, &cg->corrected, cg->n));
@@ -185,17 +222,14 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
                        OstGoal *goal, OstSolveReport *report)
 {
     OstContext *ctx = system->matrix->ctx;
-    Cg cg = {.ctx = ctx,
-             .system = system,
-             .preconditioner = preconditioner,
-             .matrix = system->scaled_matrix ? system->scaled_matrix : system->matrix,
-             .n = 3 * (size_t)system->matrix->rows};
+    Cg cg = {.ctx = ctx, .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)system->matrix->rows};
     OstStatus status;
     OST_TRY_DONE(ost_agree(ctx, cg_allocate(&cg, goal->most_iterations)));
     OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
     OST_TRY_DONE(report_error(&cg, f, u, goal, report));
 done:
     OST_FREE(cg.direction);
+    OST_FREE(cg.unscaled);
     OST_FREE(cg.product);
     OST_FREE(cg.residual);
     OST_FREE(cg.corrected);

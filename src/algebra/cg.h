@@ -15,11 +15,10 @@ typedef struct OstPreconditioner {
     int factors;
 } OstPreconditioner;
 
-/* A u = f as it is iterated on: A' u' = f' of a scaling, or A itself. */
+/* A u = f as it is iterated on: A' u' = f' of a scaling, whose products are S (A (S^T u')), or A itself. */
 typedef struct OstCgSystem {
-    const OstBlockMatrix *matrix;        /* A */
-    const OstBlockMatrix *scaled_matrix; /* S A S^T, or NULL: A */
-    const OstScaling *scaling;           /* S, or NULL: the identity */
+    const OstBlockMatrix *matrix; /* A */
+    const OstScaling *scaling;    /* S, or NULL: the identity */
 } OstCgSystem;
 
 /* Collective. Improves u towards A u = f by preconditioned conjugate gradients, as ost_refine, in the unscaled norm.

@@ -12,7 +12,6 @@ static const double settled = 1e-3;
 struct OstDirect {
     OstCgSystem system;
     OstScaling *scaling;
-    OstBlockMatrix *scaled;
     OstMumps *factors;
 };
 
@@ -21,7 +20,6 @@ void ost_direct_destroy(OstDirect **direct)
     if (!*direct)
         return;
     ost_mumps_destroy(&(*direct)->factors);
-    ost_block_matrix_destroy(&(*direct)->scaled);
     ost_scaling_destroy(&(*direct)->scaling);
     OST_FREE(*direct);
 }
@@ -33,9 +31,8 @@ OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDire
     OstStatus status;
     OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
-    OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
-    OST_TRY_DONE(ost_mumps_create_of_rows(made->scaled, memory, &made->factors));
-    made->system = (OstCgSystem){.matrix = matrix, .scaled_matrix = made->scaled, .scaling = made->scaling};
+    OST_TRY_DONE(ost_mumps_create_of_rows(matrix, made->scaling, memory, &made->factors));
+    made->system = (OstCgSystem){.matrix = matrix, .scaling = made->scaling};
 done:
     if (status != OST_SUCCESS)
         ost_direct_destroy(&made);

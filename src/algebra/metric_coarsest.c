@@ -47,9 +47,10 @@ static void spread_rows(const OstExactMatrix *matrix, const OstGlobal *number, O
 {
     const int size = matrix->size;
     const size_t order = (size_t)coarsest->order;
+    double room[9];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
-            const double *value = matrix->value + (size_t)(size * size) * (size_t)k;
+            const double *value = ost_exact_matrix_block(matrix, size, i, k, room);
             double *target = coarsest->factor + (size_t)number[i] * order + (size_t)number[matrix->column[k]];
             for (int r = 0; r < size; r++)
                 for (int c = 0; c < size; c++)

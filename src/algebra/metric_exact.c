@@ -4,12 +4,13 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-OstStatus ost_exact_matrix_borrow(const OstBlockMatrix *matrix, OstExactMatrix **exact)
+OstStatus ost_exact_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstExactMatrix **exact)
 {
     OST_TRY(OST_NEW(matrix->ctx, exact, 1));
     **exact = (OstExactMatrix){.ctx = matrix->ctx,
                                .size = 3,
                                .borrowed = 1,
+                               .scaling = scaling,
                                .rows = matrix->rows,
                                .columns = matrix->columns,
                                .row_start = matrix->row_start,

@@ -114,9 +114,10 @@ OST_UNROLLED void multiply_row(Product *product, int size, OstLocal i)
     const OstExactMatrix *a = product->a;
     const OstProlongator *p = product->p;
     const OstBlockRows *far = product->far;
+    double room[9];
     product->count = 0;
     for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
-        const double *value = a->value + (size_t)(size * size) * (size_t)k;
+        const double *value = ost_exact_matrix_block(a, size, i, k, room);
         const OstLocal j = a->column[k];
         if (j < a->rows) {
             const OstLocal from = p->row_start[j];

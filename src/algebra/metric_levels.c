@@ -117,8 +117,9 @@ done:
     return status;
 }
 
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, double **modes, OstMetricGraph **finest_graph,
-                                   const OstSolverOptions *options, OstMetricLevels *levels)
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
+                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
+                                   OstMetricLevels *levels)
 {
     Coarsening work = {
         .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
@@ -126,7 +127,7 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, double **modes,
     levels->count = 1;
     levels->graph[0] = *finest_graph;
     *finest_graph = NULL;
-    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &levels->coarsest));
+    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &levels->coarsest));
     if (status == OST_SUCCESS)
         status = ost_level_matrix_create(levels->coarsest, &levels->matrix[0]);
     if (status == OST_SUCCESS)

@@ -18,11 +18,13 @@ typedef struct OstMetricLevels {
     OstExactMatrix *coarsest;                    /* the last of the matrices in double precision */
 } OstMetricLevels;
 
-/* Collective. `modes` are the near-null space of `matrix` (6 columns of 3 × rows); they and the graph are taken over. A
- * matrix no larger than options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate;
- * `coarsest` is then a view of it. */
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, double **modes, OstMetricGraph **finest_graph,
-                                   const OstSolverOptions *options, OstMetricLevels *levels);
+/* Collective. Of S A S^T, whose near-null space are `modes` (6 columns of 3 × rows); they and the graph are taken over;
+ * matrix and scaling outlive the levels, and a scaling of NULL is the identity. A matrix no larger than
+ * options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate; `coarsest` is then a
+ * view of it. */
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
+                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
+                                   OstMetricLevels *levels);
 void ost_metric_levels_clear(OstMetricLevels *levels);
 
 #endif

@@ -35,6 +35,30 @@ static void round_block(size_t count, const double *exact, float *rounded)
         rounded[k] = (float)exact[k];
 }
 
+OST_UNROLLED void fill_upper_half(const OstExactMatrix *exact, int size, OstLevelMatrix *matrix)
+{
+    const size_t square = (size_t)(size * size);
+    OstLocal upper = 0;
+    double room[9];
+    for (OstLocal i = 0; i < exact->rows; i++) {
+        matrix->own_end[i] = upper;
+        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++) {
+            if (exact->column[k] < i)
+                continue;
+            const double *block = ost_exact_matrix_block(exact, size, i, k, room);
+            if (exact->column[k] == i) {
+                round_block(square, block, matrix->diagonal + square * (size_t)i);
+                continue;
+            }
+            round_block(square, block, matrix->value + square * (size_t)upper);
+            matrix->column[upper++] = exact->column[k];
+            if (exact->column[k] < exact->rows)
+                matrix->own_end[i] = upper;
+        }
+        matrix->row_start[i + 1] = upper;
+    }
+}
+
 static OstStatus copy_upper_half(const OstExactMatrix *exact, OstLevelMatrix *matrix)
 {
     OstContext *ctx = exact->ctx;
@@ -48,22 +72,10 @@ static OstStatus copy_upper_half(const OstExactMatrix *exact, OstLevelMatrix *ma
     OST_TRY(OST_NEW(ctx, &matrix->column, upper));
     OST_TRY(OST_NEW(ctx, &matrix->diagonal, square * (size_t)exact->rows + OST_PADDING));
     OST_TRY(OST_NEW(ctx, &matrix->value, square * (size_t)upper + OST_PADDING));
-    upper = 0;
-    for (OstLocal i = 0; i < exact->rows; i++) {
-        matrix->own_end[i] = upper;
-        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++) {
-            const double *block = exact->value + square * (size_t)k;
-            if (exact->column[k] == i)
-                round_block(square, block, matrix->diagonal + square * (size_t)i);
-            if (exact->column[k] <= i)
-                continue;
-            round_block(square, block, matrix->value + square * (size_t)upper);
-            matrix->column[upper++] = exact->column[k];
-            if (exact->column[k] < exact->rows)
-                matrix->own_end[i] = upper;
-        }
-        matrix->row_start[i + 1] = upper;
-    }
+    if (exact->size == 3)
+        fill_upper_half(exact, 3, matrix);
+    else
+        fill_upper_half(exact, 6, matrix);
     return OST_SUCCESS;
 }
 

@@ -23,12 +23,12 @@ void ost_quadratic_level_destroy(OstQuadraticLevel **level)
     OST_FREE(*level);
 }
 
-static OstStatus create_matrix(const OstBlockMatrix *scaled, OstLevelMatrix **matrix)
+static OstStatus create_matrix(const OstBlockMatrix *matrix, const OstScaling *scaling, OstLevelMatrix **made)
 {
     OstExactMatrix *exact = NULL;
-    OstStatus status = ost_agree(scaled->ctx, ost_exact_matrix_borrow(scaled, &exact));
+    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &exact));
     if (status == OST_SUCCESS)
-        status = ost_level_matrix_create(exact, matrix);
+        status = ost_level_matrix_create(exact, made);
     ost_exact_matrix_destroy(&exact);
     return status;
 }
@@ -42,12 +42,12 @@ static OstStatus allocate_vectors(OstQuadraticLevel *level, OstLocal linear_rows
     return ost_level_vector_create(ctx, 3, linear_rows, &level->correction);
 }
 
-OstStatus ost_quadratic_level_create(const OstBlockMatrix *scaled, const OstMetricGraph *graph,
+OstStatus ost_quadratic_level_create(const OstBlockMatrix *matrix, const OstMetricGraph *graph,
                                      const OstCoarseSpace *space, const OstScaling *quadratic,
                                      const OstScaling *linear_scaling, OstCycle *linear,
                                      const OstSolverOptions *options, OstQuadraticLevel **level)
 {
-    OstContext *ctx = scaled->ctx;
+    OstContext *ctx = matrix->ctx;
     OstSolverOptions smoothing = *options;
     OstQuadraticLevel *made = NULL;
     *level = NULL;
@@ -57,7 +57,7 @@ OstStatus ost_quadratic_level_create(const OstBlockMatrix *scaled, const OstMetr
         goto done;
     made->ctx = ctx;
     made->linear = linear;
-    OST_TRY_DONE(create_matrix(scaled, &made->matrix));
+    OST_TRY_DONE(create_matrix(matrix, quadratic, &made->matrix));
     OST_TRY_DONE(ost_agree(ctx, allocate_vectors(made, space->matrix->rows)));
     OST_TRY_DONE(ost_agree(ctx, ost_interpolation_create(space, quadratic, linear_scaling, &made->interpolation)));
     OST_TRY_DONE(ost_smoother_create(made->matrix, graph, &smoothing, &made->smoother));

@@ -19,9 +19,9 @@ typedef struct OstQuadraticLevel {
     double *right_side, *correction; /* of the linear tets */
 } OstQuadraticLevel;
 
-/* Collective. `scaled` is the quadratic matrix in scaled unknowns, `graph` its nodes (not kept). The scalings, the
- * coarse space and the cycle stay the caller's and outlive the level. */
-OstStatus ost_quadratic_level_create(const OstBlockMatrix *scaled, const OstMetricGraph *graph,
+/* Collective. `matrix` is that of quadratic tets, `graph` its nodes (neither is kept). The scalings, the coarse space
+ * and the cycle stay the caller's and outlive the level. */
+OstStatus ost_quadratic_level_create(const OstBlockMatrix *matrix, const OstMetricGraph *graph,
                                      const OstCoarseSpace *space, const OstScaling *quadratic,
                                      const OstScaling *linear_scaling, OstCycle *linear,
                                      const OstSolverOptions *options, OstQuadraticLevel **level);

@@ -113,8 +113,9 @@ static OstStatus list_rows(Smoothing *s)
 OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
 {
     const OstExactMatrix *a = s->matrix;
-    const size_t square = (size_t)(size * size), block = (size_t)(size * OST_MODES);
+    const size_t block = (size_t)(size * OST_MODES);
     const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
+    double room[9];
     const OstLocal first = s->blocks->node_start[b], nodes = s->blocks->node_start[b + 1] - first;
     memset(s->sum, 0, (size_t)nodes * (size_t)size * (size_t)count * sizeof *s->sum);
     for (OstLocal c = 0; c < count; c++)
@@ -125,7 +126,7 @@ OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
         for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
             const OstLocal column = s->column[a->column[k]];
             if (column >= 0)
-                ost_block_multiply(size, a->value + square * (size_t)k,
+                ost_block_multiply(size, ost_exact_matrix_block(a, size, i, k, room),
                                    s->tentative->block + block * (size_t)a->column[k],
                                    row + (size_t)size * (size_t)s->place[column]);
         }

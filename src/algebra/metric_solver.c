@@ -17,12 +17,10 @@ struct OstMetric {
     OstSolverOptions options;
     const OstBlockMatrix *matrix;
     OstScaling *scaling;
-    OstBlockMatrix *scaled;
     OstCycle *cycle;
     /* quadratic tets: the cycle is that of the linear ones under them */
     OstQuadraticLevel *quadratic;
     OstScaling *linear_scaling;
-    OstBlockMatrix *linear_scaled;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -34,9 +32,7 @@ void ost_metric_destroy(OstMetric **metric)
         return;
     ost_quadratic_level_destroy(&(*metric)->quadratic);
     ost_cycle_destroy(&(*metric)->cycle); /* before the matrices whose halos they borrow */
-    ost_block_matrix_destroy(&(*metric)->linear_scaled);
     ost_scaling_destroy(&(*metric)->linear_scaling);
-    ost_block_matrix_destroy(&(*metric)->scaled);
     ost_scaling_destroy(&(*metric)->scaling);
     OST_FREE(*metric);
 }
@@ -78,8 +74,8 @@ static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels
 }
 
 /* The cycle of a matrix on aggregates of its graph. */
-static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, const OstBlockMatrix *scaled,
-                             const OstScaling *scaling, const OstSolverGeometry *geometry)
+static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
+                             const OstSolverGeometry *geometry)
 {
     OstContext *ctx = metric->ctx;
     OstMetricGraph *graph = NULL;
@@ -89,7 +85,7 @@ static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, co
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
-    OST_TRY_DONE(ost_metric_levels_create(scaled, &modes, &graph, &metric->options, &levels));
+    OST_TRY_DONE(ost_metric_levels_create(matrix, scaling, &modes, &graph, &metric->options, &levels));
     OST_TRY_DONE(measure_levels(metric, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
 done:
@@ -121,11 +117,10 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
     OstStatus status = ost_scaling_create(space->matrix, &metric->linear_scaling);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_scaling_apply_matrix(metric->linear_scaling, space->matrix, &metric->linear_scaled));
-    OST_TRY_DONE(build_cycle(metric, space->matrix, metric->linear_scaled, metric->linear_scaling, space->geometry));
+    OST_TRY_DONE(build_cycle(metric, space->matrix, metric->linear_scaling, space->geometry));
     OST_TRY_DONE(count_quadratic(metric, space->matrix));
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
-    OST_TRY_DONE(ost_quadratic_level_create(metric->scaled, graph, space, metric->scaling, metric->linear_scaling,
+    OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
                                             metric->cycle, &metric->options, &metric->quadratic));
 done:
     ost_metric_graph_destroy(&graph);
@@ -144,11 +139,10 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->options = *options;
     made->matrix = matrix;
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
-    OST_TRY_DONE(ost_scaling_apply_matrix(made->scaling, matrix, &made->scaled));
     if (geometry->coarse)
         OST_TRY_DONE(build_quadratic(made, geometry));
     else
-        OST_TRY_DONE(build_cycle(made, matrix, made->scaled, made->scaling, geometry));
+        OST_TRY_DONE(build_cycle(made, matrix, made->scaling, geometry));
 done:
     if (status != OST_SUCCESS)
         ost_metric_destroy(&made);
@@ -193,7 +187,7 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
 {
     const OstPreconditioner linear = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
     const OstPreconditioner quadratic = {.data = metric->quadratic, .apply = apply_quadratic, .flexible = 1};
-    const OstCgSystem system = {.matrix = metric->matrix, .scaled_matrix = metric->scaled, .scaling = metric->scaling};
+    const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];

@@ -133,16 +133,18 @@ static void fill_entries(const OstExactMatrix *matrix, const OstGlobal *number, 
 {
     const int size = matrix->size;
     MUMPS_INT8 n = 0;
+    double room[9];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const OstLocal j = matrix->column[k];
             if (number[j] < number[i])
                 continue;
+            const double *block = ost_exact_matrix_block(matrix, size, i, k, room);
             for (int c = 0; c < size; c++)
                 for (int d = i == j ? c : 0; d < size; d++, n++) {
                     id->irn_loc[n] = (MUMPS_INT)(number[i] + c + 1);
                     id->jcn_loc[n] = (MUMPS_INT)(number[j] + d + 1);
-                    id->a_loc[n] = matrix->value[(size_t)(size * size) * (size_t)k + (size_t)(size * c + d)];
+                    id->a_loc[n] = block[size * c + d];
                 }
         }
     id->nnz_loc = n;
@@ -264,11 +266,12 @@ done:
     return status;
 }
 
-OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, double memory, OstMumps **mumps)
+OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
+                                   OstMumps **mumps)
 {
     OstExactMatrix *view = NULL;
     *mumps = NULL;
-    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, &view)));
+    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &view)));
     const OstStatus status = ost_mumps_create(view, memory, mumps);
     ost_exact_matrix_destroy(&view);
     return status;

@@ -76,19 +76,6 @@ done:
     return status;
 }
 
-OstStatus ost_scaling_apply_matrix(const OstScaling *scaling, const OstBlockMatrix *matrix, OstBlockMatrix **scaled)
-{
-    OST_TRY(ost_block_matrix_create_like(matrix, scaled));
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
-            double left[9];
-            ost_multiply3(scaling->factor + 9 * (size_t)i, matrix->value + 9 * (size_t)k, left);
-            ost_multiply3_transposed_right(left, scaling->factor + 9 * (size_t)matrix->column[k],
-                                           (*scaled)->value + 9 * (size_t)k);
-        }
-    return OST_SUCCESS;
-}
-
 static void apply_rows(OstLocal rows, const double *matrices, const double *x, double *y)
 {
     for (OstLocal i = 0; i < rows; i++) {

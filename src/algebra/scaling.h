@@ -19,8 +19,24 @@ typedef struct OstScaling {
 OstStatus ost_scaling_create(const OstBlockMatrix *matrix, OstScaling **scaling);
 void ost_scaling_destroy(OstScaling **scaling);
 
-/* Collective. S A S^T as a matrix of its own (pattern and halo are copied; the caller's to destroy). */
-OstStatus ost_scaling_apply_matrix(const OstScaling *scaling, const OstBlockMatrix *matrix, OstBlockMatrix **scaled);
+/* Local. Block (i, j) of S A S^T; j may be a ghost. */
+static inline void ost_scaling_block(const OstScaling *scaling, OstLocal i, OstLocal j, const double block[9],
+                                     double scaled[9])
+{
+    const double *s = scaling->factor + 9 * (size_t)i;
+    const double *t = scaling->factor + 9 * (size_t)j;
+    double left[9];
+    for (int c = 0; c < 3; c++) {
+        left[c] = s[0] * block[c];
+        left[3 + c] = s[3] * block[c] + s[4] * block[3 + c];
+        left[6 + c] = s[6] * block[c] + s[7] * block[3 + c] + s[8] * block[6 + c];
+    }
+    for (int r = 0; r < 9; r += 3) {
+        scaled[r] = left[r] * t[0];
+        scaled[r + 1] = left[r] * t[3] + left[r + 1] * t[4];
+        scaled[r + 2] = left[r] * t[6] + left[r + 1] * t[7] + left[r + 2] * t[8];
+    }
+}
 
 /* Local; 3 × rows numbers each, and the two arrays may be the same. */
 void ost_scaling_to_scaled(const OstScaling *scaling, const double *f, double *scaled_f);            /* S f */

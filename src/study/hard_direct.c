@@ -31,7 +31,6 @@ static OstTwofold minus_product(OstTwofold a, double b, OstTwofold c)
 void ost_hard_direct_clear(OstHardDirect *direct)
 {
     ost_mumps_destroy(&direct->factors);
-    ost_block_matrix_destroy(&direct->scaled);
     ost_scaling_destroy(&direct->scaling);
     ost_system_destroy(&direct->system);
     ost_supports_destroy(&direct->supports);
@@ -75,8 +74,7 @@ static OstStatus factor(OstHardDirect *direct)
 {
     const OstBlockMatrix *matrix = direct->system->matrix;
     OST_TRY(ost_scaling_create(matrix, &direct->scaling));
-    OST_TRY(ost_scaling_apply_matrix(direct->scaling, matrix, &direct->scaled));
-    return ost_mumps_create_of_rows(direct->scaled, 0.0, &direct->factors);
+    return ost_mumps_create_of_rows(matrix, direct->scaling, 0.0, &direct->factors);
 }
 
 OstStatus ost_hard_direct_create(const OstScene *scene, OstHardDirect *direct)

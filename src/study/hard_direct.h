@@ -19,7 +19,6 @@ typedef struct OstHardDirect {
     OstSupports *supports;
     OstSystem *system;
     OstScaling *scaling;
-    OstBlockMatrix *scaled;
     OstMumps *factors;
     double *force, *f;
     OstTwofold *u, *p; /* with ghosts: solution; direction of search, its lower halves 0 */

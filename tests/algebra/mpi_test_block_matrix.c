@@ -95,36 +95,10 @@ static void the_six_modes_are_independent(void **state)
     elastic_destroy(&problem);
 }
 
-static void a_like_matrix_shares_nothing_but_the_pattern(void **state)
-{
-    (void)state;
-    ElasticProblem problem;
-    OstBlockMatrix *like = NULL;
-    assert_success(elastic_create(ctx, &held, &problem));
-    const OstBlockMatrix *matrix = problem.matrix;
-    assert_success(ost_block_matrix_create_like(matrix, &like));
-    const size_t blocks = (size_t)matrix->row_start[matrix->rows];
-    for (size_t k = 0; k < 9 * blocks; k++) {
-        assert_close(like->value[k], 0.0, 0.0);
-        like->value[k] = 2.0 * matrix->value[k];
-    }
-    double *expected = product(&problem);
-    ElasticProblem doubled = problem;
-    doubled.matrix = like;
-    double *y = product(&doubled);
-    for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
-        assert_close(y[i], 2.0 * expected[i], 1e-14);
-    OST_FREE(y);
-    OST_FREE(expected);
-    ost_block_matrix_destroy(&like);
-    elastic_destroy(&problem);
-}
-
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_product_does_not_depend_on_the_ranks),
     cmocka_unit_test(rigid_motions_of_a_free_body_take_no_force),
     cmocka_unit_test(the_six_modes_are_independent),
-    cmocka_unit_test(a_like_matrix_shares_nothing_but_the_pattern),
 };
 
 OST_TEST_MAIN(tests)

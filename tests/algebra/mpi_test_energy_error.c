@@ -17,7 +17,6 @@ enum { CLOSE_LOOK = 10 }; /* applications where less than three digits are left 
 typedef struct Known {
     ElasticProblem problem;
     OstScaling *scaling;
-    OstBlockMatrix *scaled;
     OstMumps *factors;
     size_t n;
     double *solution, *f, *u, *work; /* work with ghosts */
@@ -71,11 +70,9 @@ static Known make(double unit, int scaled)
     known.f = numbers(known.n);
     known.u = numbers(known.n);
     known.work = numbers(3 * (size_t)matrix->columns);
-    if (scaled) {
+    if (scaled)
         assert_success(ost_scaling_create(matrix, &known.scaling));
-        assert_success(ost_scaling_apply_matrix(known.scaling, matrix, &known.scaled));
-    }
-    assert_success(ost_mumps_create_of_rows(scaled ? known.scaled : matrix, 0.0, &known.factors));
+    assert_success(ost_mumps_create_of_rows(matrix, known.scaling, 0.0, &known.factors));
     for (size_t i = 0; i < known.n; i++)
         known.solution[i] = sin(0.1 * (double)(3 * matrix->first_row) + 0.1 * (double)i) / unit;
     multiply(&known, known.solution, known.f);
@@ -86,7 +83,6 @@ static Known make(double unit, int scaled)
 static void destroy(Known *known)
 {
     ost_mumps_destroy(&known->factors);
-    ost_block_matrix_destroy(&known->scaled);
     ost_scaling_destroy(&known->scaling);
     elastic_destroy(&known->problem);
     OST_FREE(known->solution);
@@ -97,8 +93,7 @@ static void destroy(Known *known)
 
 static OstEnergyError estimate(Known *known)
 {
-    const OstCgSystem system = {
-        .matrix = known->problem.matrix, .scaled_matrix = known->scaled, .scaling = known->scaling};
+    const OstCgSystem system = {.matrix = known->problem.matrix, .scaling = known->scaling};
     const OstPreconditioner preconditioner = {.data = known, .apply = apply, .factors = known->believed};
     OstEnergyError error;
     known->calls = 0;
@@ -195,7 +190,7 @@ static double moved(Known *known, double share, int round)
     double *off = numbers(known->n), *product = numbers(known->n);
     assert_success(elastic_create(ctx, &column, &other));
     perturb(other.matrix, share, round);
-    assert_success(ost_mumps_create_of_rows(other.matrix, 0.0, &factors));
+    assert_success(ost_mumps_create_of_rows(other.matrix, NULL, 0.0, &factors));
     assert_success(ost_mumps_solve(factors, known->f, off));
     for (size_t i = 0; i < known->n; i++)
         off[i] -= known->solution[i];

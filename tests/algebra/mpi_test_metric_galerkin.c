@@ -31,7 +31,7 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     OstSmoother *smoother = NULL;
     memset(c, 0, sizeof *c);
     assert_success(elastic_create(ctx, block, &c->problem));
-    assert_success(ost_exact_matrix_borrow(c->problem.matrix, &c->exact));
+    assert_success(ost_exact_matrix_borrow(c->problem.matrix, NULL, &c->exact));
     assert_success(ost_level_matrix_create(c->exact, &c->level));
     assert_success(ost_metric_graph_create(c->problem.matrix, &c->problem.geometry, &graph));
     if (!given)

@@ -8,7 +8,6 @@
 typedef struct Setup {
     ElasticProblem problem;
     OstScaling *scaling;
-    OstBlockMatrix *scaled;
     double *modes; /* in scaled unknowns */
     OstSolverOptions options;
     OstMetricLevels levels;
@@ -24,14 +23,13 @@ static void set_up(const ElasticBlock *block, Setup *s)
     assert_success(elastic_create(ctx, block, &s->problem));
     const size_t n = 3 * (size_t)s->problem.matrix->rows;
     assert_success(ost_scaling_create(s->problem.matrix, &s->scaling));
-    assert_success(ost_scaling_apply_matrix(s->scaling, s->problem.matrix, &s->scaled));
     assert_success(OST_NEW(ctx, &s->modes, 6 * n));
     for (size_t k = 0; k < 6; k++)
         ost_scaling_to_scaled_mode(s->scaling, s->problem.modes + k * n, s->modes + k * n);
     assert_success(ost_metric_graph_create(s->problem.matrix, &s->problem.geometry, &graph));
     assert_success(OST_NEW(ctx, &taken, 6 * n));
     memcpy(taken, s->modes, 6 * n * sizeof *taken);
-    assert_success(ost_metric_levels_create(s->scaled, &taken, &graph, &s->options, &s->levels));
+    assert_success(ost_metric_levels_create(s->problem.matrix, s->scaling, &taken, &graph, &s->options, &s->levels));
     assert_null(taken);
     assert_true(s->levels.count >= 3);
 }
@@ -39,7 +37,6 @@ static void set_up(const ElasticBlock *block, Setup *s)
 static void tear_down(Setup *s)
 {
     ost_metric_levels_clear(&s->levels);
-    ost_block_matrix_destroy(&s->scaled);
     ost_scaling_destroy(&s->scaling);
     OST_FREE(s->modes);
     elastic_destroy(&s->problem);

@@ -11,7 +11,7 @@ static OstLevelMatrix *level_matrix(const OstBlockMatrix *matrix)
 {
     OstExactMatrix *exact = NULL;
     OstLevelMatrix *level = NULL;
-    assert_success(ost_exact_matrix_borrow(matrix, &exact));
+    assert_success(ost_exact_matrix_borrow(matrix, NULL, &exact));
     assert_success(ost_level_matrix_create(exact, &level));
     ost_exact_matrix_destroy(&exact);
     return level;
