@@ -5,6 +5,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <string.h>
+
 /* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed.
  * Room for these from the start is not touched before it is used; growing would be, twice over. */
 enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
@@ -18,7 +20,7 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
         status = ost_index_create(ctx, &(*sum)->entry);
     (*sum)->room = LIKELY_ENTRIES * owned + 64;
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &(*sum)->value, OST_MODES * (size_t)(*sum)->room);
+        status = OST_NEW(ctx, &(*sum)->value, BLOCK * (size_t)(*sum)->room);
     if (status != OST_SUCCESS)
         ost_block_sum_destroy(sum);
     return status;
@@ -45,16 +47,16 @@ OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *nod
     return OST_SUCCESS;
 }
 
-OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, OstDouble8 **block)
+OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block)
 {
     OstLocal place;
     OST_TRY(ost_index_place(sum->entry, (OstGlobal)row << 32 | column, &place));
     if (place >= sum->room) {
         const OstLocal room = sum->room + sum->room / 4;
-        OST_TRY(OST_RESIZE(sum->ctx, &sum->value, OST_MODES * (size_t)room));
+        OST_TRY(OST_RESIZE(sum->ctx, &sum->value, BLOCK * (size_t)room));
         sum->room = room;
     }
-    *block = sum->value + OST_MODES * (size_t)place;
+    *block = sum->value + BLOCK * (size_t)place;
     return OST_SUCCESS;
 }
 
@@ -93,9 +95,7 @@ static OstStatus pack(const OstBlockSum *sum, OstBlockRows *out)
             continue;
         const OstLocal k = next[row_of(sum, e) - sum->owned]++;
         out->column[k] = number_of(sum, column_of(sum, e));
-        for (int c = 0; c < BLOCK; c++)
-            value[BLOCK * (size_t)k + (size_t)c] =
-                sum->value[OST_MODES * (size_t)e + (size_t)(c / OST_MODES)][c % OST_MODES];
+        memcpy(value + BLOCK * (size_t)k, sum->value + BLOCK * (size_t)e, BLOCK * sizeof *value);
     }
     OST_FREE(next);
     return status;
@@ -107,13 +107,13 @@ static OstStatus add(OstBlockSum *sum, const OstLocal *row, const OstBlockRows *
     for (OstLocal i = 0; i < in->rows; i++)
         for (OstLocal k = in->start[i]; k < in->start[i + 1]; k++) {
             OstLocal column;
-            OstDouble8 *block;
+            double *block;
             OST_TRY(ost_block_sum_number(sum, in->column[k], &column));
             if (ost_block_sum_is_mirrored(sum, row[i], column))
                 continue;
             OST_TRY(ost_block_sum_find(sum, row[i], column, &block));
             for (int c = 0; c < BLOCK; c++)
-                block[c / OST_MODES][c % OST_MODES] += value[BLOCK * (size_t)k + (size_t)c];
+                block[c] += value[BLOCK * (size_t)k + (size_t)c];
         }
     return OST_SUCCESS;
 }
@@ -209,10 +209,10 @@ static void sort_row(const OstBlockSum *sum, const Listing *list, OstLocal i, Os
 
 static void copy_block(const OstBlockSum *sum, OstLocal block, double *value)
 {
-    const OstDouble8 *rows = sum->value + OST_MODES * (size_t)(block >= 0 ? block : ~block);
+    const double *kept = sum->value + BLOCK * (size_t)(block >= 0 ? block : ~block);
     for (int r = 0; r < OST_MODES; r++)
         for (int c = 0; c < OST_MODES; c++)
-            value[OST_MODES * r + c] = block >= 0 ? rows[r][c] : rows[c][r];
+            value[OST_MODES * r + c] = block >= 0 ? kept[OST_MODES * r + c] : kept[OST_MODES * c + r];
 }
 
 static OstStatus fill(const OstBlockSum *sum, Listing *list, OstExactMatrix **matrix)

@@ -11,11 +11,11 @@
  * symmetric: of what couples this rank's own nodes only what is on the diagonal or right of it is summed. */
 typedef struct OstBlockSum {
     OstContext *ctx;
-    OstGlobal first;   /* global number of this rank's first node */
-    OstLocal owned;    /* its nodes */
-    OstIndex *ghost;   /* other ranks' nodes, by global number */
-    OstIndex *entry;   /* the blocks, by row and column */
-    OstDouble8 *value; /* room × OST_MODES: the blocks' rows */
+    OstGlobal first; /* global number of this rank's first node */
+    OstLocal owned;  /* its nodes */
+    OstIndex *ghost; /* other ranks' nodes, by global number */
+    OstIndex *entry; /* the blocks, by row and column */
+    double *value;   /* room × OST_MODES × OST_MODES: the blocks, row by row */
     OstLocal room;
 } OstBlockSum;
 
@@ -32,8 +32,8 @@ static inline int ost_block_sum_is_mirrored(const OstBlockSum *sum, OstLocal row
     return column < row && row < sum->owned;
 }
 
-/* Local. The rows of a block, zeros if it is new; good until the next block is asked for. */
-OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, OstDouble8 **block);
+/* Local. A block, row by row, zeros if it is new; good until the next block is asked for. */
+OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block);
 
 /* Collective. Sends what was summed in other ranks' rows to their owners, which add it. The halo is over the first
  * columns here: this rank's nodes and the ghosts that were met first. */

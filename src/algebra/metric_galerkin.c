@@ -8,19 +8,22 @@
 
 #include <string.h>
 
-enum { WIDTH = OST_MODES, BLOCK = WIDTH * WIDTH };
+enum { WIDTH = OST_MODES };
 
 /* The product in the making. */
 typedef struct Product {
     OstContext *ctx;
     const OstExactMatrix *a;
+    const OstMetricBlocks *blocks;
     const OstProlongator *p;
     OstBlockSum *sum;     /* numbers coarse nodes as the prolongator does, then others as they are met */
     OstBlockRows *far;    /* the rows of P of A's ghosts */
     OstLocal *far_column; /* their columns */
-    /* row i of A P: */
+    double *p_column;     /* one column of the block's rows of P */
+    /* the rows of A P of the block at hand: */
     OstLocal *place, *column, count; /* place: coarse nodes; where each is among the `count` columns, or -1 */
-    OstDouble8 *row;
+    OstDouble8 *rows;                /* column by column, each `height` high */
+    size_t height, room;             /* room: of `rows` */
 } Product;
 
 static void destroy_product(Product *product)
@@ -30,7 +33,8 @@ static void destroy_product(Product *product)
     OST_FREE(product->far_column);
     OST_FREE(product->place);
     OST_FREE(product->column);
-    OST_FREE(product->row);
+    OST_FREE(product->p_column);
+    OST_FREE(product->rows);
 }
 
 /* The sum meets the prolongator's columns first; `number` becomes their global numbers. */
@@ -93,90 +97,136 @@ done:
     return status;
 }
 
-/* row += a × the blocks of one row of P */
-OST_UNROLLED void add_row(Product *product, int size, const double *a, OstLocal blocks, const OstLocal *column,
-                          const float *value)
+/* A column of zeros for a coarse node. */
+static OstStatus add_column(Product *product, OstLocal node)
+{
+    const size_t used = (size_t)product->count * product->height;
+    if (used + product->height > product->room) {
+        const size_t room = 2 * (used + product->height);
+        OST_TRY(OST_RESIZE(product->ctx, &product->rows, room));
+        product->room = room;
+    }
+    memset(product->rows + used, 0, product->height * sizeof *product->rows);
+    product->place[node] = product->count;
+    product->column[product->count++] = node;
+    return OST_SUCCESS;
+}
+
+/* Adds a × the blocks of one row of P to the rows of A P from `row` on. */
+OST_UNROLLED OstStatus add_blocks(Product *product, int size, size_t row, const double *a, OstLocal blocks,
+                                  const OstLocal *column, const float *value)
 {
     for (OstLocal k = 0; k < blocks; k++, value += size * WIDTH) {
-        OstLocal *place = product->place + column[k];
-        if (*place < 0) {
-            *place = product->count;
-            product->column[product->count++] = column[k];
-            memset(product->row + size * *place, 0, (size_t)size * sizeof *product->row);
-        }
-        ost_block_multiply(size, a, value, product->row + size * *place);
+        if (product->place[column[k]] < 0)
+            OST_TRY(add_column(product, column[k]));
+        ost_block_multiply(size, a, value, product->rows + product->height * (size_t)product->place[column[k]] + row);
     }
+    return OST_SUCCESS;
 }
 
 /* Row i of A P. */
-OST_UNROLLED void multiply_row(Product *product, int size, OstLocal i)
+OST_UNROLLED OstStatus multiply_row(Product *product, int size, OstLocal i, size_t row)
 {
     const OstExactMatrix *a = product->a;
     const OstProlongator *p = product->p;
     const OstBlockRows *far = product->far;
     double room[9];
-    product->count = 0;
     for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
         const double *value = ost_exact_matrix_block(a, size, i, k, room);
         const OstLocal j = a->column[k];
         if (j < a->rows) {
             const OstLocal from = p->row_start[j];
-            add_row(product, size, value, p->row_start[j + 1] - from, p->column + from,
-                    p->value + (size_t)(size * WIDTH) * (size_t)from);
+            OST_TRY(add_blocks(product, size, row, value, p->row_start[j + 1] - from, p->column + from,
+                               p->value + (size_t)(size * WIDTH) * (size_t)from));
         } else {
             const OstLocal from = far->start[j - a->rows];
-            add_row(product, size, value, far->start[j - a->rows + 1] - from, product->far_column + from,
-                    (const float *)(const void *)far->value + (size_t)(size * WIDTH) * (size_t)from);
+            OST_TRY(add_blocks(product, size, row, value, far->start[j - a->rows + 1] - from,
+                               product->far_column + from,
+                               (const float *)(const void *)far->value + (size_t)(size * WIDTH) * (size_t)from));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* Column k of the block's rows of P, in double precision. */
+OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k)
+{
+    const OstProlongator *p = product->p;
+    const OstMetricBlocks *blocks = product->blocks;
+    double *to = product->p_column;
+    for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++, to += size * WIDTH) {
+        const float *value = p->value + (size_t)(size * WIDTH) * (size_t)(p->row_start[blocks->node[m]] + k);
+        for (int e = 0; e < size * WIDTH; e++)
+            to[e] = (double)value[e];
+    }
+}
+
+/* block += pᵀ × a column of A P */
+static void add_product(size_t height, const double *p, const OstDouble8 *column, double *block)
+{
+    OstDouble8 sum[WIDTH] = {{0}};
+    for (size_t r = 0; r < height; r++)
+        for (int c = 0; c < WIDTH; c++)
+            sum[c] += p[WIDTH * r + (size_t)c] * column[r];
+    for (int c = 0; c < WIDTH; c++)
+        ost_add_row6(&sum[c], block + WIDTH * c);
+}
+
+/* Adds the block's rows of Pᵀ, times those of A P, to the product. */
+OST_UNROLLED OstStatus multiply_block(Product *product, int size, OstLocal b)
+{
+    const OstMetricBlocks *blocks = product->blocks;
+    const OstProlongator *p = product->p;
+    const OstLocal first = blocks->node_start[b], nodes = blocks->node_start[b + 1] - first;
+    const OstLocal start = p->row_start[blocks->node[first]];
+    const OstLocal columns = p->row_start[blocks->node[first] + 1] - start;
+    product->count = 0;
+    product->height = (size_t)size * (size_t)nodes;
+    for (OstLocal m = 0; m < nodes; m++)
+        OST_TRY(multiply_row(product, size, blocks->node[first + m], (size_t)size * (size_t)m));
+    for (OstLocal k = 0; k < columns; k++) {
+        const OstLocal row = p->column[start + k];
+        take_column(product, size, b, k);
+        for (OstLocal m = 0; m < product->count; m++) {
+            double *block;
+            if (ost_block_sum_is_mirrored(product->sum, row, product->column[m]))
+                continue;
+            OST_TRY(ost_block_sum_find(product->sum, row, product->column[m], &block));
+            add_product(product->height, product->p_column, product->rows + product->height * (size_t)m, block);
         }
     }
     for (OstLocal m = 0; m < product->count; m++)
         product->place[product->column[m]] = -1;
-}
-
-/* Adds row i of Pᵀ, times row i of A P, to the product. */
-OST_UNROLLED OstStatus add_products(Product *product, int size, OstLocal i)
-{
-    const OstProlongator *p = product->p;
-    for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
-        const float *value = p->value + (size_t)(size * WIDTH) * (size_t)k;
-        double exact[BLOCK];
-        for (int e = 0; e < size * WIDTH; e++)
-            exact[e] = (double)value[e];
-        for (OstLocal m = 0; m < product->count; m++) {
-            OstDouble8 *block;
-            if (ost_block_sum_is_mirrored(product->sum, p->column[k], product->column[m]))
-                continue;
-            OST_TRY(ost_block_sum_find(product->sum, p->column[k], product->column[m], &block));
-            ost_block_multiply_transposed(size, exact, product->row + size * m, block);
-        }
-    }
     return OST_SUCCESS;
 }
 
 static OstStatus multiply(Product *product)
 {
+    const OstMetricBlocks *blocks = product->blocks;
     const size_t columns = (size_t)product->sum->owned + (size_t)product->sum->ghost->count;
+    OstLocal largest = 0;
+    for (OstLocal b = 0; b < blocks->count; b++) {
+        const OstLocal nodes = blocks->node_start[b + 1] - blocks->node_start[b];
+        largest = nodes > largest ? nodes : largest;
+    }
     OST_TRY(OST_NEW(product->ctx, &product->place, columns));
     OST_TRY(OST_NEW(product->ctx, &product->column, columns));
-    OST_TRY(OST_NEW(product->ctx, &product->row, columns * (size_t)product->a->size));
+    OST_TRY(OST_NEW(product->ctx, &product->p_column, (size_t)(product->a->size * WIDTH) * (size_t)largest));
     for (size_t c = 0; c < columns; c++)
         product->place[c] = -1;
-    for (OstLocal i = 0; i < product->a->rows; i++)
-        if (product->a->size == 3) {
-            multiply_row(product, 3, i);
-            OST_TRY(add_products(product, 3, i));
-        } else {
-            multiply_row(product, 6, i);
-            OST_TRY(add_products(product, 6, i));
-        }
+    for (OstLocal b = 0; b < blocks->count; b++)
+        if (product->a->size == 3)
+            OST_TRY(multiply_block(product, 3, b));
+        else
+            OST_TRY(multiply_block(product, 6, b));
     return OST_SUCCESS;
 }
 
-OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstProlongator *prolongator, OstGlobal first_coarse,
-                              OstExactMatrix **coarse)
+OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstMetricBlocks *blocks,
+                              const OstProlongator *prolongator, OstGlobal first_coarse, OstExactMatrix **coarse)
 {
     OstContext *ctx = matrix->ctx;
-    Product product = {.ctx = ctx, .a = matrix, .p = prolongator};
+    Product product = {.ctx = ctx, .a = matrix, .blocks = blocks, .p = prolongator};
     const OstLocal owned = prolongator->columns - prolongator->halo->ghosts;
     OstGlobal *number = NULL;
     *coarse = NULL;

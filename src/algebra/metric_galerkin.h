@@ -2,12 +2,14 @@
 #ifndef ORTHOSTAT_ALGEBRA_METRIC_GALERKIN_H
 #define ORTHOSTAT_ALGEBRA_METRIC_GALERKIN_H
 
+#include "algebra/metric_blocks.h"
 #include "algebra/metric_exact.h"
 #include "algebra/metric_prolongator.h"
 
 /* Collective. Pᵀ A P, of the prolongator as it is kept, in single precision, but summed in double precision: positive
- * semidefinite to rounding. `first_coarse` is the global number of this rank's first coarse node. */
-OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstProlongator *prolongator, OstGlobal first_coarse,
-                              OstExactMatrix **coarse);
+ * semidefinite to rounding. The rows of a block, of those that smoothed P, have the same columns: their product is
+ * summed as one. `first_coarse` is the global number of this rank's first coarse node. */
+OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstMetricBlocks *blocks,
+                              const OstProlongator *prolongator, OstGlobal first_coarse, OstExactMatrix **coarse);
 
 #endif

@@ -73,15 +73,4 @@ OST_UNROLLED void ost_block_multiply(int size, const double *a, const float *b, 
     }
 }
 
-/* sum[c] += the rows of pᵀ b; p is size rows of six. */
-OST_UNROLLED void ost_block_multiply_transposed(int size, const double *p, const OstDouble8 *b, OstDouble8 *sum)
-{
-    for (int c = 0; c < OST_MODES; c++) {
-        OstDouble8 total = sum[c];
-        for (int r = 0; r < size; r++)
-            total += p[OST_MODES * r + c] * b[r];
-        sum[c] = total;
-    }
-}
-
 #endif

@@ -84,7 +84,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     const OstGlobal first = tentative->first_coarse;
     take_modes(work, tentative);
     ost_tentative_destroy(&tentative);
-    OST_TRY_DONE(ost_galerkin_create(levels->coarsest, levels->prolongator[l], first, &coarse));
+    OST_TRY_DONE(
+        ost_galerkin_create(levels->coarsest, levels->smoother[l]->blocks, levels->prolongator[l], first, &coarse));
     ost_exact_matrix_mend_diagonal(coarse);
     ost_exact_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;

@@ -40,8 +40,9 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
         ost_tentative_create(c->exact, given ? given : aggregates, c->problem.geometry.modes, &c->tentative));
     assert_success(ost_smoother_create(c->level, graph, &options, &smoother));
     assert_success(ost_tentative_smooth(c->tentative, c->exact, smoother, &c->prolongator));
+    assert_success(
+        ost_galerkin_create(c->exact, smoother->blocks, c->prolongator, c->tentative->first_coarse, &c->coarse));
     ost_smoother_destroy(&smoother);
-    assert_success(ost_galerkin_create(c->exact, c->prolongator, c->tentative->first_coarse, &c->coarse));
     ost_aggregates_destroy(&aggregates);
     ost_metric_graph_destroy(&graph);
 }
