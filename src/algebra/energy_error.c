@@ -203,12 +203,10 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     OST_TRY(find_displacement(work));
     error->rounding = 0.0;
     throw_signs(work, work->residual, 0);
-    OST_TRY(measure(work, &error->whole));
-    if (!(error->whole > three_digits))
-        return OST_SUCCESS;
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
-    return look_closer(work, error);
+    OST_TRY(look(work, &error->whole));
+    return error->whole > three_digits ? look_closer(work, error) : OST_SUCCESS;
 }
 
 static OstStatus allocate(OstContext *ctx, Work *work)
