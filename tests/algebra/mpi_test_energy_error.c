@@ -75,7 +75,7 @@ static Known make(double unit, int scaled)
         assert_success(ost_scaling_create(matrix, &known.scaling));
         assert_success(ost_scaling_apply_matrix(known.scaling, matrix, &known.scaled));
     }
-    assert_success(ost_mumps_create_of_rows(scaled ? known.scaled : matrix, 0.0, &known.factors));
+    assert_success(ost_mumps_create_of_rows(scaled ? known.scaled : matrix, 0.0, NULL, &known.factors));
     for (size_t i = 0; i < known.n; i++)
         known.solution[i] = sin(0.1 * (double)(3 * matrix->first_row) + 0.1 * (double)i) / unit;
     multiply(&known, known.solution, known.f);
@@ -195,7 +195,7 @@ static double moved(Known *known, double share, int round)
     double *off = numbers(known->n), *product = numbers(known->n);
     assert_success(elastic_create(ctx, &column, &other));
     perturb(other.matrix, share, round);
-    assert_success(ost_mumps_create_of_rows(other.matrix, 0.0, &factors));
+    assert_success(ost_mumps_create_of_rows(other.matrix, 0.0, NULL, &factors));
     assert_success(ost_mumps_solve(factors, known->f, off));
     for (size_t i = 0; i < known->n; i++)
         off[i] -= known->solution[i];
