@@ -154,11 +154,12 @@ OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, Os
 {
     OstHardDirect direct;
     double *plain = NULL;
-    *truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN, NAN};
+    *truth = (OstHardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
     OstStatus status;
     OST_TRY_DONE(ost_hard_direct_create(scene, &direct));
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
     OST_TRY_DONE(find_all(&direct, result, plain, truth));
+    truth->indefinite = direct.indefinite;
 done:
     OST_FREE(plain);
     ost_hard_direct_clear(&direct);
