@@ -9,10 +9,14 @@
 /* A step by factors costs little beside making them: u is refined until this is all that it moves. */
 static const double settled = 1e-3;
 
+/* The relative error that leaves one digit. */
+static const double least_digit = 0.1;
+
 struct OstDirect {
     OstCgSystem system;
     OstScaling *scaling;
     OstMumps *factors;
+    double shift; /* on the diagonal of what was factored */
 };
 
 void ost_direct_destroy(OstDirect **direct)
@@ -31,7 +35,7 @@ OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDire
     OstStatus status;
     OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
-    OST_TRY_DONE(ost_mumps_create_of_rows(matrix, made->scaling, memory, &made->factors));
+    OST_TRY_DONE(ost_mumps_create_of_rows(matrix, made->scaling, memory, &made->shift, &made->factors));
     made->system = (OstCgSystem){.matrix = matrix, .scaling = made->scaling};
 done:
     if (status != OST_SUCCESS)
@@ -45,6 +49,17 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
     return ost_mumps_solve(data, r, z);
 }
 
+/* What was factored is not the stiffness itself: a body that can move freely looks the same, but holds no digit. */
+static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
+{
+    if (report->error_estimate > 0.0 && report->rounding_error <= least_digit)
+        return OST_SUCCESS;
+    return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
+                     "the stiffness, as double precision rounds it, is not positive definite, or hardly: the body, or "
+                     "a part of it, can move freely or has no stiffness in some direction; hold it in all six rigid "
+                     "motions, and check that parts share vertices and that materials are definite");
+}
+
 OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .factors = 1};
@@ -52,5 +67,6 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
     goal->settled = settled;
-    return ost_cg_solve(&direct->system, &factors, f, u, goal, report);
+    OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
+    return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
 }

@@ -2,13 +2,14 @@
 #include "algebra/energy_error.h"
 
 #include "algebra/exact_residual.h"
+#include "algebra/exact_step.h"
 #include "algebra/term_rounding.h"
 #include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/scatter.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 /* Up to this error rounding is not looked at more closely: one throw of the signs that falls short a hundredfold still
@@ -16,6 +17,11 @@
 static const double three_digits = 1e-3;
 
 enum { THROWS = 8 };
+
+/* Factors are led (algebra/exact_step.h) until a step is no more than this of the whole. */
+static const double roughly = 0.1;
+
+enum { MOST_STEPS = 40 };
 
 typedef struct Work {
     const OstCgSystem *system;
@@ -26,6 +32,9 @@ typedef struct Work {
     double *rounding;    /* size of what rounding leaves of it */
     double *vector;      /* the one that is measured */
     double *corrected;   /* M^-1 of that */
+    OstExactStep *step;  /* where factors are led: then also */
+    double *left;        /* what of the vector is left to solve for, */
+    double *solution;    /* and A^-1 of the rest, over |u| */
     double energy_norm;  /* |u|_A sqrt(smallest) */
     double displacement; /* |u| */
 } Work;
@@ -45,21 +54,12 @@ static OstStatus find_residual(Work *work, const double *f, int exact)
     return OST_SUCCESS;
 }
 
-/* 1 or -1, as an unknown's global number and the throw have it (the finaliser of SplitMix64). */
-static double sign_of(OstGlobal unknown, int throw)
-{
-    uint64_t bits = (uint64_t)unknown + UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(throw +1);
-    bits = (bits ^ (bits >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    bits = (bits ^ (bits >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (bits ^ (bits >> 31)) & 1 ? 1.0 : -1.0;
-}
-
 /* vector = base + half of rounding, with signs at random; a base of NULL is none. */
 static void throw_signs(Work *work, const double *base, int throw)
 {
-    const OstGlobal first = 3 * work->system->matrix->first_row;
+    const uint64_t first = 3 * (uint64_t)work->system->matrix->first_row;
     for (size_t i = 0; i < work->n; i++)
-        work->vector[i] = (base ? base[i] : 0.0) + 0.5 * sign_of(first + (OstGlobal)i, throw) * work->rounding[i];
+        work->vector[i] = (base ? base[i] : 0.0) + 0.5 * ost_scatter_sign(first + i, throw) * work->rounding[i];
 }
 
 /* M^-1 v; v is divided by `size` before: preconditioners work in single precision too. */
@@ -73,27 +73,75 @@ static OstStatus correct(Work *work, double *size)
     return work->preconditioner->apply(work->preconditioner->data, work->vector, work->corrected);
 }
 
-/* |M^-1 v| over |u|. */
-static OstStatus measure_displacement(Work *work, double size, double *error)
+/* Takes M^-1 v from the scaled unknowns, times a factor. */
+static void unscale(Work *work, double factor)
 {
-    double square;
     if (work->system->scaling)
         ost_scaling_from_scaled(work->system->scaling, work->corrected, work->corrected);
     for (size_t i = 0; i < work->n; i++)
-        work->corrected[i] *= size / work->displacement;
-    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->corrected, work->corrected, &square));
-    *error = sqrt(square);
+        work->corrected[i] *= factor;
+}
+
+static OstStatus find_norm(const Work *work, const double *v, double *norm)
+{
+    double square;
+    OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, v, v, &square));
+    *norm = sqrt(square);
     return OST_SUCCESS;
 }
 
-/* What v, as a residual, says of the error. */
+/* What one application of the preconditioner to v, as a residual, says of the error. */
 static OstStatus measure(Work *work, double *error)
 {
     double size, square;
     OST_TRY(correct(work, &size));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->vector, work->corrected, &square));
     *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
-    return work->preconditioner->factors && square > 0.0 ? measure_displacement(work, size, error) : OST_SUCCESS;
+    if (!work->preconditioner->factors || !(square > 0.0))
+        return OST_SUCCESS;
+    unscale(work, size / work->displacement);
+    return find_norm(work, work->corrected, error);
+}
+
+/* The next step towards the solution of what is left, and how far it leads. */
+static OstStatus lead(Work *work, double *moved)
+{
+    double size;
+    memcpy(work->vector, work->left, work->n * sizeof(double));
+    OST_TRY(correct(work, &size));
+    unscale(work, size);
+    OST_TRY(ost_exact_step_turn(work->step, work->left, work->corrected));
+    for (size_t i = 0; i < work->n; i++) {
+        work->solution[i] += work->corrected[i];
+        work->left[i] -= work->step->length * work->step->product[i];
+    }
+    return find_norm(work, work->corrected, moved);
+}
+
+/* The same of A^-1 v, by as many applications as it takes; INFINITY where A is not positive definite, or none settles.
+ */
+static OstStatus measure_closely(Work *work, double *error)
+{
+    double moved = INFINITY;
+    work->step->energy = *error = 0.0;
+    for (size_t i = 0; i < work->n; i++) {
+        work->left[i] = work->vector[i] / work->displacement; /* and so all that follows */
+        work->solution[i] = 0.0;
+    }
+    for (int k = 0; k < MOST_STEPS && moved > roughly * *error; k++) {
+        OST_TRY(lead(work, &moved));
+        OST_TRY(find_norm(work, work->solution, error));
+        if (work->step->energy == 0.0)
+            break;
+    }
+    if (!(moved <= roughly * *error))
+        *error = INFINITY;
+    return OST_SUCCESS;
+}
+
+static OstStatus look(Work *work, double *error)
+{
+    return work->step ? measure_closely(work, error) : measure(work, error);
 }
 
 /* The root of the mean square over throws. */
@@ -101,10 +149,10 @@ static OstStatus look_closer(Work *work, OstEnergyError *error)
 {
     double residual, one, squares = 0.0;
     memcpy(work->vector, work->residual, work->n * sizeof(double));
-    OST_TRY(measure(work, &residual));
-    for (int throw = 1; throw <= THROWS; throw ++) {
+    OST_TRY(look(work, &residual));
+    for (int throw = 1; throw <= THROWS && squares < INFINITY; throw ++) {
         throw_signs(work, NULL, throw);
-        OST_TRY(measure(work, &one));
+        OST_TRY(look(work, &one));
         squares += one * one;
     }
     error->rounding = sqrt(squares / THROWS);
@@ -124,6 +172,16 @@ static OstStatus find_displacement(Work *work)
     return OST_SUCCESS;
 }
 
+static OstStatus prepare_to_lead(Work *work)
+{
+    OstContext *ctx = work->system->matrix->ctx;
+    OstStatus status = OST_NEW(ctx, &work->left, work->n);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &work->solution, work->n);
+    OST_TRY(ost_agree(ctx, status));
+    return ost_exact_step_create(work->system->matrix, &work->step);
+}
+
 static OstStatus estimate(Work *work, double smallest, const double *f, int exact, OstEnergyError *error)
 {
     double energy;
@@ -136,7 +194,9 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     OST_TRY(find_displacement(work));
     error->rounding = 0.0;
     throw_signs(work, work->residual, 0);
-    OST_TRY(measure(work, &error->whole));
+    if (exact && work->preconditioner->factors)
+        OST_TRY(prepare_to_lead(work));
+    OST_TRY(look(work, &error->whole));
     return error->whole > three_digits ? look_closer(work, error) : OST_SUCCESS;
 }
 
@@ -164,5 +224,8 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
     OST_FREE(work.rounding);
     OST_FREE(work.vector);
     OST_FREE(work.corrected);
+    OST_FREE(work.left);
+    OST_FREE(work.solution);
+    ost_exact_step_destroy(&work.step);
     return status;
 }

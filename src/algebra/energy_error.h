@@ -18,14 +18,16 @@
  * of what ost_term_rounding finds, with signs at random. It is added to r, so that one application of the
  * preconditioner tells both. Where that leaves less than three digits, the two are told apart, and rounding by several
  * throws of the signs: what rounding does to a badly conditioned body is its share in one softest mode, which one throw
- * may miss. */
+ * may miss. So may factors, by as much as they like, where u itself is hidden by rounding (`exact`): there they are led
+ * to A^-1 of each throw (algebra/exact_step.h). */
 typedef struct OstEnergyError {
-    double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution */
+    double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution, or
+                        where factors are led to find that A is not positive definite, or to nothing that settles */
     double rounding; /* of it, what rounding of A explains; 0 where three digits are left, and nobody asked */
 } OstEnergyError;
 
-/* Collective. Applies the preconditioner once, or ten times where less than three digits are left. `exact`: r is summed
- * by ost_exact_residual. */
+/* Collective. Applies the preconditioner once, or ten times where less than three digits are left, factors that are led
+ * some times more. `exact`: rounding is so near that r is summed by ost_exact_residual. */
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
                            const double *f, const double *u, int exact, OstEnergyError *error);
 

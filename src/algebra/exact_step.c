@@ -63,7 +63,8 @@ OstStatus ost_exact_step_turn(OstExactStep *step, const double *residual, double
         step->energy = 0.0;
         return OST_SUCCESS;
     }
+    step->length = gain / step->energy;
     for (size_t i = 0; i < n; i++)
-        correction[i] = gain / step->energy * step->direction[i];
+        correction[i] = step->length * step->direction[i];
     return OST_SUCCESS;
 }

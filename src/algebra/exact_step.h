@@ -11,7 +11,8 @@ typedef struct OstExactStep {
     const OstBlockMatrix *matrix;
     double *direction; /* p, with room for ghosts */
     double *product;   /* A p */
-    double energy;     /* p·Ap; 0 before the first step */
+    double energy;     /* p·Ap; 0 before the first step, and where it is not positive */
+    double length;     /* of the step, in p: it takes length × A p off the residual */
 } OstExactStep;
 
 /* Collective. */

@@ -3,9 +3,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/scatter.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 enum { STEPS = 10 };
@@ -24,12 +24,9 @@ typedef struct Lanczos {
 } Lanczos;
 
 /* A number in [-1/2, 1/2) that depends on the global number of the unknown alone. */
-static double scatter(uint64_t number)
+static double noise(OstGlobal unknown)
 {
-    number = (number + 1) * 0x9e3779b97f4a7c15u; /* splitmix64 */
-    number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
-    number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
-    return (double)((number ^ (number >> 31)) >> 11) * 0x1p-53 - 0.5;
+    return (double)(ost_scatter((uint64_t)unknown) >> 11) * 0x1p-53 - 0.5;
 }
 
 static OstStatus start(Lanczos *lanczos)
@@ -39,7 +36,7 @@ static OstStatus start(Lanczos *lanczos)
     OstGlobal end = 0;
     OST_TRY(OST_MPI(ctx, MPI_Scan(&n, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
     for (OstGlobal i = 0; i < n; i++)
-        lanczos->r[i] = scatter((uint64_t)(end - n + i));
+        lanczos->r[i] = noise(end - n + i);
     return OST_SUCCESS;
 }
 

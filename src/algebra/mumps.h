@@ -12,9 +12,11 @@ typedef struct OstMumps OstMumps;
  * all ranks, or than the machines have free where `memory` is 0; OST_NOT_CONVERGED if the matrix is singular or
  * indefinite, OST_LIMIT_EXCEEDED, OST_LIBRARY_FAILED with MUMPS's code. */
 OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps **mumps);
-/* Collective. The same of S A S^T, or of A where `scaling` is NULL. */
+/* Collective. The same of S A S^T, or of A where `scaling` is NULL. `shift` (or NULL): where the matrix is singular or
+ * indefinite by no more than rounding makes it, the factors are those of the matrix with this added to its diagonal,
+ * some units in the last place of 1; 0 where it is definite. */
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
-                                   OstMumps **mumps);
+                                   double *shift, OstMumps **mumps);
 void ost_mumps_destroy(OstMumps **mumps);
 
 /* Collective. x = A^-1 b, size × rows numbers each. */

@@ -12,9 +12,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may. */
+/* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may, and where
+ * factors are led, whose steps may grow until the modes that factors miss are found. */
 static const double least_gain = 0.5;
-enum { MOST_STALLS = 3 };
+enum { MOST_STALLS = 3, MOST_LED_STALLS = 12 };
 
 /* The limit is an estimate for terms rounded at random: a residual this many times above it may still be rounding's. */
 static const double rounding_slack = 3.0;
@@ -275,7 +276,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
         const int gained = work->contracts || (goal->norm > goal->target && goal->norm < least_gain * least_norm);
         least_norm = fmin(least_norm, goal->norm);
         stalls = gained ? 0 : stalls + 1;
-    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < MOST_STALLS);
+    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < (work->step ? MOST_LED_STALLS : MOST_STALLS));
     if (goal->norm > goal->target)
         return judge(work);
     goal->end = OST_END_REACHED;

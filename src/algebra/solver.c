@@ -164,15 +164,17 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 {
     const double start = ost_seconds();
     const int before = goal->iterations;
-    OST_TRY(ost_rung_work(solver->rung, f, u, goal, report));
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung),
-                                   goal->end == OST_END_REACHED ? "reached the residual asked for" : goal->words);
+    const OstStatus status = ost_rung_work(solver->rung, f, u, goal, report);
+    const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
+                          : goal->end == OST_END_REACHED ? "reached the residual asked for"
+                                                         : goal->words;
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung), outcome);
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_pace_whole_factor(&goal->pace) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->rung_seconds;
     solver->rung_seconds = 0.0;
-    return OST_SUCCESS;
+    return status;
 }
 
 /* Is there a rung that could do better? */

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/scatter.h"
 
 #include <limits.h>
 #include <string.h>
@@ -25,12 +26,8 @@ typedef struct Table {
 static uint64_t hash_key(const OstKey *key)
 {
     uint64_t hash = 0;
-    for (int i = 0; i < 4; i++) { /* the finisher of splitmix64, word by word */
-        hash = (hash ^ key->word[i]) + 0x9e3779b97f4a7c15u;
-        hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
-        hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
-        hash ^= hash >> 31;
-    }
+    for (int i = 0; i < 4; i++)
+        hash = ost_scatter(hash ^ key->word[i]);
     return hash;
 }
 

@@ -160,6 +160,19 @@ static double lost_to_rounding(const OstSolveReport *report)
     return report->rounding_limited ? report->error_estimate : report->rounding_error;
 }
 
+static void object_to_rounding(OstResult *result)
+{
+    const double lost = lost_to_rounding(&result->solve);
+    char left[48] = "none at all";
+    if (isfinite(lost))
+        snprintf(left, sizeof left, "an error of about %.1g", lost);
+    ost_object(
+        result,
+        "rounding in double precision leaves the displacement less than one digit (%s); bring the stiffnesses of "
+        "the parts nearer to each other, or hold the body better",
+        left);
+}
+
 /* Comparisons are such that what is no number fails. */
 static void judge(OstResult *result, double requested, Explained explained)
 {
@@ -181,10 +194,7 @@ static void judge(OstResult *result, double requested, Explained explained)
         ost_object(result, "the strain energy %.10e is not the work %.10e of loads and reactions",
                    checks->strain_energy, checks->work);
     if (!(lost_to_rounding(&result->solve) <= least_digit))
-        ost_object(result,
-                   "rounding in double precision leaves the displacement less than one digit (an error of about "
-                   "%.1g); bring the stiffnesses of the parts nearer to each other, or hold the body better",
-                   lost_to_rounding(&result->solve));
+        object_to_rounding(result);
 }
 
 OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual, double rhs_norm)

@@ -47,6 +47,7 @@ typedef enum {
 /* What is known of the equations without the recipe under test. */
 typedef struct OstHardTruth {
     int known;            /* is there a direct solution? */
+    int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||: error allowed by a residual, over that residual */
@@ -123,7 +124,8 @@ double ost_hard_contrast(int shape);
 void ost_hard_cylinder(int shape, double origin[3], double axis[3]);
 
 /* Collective. Assembles the scene's equations afresh, factors them, iterates with residuals in twofold precision until
- * the solution stands to the last digits of double precision, and holds the result (NULL: there is none) against it. */
+ * the solution stands to the last digits of double precision, or is seen not to exist, and holds the result (NULL:
+ * there is none) against it. */
 OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth);
 
 /* Collective. Solves one point and judges it; fails only where the grid itself cannot go on. */

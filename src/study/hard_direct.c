@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Steps at most. */
-enum { STEPS = 60 };
+enum { STEPS = 200 };
 
 /* a + b, and a - b c; every error of rounding is caught (Dekker, Knuth) but the last ones, of 1e-32. */
 static OstTwofold plus(OstTwofold a, double b)
@@ -70,11 +70,13 @@ static OstStatus assemble(const OstScene *scene, OstHardDirect *direct)
     return ost_agree(ctx, status);
 }
 
+/* Conjugate gradients make up for a shift, or find that K itself is not definite. */
 static OstStatus factor(OstHardDirect *direct)
 {
+    double shift;
     const OstBlockMatrix *matrix = direct->system->matrix;
     OST_TRY(ost_scaling_create(matrix, &direct->scaling));
-    return ost_mumps_create_of_rows(matrix, direct->scaling, 0.0, &direct->factors);
+    return ost_mumps_create_of_rows(matrix, direct->scaling, 0.0, &shift, &direct->factors);
 }
 
 OstStatus ost_hard_direct_create(const OstScene *scene, OstHardDirect *direct)
@@ -164,6 +166,7 @@ OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double e
             memcpy(first, direct->d, direct->n * sizeof(double));
         OST_TRY(ost_hard_direct_norm(direct, direct->d, &correction));
         OST_TRY(turn(direct, k == 0, &energy));
+        direct->indefinite |= energy <= 0.0;
         if (!(energy > 0.0 && isfinite(energy)))
             break;
         OST_TRY(sum_products(direct, direct->d, direct->r, &gain));

@@ -23,15 +23,17 @@ typedef struct OstHardDirect {
     double *force, *f;
     OstTwofold *u, *p; /* with ghosts: solution; direction of search, its lower halves 0 */
     double *r, *q, *d; /* residual; K p; correction, with ghosts */
+    int indefinite;    /* was a p met with p·K p <= 0? Then K, as it is rounded, has no solution of least energy */
 } OstHardDirect;
 
-/* Collective. Fails where the equations cannot be factored; to be cleared also then. */
+/* Collective. Where rounding has made K indefinite, or its factors, those of K and a little on its diagonal serve.
+ * Fails where the equations cannot be factored even so; to be cleared also then. */
 OstStatus ost_hard_direct_create(const OstScene *scene, OstHardDirect *direct);
 void ost_hard_direct_clear(OstHardDirect *direct);
 
 /* Collective. u = K^-1 f by conjugate gradients on the factors, residuals and products summed in twofold precision,
- * from 0 until a correction is no more than `enough` of u: then `known`. `first` (or NULL) takes what the factors by
- * themselves made of f. */
+ * from 0 until a correction is no more than `enough` of u: then `known`, or until K is found indefinite. `first` (or
+ * NULL) takes what the factors by themselves made of f. */
 OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double enough, double *first, int *known);
 
 /* Collective. d = K^-1 r by the factors. */

@@ -27,15 +27,15 @@ static json_t *reading_json(const OstHardReading *reading)
                              "status", ost_status_name(reading->status), "reason", reading->reason);
     if (!json || reading->unknowns == 0)
         return json;
-    json_t *numbers =
-        json_pack("{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f}", "unknowns",
-                  (json_int_t)reading->unknowns, "recipe", ost_recipe_name(reading->recipe), "iterations",
-                  reading->iterations, "rungs", reading->steps, "relative_residual", number_json(reading->residual),
-                  "rounding_limited", reading->rounding_limited, "stated_error", number_json(reading->stated_error),
-                  "digits", number_json(reading->digits), "size", number_json(reading->truth.size), "amplification",
-                  number_json(reading->truth.amplification), "floor", number_json(reading->truth.floor),
-                  "plain_factors_error", number_json(reading->truth.plain), "moved_by_rounding",
-                  number_json(reading->truth.rounded), "seconds", reading->seconds);
+    json_t *numbers = json_pack(
+        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:f}", "unknowns",
+        (json_int_t)reading->unknowns, "recipe", ost_recipe_name(reading->recipe), "iterations", reading->iterations,
+        "rungs", reading->steps, "relative_residual", number_json(reading->residual), "rounding_limited",
+        reading->rounding_limited, "stated_error", number_json(reading->stated_error), "digits",
+        number_json(reading->digits), "size", number_json(reading->truth.size), "amplification",
+        number_json(reading->truth.amplification), "floor", number_json(reading->truth.floor), "plain_factors_error",
+        number_json(reading->truth.plain), "moved_by_rounding", number_json(reading->truth.rounded), "indefinite",
+        reading->truth.indefinite, "seconds", reading->seconds);
     json_object_update(json, numbers);
     json_decref(numbers);
     return json;

@@ -10,8 +10,7 @@
 /* The stated error is an estimate; it may be less than the error by this factor, and no more. */
 static const double slack = 3.0;
 
-/* The error of a factorisation's solution, or the move that rounding the stiffness makes, from which on double
- * precision is said to hold no answer. */
+/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
 static const double hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
@@ -77,7 +76,7 @@ static int is_true(const OstHardReading *reading)
 static void judge(OstHardReading *reading)
 {
     const OstHardTruth *truth = &reading->truth;
-    const int hopeless_case = !truth->known || !(truth->plain <= hopeless) || truth->rounded > hopeless;
+    const int hopeless_case = truth->indefinite || truth->rounded > hopeless;
     reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
         reading->outcome = hopeless_case ? OST_HARD_REFUSED : OST_HARD_GIVEN_UP;
@@ -135,7 +134,7 @@ OstStatus ost_hard_read(OstContext *ctx, const OstHardPoint *point, OstHardReadi
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (OstHardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (OstHardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);

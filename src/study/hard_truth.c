@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/scatter.h"
 #include "study/hard.h"
 #include "study/hard_direct.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 /* Steps of inverse iteration for ||K^-1||, and roundings of K tried. */
@@ -76,14 +76,11 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
 
 /* --- what rounding the stiffness does to it --- */
 
-/* 1 or -1, the same for both entries of a pair, on any ranks (the finaliser of SplitMix64). */
+/* 1 or -1, the same for both entries of a pair, on any ranks. */
 static double sign_of_pair(OstGlobal i, OstGlobal j, int round)
 {
     const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
-    uint64_t bits = (low << 32) + high + UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(round + 1);
-    bits = (bits ^ (bits >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    bits = (bits ^ (bits >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (bits ^ (bits >> 31)) & 1 ? 1.0 : -1.0;
+    return ost_scatter_sign(ost_scatter(low) + high, round);
 }
 
 /* The force by which u* no longer solves when every entry of K is up or down by half a unit in its last place. */
@@ -154,11 +151,12 @@ OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, Os
 {
     OstHardDirect direct;
     double *plain = NULL;
-    *truth = (OstHardTruth){0, NAN, NAN, NAN, NAN, NAN, NAN};
+    *truth = (OstHardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
     OstStatus status;
     OST_TRY_DONE(ost_hard_direct_create(scene, &direct));
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
     OST_TRY_DONE(find_all(&direct, result, plain, truth));
+    truth->indefinite = direct.indefinite;
 done:
     OST_FREE(plain);
     ost_hard_direct_clear(&direct);

@@ -187,7 +187,7 @@ static void factors_go_on_where_rounding_hides_the_energy(void **state)
     OstMumps *factors = NULL;
     assert_success(elastic_create(ctx, &pile, &problem));
     assert_success(ost_scaling_create(problem.matrix, &scaling));
-    assert_success(ost_mumps_create_of_rows(problem.matrix, scaling, 0.0, &factors));
+    assert_success(ost_mumps_create_of_rows(problem.matrix, scaling, 0.0, NULL, &factors));
     double u[24];
     OstSolverOptions options = ost_solver_default_options();
     options.accept_attainable = 1;

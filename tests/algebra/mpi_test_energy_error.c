@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "elastic_block.h"
+#include "soft_pair.h"
 
 #include "algebra/energy_error.h"
 #include "algebra/mumps.h"
@@ -72,7 +72,7 @@ static Known make(double unit, int scaled)
     known.work = numbers(3 * (size_t)matrix->columns);
     if (scaled)
         assert_success(ost_scaling_create(matrix, &known.scaling));
-    assert_success(ost_mumps_create_of_rows(matrix, known.scaling, 0.0, &known.factors));
+    assert_success(ost_mumps_create_of_rows(matrix, known.scaling, 0.0, NULL, &known.factors));
     for (size_t i = 0; i < known.n; i++)
         known.solution[i] = sin(0.1 * (double)(3 * matrix->first_row) + 0.1 * (double)i) / unit;
     multiply(&known, known.solution, known.f);
@@ -190,7 +190,7 @@ static double moved(Known *known, double share, int round)
     double *off = numbers(known->n), *product = numbers(known->n);
     assert_success(elastic_create(ctx, &column, &other));
     perturb(other.matrix, share, round);
-    assert_success(ost_mumps_create_of_rows(other.matrix, NULL, 0.0, &factors));
+    assert_success(ost_mumps_create_of_rows(other.matrix, NULL, 0.0, NULL, &factors));
     assert_success(ost_mumps_solve(factors, known->f, off));
     for (size_t i = 0; i < known->n; i++)
         off[i] -= known->solution[i];
@@ -223,6 +223,75 @@ static void rounding_is_what_other_roundings_of_the_matrix_do(void **state)
     destroy(&known);
 }
 
+/* A bar whose first two unknowns are a stiff pair, and factors that miss its soft mode by a factor. */
+typedef struct Missed {
+    ElasticProblem problem;
+    double factor;
+    double *u;
+} Missed;
+
+static OstStatus miss(void *data, const double *r, double *z)
+{
+    const Missed *missed = data;
+    miss_soft_mode(missed->problem.matrix, missed->factor, r, z);
+    return OST_SUCCESS;
+}
+
+/* u is the solution, but for its own rounding. */
+static Missed make_missed(double factor)
+{
+    Missed missed = {.problem = bar_with_pair(), .factor = 1.0};
+    missed.u = numbers(3 * (size_t)missed.problem.matrix->rows);
+    assert_success(miss(&missed, missed.problem.force, missed.u));
+    missed.factor = factor;
+    return missed;
+}
+
+static OstEnergyError estimate_missed(Missed *missed)
+{
+    const OstCgSystem system = {.matrix = missed->problem.matrix};
+    const OstPreconditioner preconditioner = {.data = missed, .apply = miss, .factors = 1};
+    OstEnergyError error;
+    assert_success(ost_energy_error(&system, &preconditioner, 1.0, missed->problem.force, missed->u, 1, &error));
+    return error;
+}
+
+static void destroy_missed(Missed *missed)
+{
+    elastic_destroy(&missed->problem);
+    OST_FREE(missed->u);
+}
+
+/* One application of such factors would tell 2.75 times too much, or too little. */
+static void what_rounding_does_is_told_by_factors_that_miss_a_soft_mode(void **state)
+{
+    (void)state;
+    const double factors[] = {1.0, 2.75, 1.0 / 2.75};
+    OstEnergyError error[3];
+    for (int k = 0; k < 3; k++) {
+        Missed missed = make_missed(factors[k]);
+        error[k] = estimate_missed(&missed);
+        destroy_missed(&missed);
+    }
+    assert_true(error[0].rounding > 0.01 && error[0].rounding < 1.0);
+    for (int k = 1; k < 3; k++) {
+        assert_close(error[k].rounding, error[0].rounding, 1e-3 * error[0].rounding);
+        assert_close(error[k].whole, error[0].whole, 1e-3 * error[0].whole);
+    }
+}
+
+/* The factors are of a matrix that is definite, as rounding leaves them of one that is not: nothing is known then. */
+static void a_matrix_that_rounding_left_indefinite_holds_no_digit(void **state)
+{
+    (void)state;
+    Missed missed = make_missed(1.0);
+    if (has_pair(missed.problem.matrix))
+        missed.problem.matrix->value[9 * (size_t)missed.problem.matrix->diagonal[0] + 4] -= 2.0 * softness();
+    const OstEnergyError error = estimate_missed(&missed);
+    assert_true(isinf(error.rounding) && isinf(error.whole));
+    destroy_missed(&missed);
+}
+
 static void what_cannot_be_measured_is_no_number(void **state)
 {
     (void)state;
@@ -245,6 +314,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(with_the_matrix_itself_it_is_the_error_whatever_the_units),
     cmocka_unit_test(with_factors_it_is_the_error_of_the_displacement_itself),
     cmocka_unit_test(rounding_is_what_other_roundings_of_the_matrix_do),
+    cmocka_unit_test(what_rounding_does_is_told_by_factors_that_miss_a_soft_mode),
+    cmocka_unit_test(a_matrix_that_rounding_left_indefinite_holds_no_digit),
     cmocka_unit_test(what_cannot_be_measured_is_no_number),
 };
 

@@ -329,8 +329,11 @@ static void assert_not_converged(const ElasticProblem *problem, OstRecipe recipe
     double *u = NULL;
     assert_success(OST_NEW(ctx, &u, 3 * (size_t)problem->matrix->rows));
     OstStatus status = ost_solver_create(ctx, problem->matrix, &problem->geometry, &options, &solver);
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS) {
         status = ost_solver_solve(solver, problem->force, u, &report);
+        assert_int_equal(report.steps, 1);
+        assert_non_null(strstr(report.step[0].outcome, words));
+    }
     assert_failure(status, OST_NOT_CONVERGED, words);
     ost_solver_destroy(&solver);
     OST_FREE(u);

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CORE_SCATTER_H
+#define ORTHOSTAT_CORE_SCATTER_H
+
+#include <stdint.h>
+
+/* Bits that look random and depend on the number alone, whatever the ranks: what SplitMix64 makes of it (Steele, Lea,
+ * Flood, Fast splittable pseudorandom number generators, OOPSLA 2014). */
+static inline uint64_t ost_scatter(uint64_t number)
+{
+    number = (number + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    number = (number ^ (number >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    number = (number ^ (number >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return number ^ (number >> 31);
+}
+
+/* 1 or -1; `which` of many such throws for the same number. */
+static inline double ost_scatter_sign(uint64_t number, int which)
+{
+    return ost_scatter(ost_scatter(number) + (uint64_t)which) & 1 ? 1.0 : -1.0;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "core/memory.h"
+#include "study/hard.h"
+
+#include <string.h>
+
+/* A point of the grid by its words. */
+static OstHardReading read_point(const char *words)
+{
+    const int wanted[OST_HARD_SHAPES] = {1, 1, 1, 1, 1, 1, 1, 1};
+    OstHardReading reading = {.outcome = OST_HARD_OUTCOMES};
+    OstHardPoint *points = NULL;
+    int count;
+    assert_success(ost_hard_points(ctx, wanted, 0, &count, &points));
+    for (int i = 0; i < count; i++) {
+        char found[160];
+        ost_hard_describe(&points[i], found, sizeof found);
+        if (!strcmp(found, words))
+            assert_success(ost_hard_read(ctx, &points[i], &reading));
+    }
+    OST_FREE(points);
+    assert_true(reading.outcome != OST_HARD_OUTCOMES);
+    return reading;
+}
+
+/* Factors miss the softest mode of these bodies, or cannot be had without a shift; rounding moves it by 1 to 9 %. */
+static void what_holds_a_digit_is_solved(void **state)
+{
+    (void)state;
+    const char *const words[] = {"stiff, order 1, nu 0.499, E2 x 1e+06, aligned",
+                                 "stiff, order 2, 0.99 of border, E2 x 1e+06, aligned"};
+    for (int k = 0; k < 2; k++) {
+        const OstHardReading reading = read_point(words[k]);
+        assert_int_equal(reading.outcome, OST_HARD_SOLVED_TO_ROUNDING);
+        assert_true(reading.truth.known && reading.truth.error < 1e-3);
+        assert_true(reading.stated_error > reading.truth.rounded / 3.0);
+        assert_true(reading.stated_error < reading.truth.rounded * 3.0);
+    }
+}
+
+/* Rounding turned the sign of their softest modes' stiffness. */
+static void what_rounding_left_indefinite_is_refused(void **state)
+{
+    (void)state;
+    const OstHardReading reading = read_point("plate, order 2, nu 0.49, E3 x 1e+06, aligned");
+    assert_int_equal(reading.outcome, OST_HARD_REFUSED);
+    assert_true(reading.truth.indefinite && !reading.truth.known);
+    assert_non_null(strstr(reading.reason, "not positive definite"));
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_holds_a_digit_is_solved),
+    cmocka_unit_test(what_rounding_left_indefinite_is_refused),
+};
+
+OST_TEST_MAIN(tests)
