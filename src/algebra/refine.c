@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may, and where
- * factors are led, whose steps may grow until the modes that factors miss are found. */
+ * factors are led, whose steps may grow until the modes that they miss are found, and move u yet. */
 static const double least_gain = 0.5;
 enum { MOST_STALLS = 3, MOST_LED_STALLS = 12 };
 
@@ -260,6 +260,12 @@ static OstStatus find_correction(Refinement *work, OstInnerSolve inner, void *da
     return ost_exact_step_turn(work->step, work->residual, work->correction);
 }
 
+/* u moves while corrections are more than the relative residual asked for. */
+static int most_stalls(const Refinement *work)
+{
+    return work->step && work->moved > work->goal->target / work->goal->start ? MOST_LED_STALLS : MOST_STALLS;
+}
+
 static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
     OstGoal *goal = work->goal;
@@ -276,7 +282,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
         const int gained = work->contracts || (goal->norm > goal->target && goal->norm < least_gain * least_norm);
         least_norm = fmin(least_norm, goal->norm);
         stalls = gained ? 0 : stalls + 1;
-    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < (work->step ? MOST_LED_STALLS : MOST_STALLS));
+    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < most_stalls(work));
     if (goal->norm > goal->target)
         return judge(work);
     goal->end = OST_END_REACHED;
