@@ -260,10 +260,13 @@ static OstStatus find_correction(Refinement *work, OstInnerSolve inner, void *da
     return ost_exact_step_turn(work->step, work->residual, work->correction);
 }
 
-/* u moves while corrections are more than the relative residual asked for. */
+/* Led steps are not at their end while they move u by more than the relative residual asked for, or leave a residual
+ * that is more than rounding's: it comes and goes with the modes that factors miss. */
 static int most_stalls(const Refinement *work)
 {
-    return work->step && work->moved > work->goal->target / work->goal->start ? MOST_LED_STALLS : MOST_STALLS;
+    const OstGoal *goal = work->goal;
+    const int moves = work->moved > goal->target / goal->start;
+    return work->step && (moves || goal->norm > rounding_slack * goal->limit) ? MOST_LED_STALLS : MOST_STALLS;
 }
 
 static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
