@@ -4,8 +4,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <string.h>
-
 void ost_block_matrix_destroy(OstBlockMatrix **matrix)
 {
     if (!*matrix)

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <math.h>
+
 /* A step by factors costs little beside making them: u is refined until this is all that it moves. */
 static const double settled = 1e-3;
 
@@ -52,7 +54,7 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
 /* What was factored is not the stiffness itself: a body that can move freely looks the same, but holds no digit. */
 static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
 {
-    if (report->error_estimate > 0.0 && report->rounding_error <= least_digit)
+    if (report->error_estimate > 0.0 && isfinite(report->error_estimate) && report->rounding_error <= least_digit)
         return OST_SUCCESS;
     return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
                      "the stiffness, as double precision rounds it, is not positive definite, or hardly: the body, or "
@@ -67,6 +69,7 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
     goal->settled = settled;
+    goal->exact |= direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
     OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
     return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
 }

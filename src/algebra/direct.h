@@ -6,7 +6,7 @@
 
 /* The direct recipe: MUMPS factors the scaled matrix, and conjugate gradients preconditioned by its factors bring the
  * residual down to what was requested, which one solve alone does not (1e-6 on very uneven stiffness). Where rounding
- * makes the matrix, or its factors, indefinite, those of the matrix and some units in the last place on its diagonal
+ * makes the matrix, or its factors, indefinite, those of the matrix and at most 5e-13 on its diagonal of ones
  * lead to the solution as well, if there is one. */
 typedef struct OstDirect OstDirect;
 

@@ -35,6 +35,7 @@ typedef struct Work {
     OstExactStep *step;  /* where factors are led: then also */
     double *left;        /* what of the vector is left to solve for, */
     double *solution;    /* and A^-1 of the rest, over |u| */
+    int lost;            /* is A not positive definite, or does none settle? */
     double energy_norm;  /* |u|_A sqrt(smallest) */
     double displacement; /* |u| */
 } Work;
@@ -118,24 +119,22 @@ static OstStatus lead(Work *work, double *moved)
     return find_norm(work, work->corrected, moved);
 }
 
-/* The same of A^-1 v, by as many applications as it takes; INFINITY where A is not positive definite, or none settles.
- */
+/* The same of A^-1 v, by as many applications as it takes. */
 static OstStatus measure_closely(Work *work, double *error)
 {
     double moved = INFINITY;
+    int indefinite = 0;
     work->step->energy = *error = 0.0;
     for (size_t i = 0; i < work->n; i++) {
         work->left[i] = work->vector[i] / work->displacement; /* and so all that follows */
         work->solution[i] = 0.0;
     }
-    for (int k = 0; k < MOST_STEPS && moved > roughly * *error; k++) {
+    for (int k = 0; k < MOST_STEPS && moved > roughly * *error && !indefinite; k++) {
         OST_TRY(lead(work, &moved));
         OST_TRY(find_norm(work, work->solution, error));
-        if (work->step->energy == 0.0)
-            break;
+        indefinite = work->step->energy == 0.0 && moved > 0.0;
     }
-    if (!(moved <= roughly * *error))
-        *error = INFINITY;
+    work->lost |= indefinite || !(moved <= roughly * *error);
     return OST_SUCCESS;
 }
 
@@ -150,7 +149,7 @@ static OstStatus look_closer(Work *work, OstEnergyError *error)
     double residual, one, squares = 0.0;
     memcpy(work->vector, work->residual, work->n * sizeof(double));
     OST_TRY(look(work, &residual));
-    for (int throw = 1; throw <= THROWS && squares < INFINITY; throw ++) {
+    for (int throw = 1; throw <= THROWS && !work->lost; throw ++) {
         throw_signs(work, NULL, throw);
         OST_TRY(look(work, &one));
         squares += one * one;
@@ -197,7 +196,11 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
     OST_TRY(look(work, &error->whole));
-    return error->whole > three_digits ? look_closer(work, error) : OST_SUCCESS;
+    if (error->whole > three_digits && !work->lost)
+        OST_TRY(look_closer(work, error));
+    if (work->lost)
+        *error = (OstEnergyError){INFINITY, INFINITY};
+    return OST_SUCCESS;
 }
 
 static OstStatus allocate(OstContext *ctx, Work *work)

@@ -22,12 +22,13 @@
  * to A^-1 of each throw (algebra/exact_step.h). */
 typedef struct OstEnergyError {
     double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution, or
-                        where factors are led to find that A is not positive definite, or to nothing that settles */
+                        where factors are led to find that A is not positive definite, or to nothing that settles:
+                        then `rounding` as well */
     double rounding; /* of it, what rounding of A explains; 0 where three digits are left, and nobody asked */
 } OstEnergyError;
 
-/* Collective. Applies the preconditioner once, or ten times where less than three digits are left, factors that are led
- * some times more. `exact`: rounding is so near that r is summed by ost_exact_residual. */
+/* Collective. Applies the preconditioner once, or ten times where less than three digits are left; factors that are led
+ * take two or three each time, 40 at most. `exact`: rounding is so near that r is summed by ost_exact_residual. */
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
                            const double *f, const double *u, int exact, OstEnergyError *error);
 

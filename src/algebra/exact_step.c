@@ -61,6 +61,7 @@ OstStatus ost_exact_step_turn(OstExactStep *step, const double *residual, double
     OST_TRY(ost_vector_dot(step->matrix->ctx, n, step->direction, residual, &gain));
     if (!(step->energy > 0.0 && isfinite(step->energy))) {
         step->energy = 0.0;
+        step->length = 1.0;
         return OST_SUCCESS;
     }
     step->length = gain / step->energy;

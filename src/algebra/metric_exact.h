@@ -23,7 +23,8 @@ typedef struct OstExactMatrix {
 OstStatus ost_exact_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstExactMatrix **exact);
 void ost_exact_matrix_destroy(OstExactMatrix **exact);
 
-/* Local. Block k, one of row i: where it is kept, or scaled in `room`. `size` is the matrix', as a constant. */
+/* Local. Block k, one of row i: where it is kept, or scaled in `room`. `size` is the matrix', as a constant
+ * where it is to be quick. */
 OST_UNROLLED const double *ost_exact_matrix_block(const OstExactMatrix *matrix, int size, OstLocal i, OstLocal k,
                                                   double room[9])
 {

@@ -31,7 +31,7 @@ void ost_metric_destroy(OstMetric **metric)
     if (!*metric)
         return;
     ost_quadratic_level_destroy(&(*metric)->quadratic);
-    ost_cycle_destroy(&(*metric)->cycle); /* before the matrices whose halos they borrow */
+    ost_cycle_destroy(&(*metric)->cycle);
     ost_scaling_destroy(&(*metric)->linear_scaling);
     ost_scaling_destroy(&(*metric)->scaling);
     OST_FREE(*metric);

@@ -34,9 +34,9 @@ enum {
 
 static const double mebibyte = 1048576.0;
 
-/* The first shift, each next over the last, and the largest, beside a diagonal of order 1: rounding was never seen to
- * take more than 6e-14. */
-static const double least_shift = 4.0 * DBL_EPSILON, next_shift = 8.0, rounding_shift = 1e-12;
+/* The first shift, each next over the last, and the largest, of a diagonal of order 1: rounding was never seen to take
+ * more than 6e-14. */
+static const double least_shift = 4.0 * DBL_EPSILON, next_shift = 8.0, rounding_shift = 5e-13;
 
 struct OstMumps {
     OstContext *ctx;

@@ -14,7 +14,7 @@ typedef struct OstMumps OstMumps;
 OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps **mumps);
 /* Collective. The same of S A S^T, or of A where `scaling` is NULL. `shift` (or NULL): where the matrix is singular or
  * indefinite by no more than rounding makes it, the factors are those of the matrix with this added to its diagonal,
- * some units in the last place of 1; 0 where it is definite. */
+ * 5e-13 at most of the order of 1 that it is; 0 where it is definite. */
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
                                    double *shift, OstMumps **mumps);
 void ost_mumps_destroy(OstMumps **mumps);

@@ -39,7 +39,7 @@ static inline void ost_apply3_transposed(const double a[9], const double x[3], d
         y[i] = a[i] * x[0] + a[3 + i] * x[1] + a[6 + i] * x[2];
 }
 
-/* c = A B, c = Aᵀ B and c = A Bᵀ; c may not be a or b. */
+/* c = A B and c = Aᵀ B; c may not be a or b. */
 static inline void ost_multiply3(const double a[9], const double b[9], double c[9])
 {
     for (int i = 0; i < 3; i++)
@@ -52,13 +52,6 @@ static inline void ost_multiply3_transposed_left(const double a[9], const double
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             c[3 * i + j] = a[i] * b[j] + a[3 + i] * b[3 + j] + a[6 + i] * b[6 + j];
-}
-
-static inline void ost_multiply3_transposed_right(const double a[9], const double b[9], double c[9])
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            c[3 * i + j] = a[3 * i] * b[3 * j] + a[3 * i + 1] * b[3 * j + 1] + a[3 * i + 2] * b[3 * j + 2];
 }
 
 static inline double ost_determinant3(const double a[9])

@@ -47,7 +47,7 @@ static void print_solve(const OstResult *result)
 
 static void print_digits(const OstChecks *checks)
 {
-    if (isfinite(checks->digits))
+    if (isfinite(checks->digits) && isfinite(checks->displacement_error))
         printf("  digits           about %.0f of the displacement hold (error about %.1e)\n", floor(checks->digits),
                checks->displacement_error);
 }

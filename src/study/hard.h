@@ -50,7 +50,7 @@ typedef struct OstHardTruth {
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
     double size;          /* ||u*|| */
-    double amplification; /* ||K^-1|| ||f|| / ||u*||: error allowed by a residual, over that residual */
+    double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: error allowed by a residual, over that residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
     double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
     double rounded; /* how far u* moves when every entry of K does by half a unit in its last place, root of the mean

@@ -166,7 +166,7 @@ OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double e
             memcpy(first, direct->d, direct->n * sizeof(double));
         OST_TRY(ost_hard_direct_norm(direct, direct->d, &correction));
         OST_TRY(turn(direct, k == 0, &energy));
-        direct->indefinite |= energy <= 0.0;
+        direct->indefinite |= energy <= 0.0 && correction > 0.0;
         if (!(energy > 0.0 && isfinite(energy)))
             break;
         OST_TRY(sum_products(direct, direct->d, direct->r, &gain));

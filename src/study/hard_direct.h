@@ -36,7 +36,7 @@ void ost_hard_direct_clear(OstHardDirect *direct);
  * NULL) takes what the factors by themselves made of f. */
 OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double enough, double *first, int *known);
 
-/* Collective. d = K^-1 r by the factors. */
+/* Collective. d = K^-1 r by the factors, which may be of K and a little on its diagonal. */
 OstStatus ost_hard_direct_apply(OstHardDirect *direct);
 
 /* Collective. ||v||, and the norm of u. */

@@ -153,7 +153,9 @@ OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, Os
     double *plain = NULL;
     *truth = (OstHardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
     OstStatus status;
-    OST_TRY_DONE(ost_hard_direct_create(scene, &direct));
+    status = ost_hard_direct_create(scene, &direct);
+    truth->indefinite = status == OST_NOT_CONVERGED; /* even with a little on its diagonal */
+    OST_TRY_DONE(status);
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
     OST_TRY_DONE(find_all(&direct, result, plain, truth));
     truth->indefinite = direct.indefinite;

@@ -76,8 +76,9 @@ def main():
     check(helped.exit_code == 0 and helped.output.count("Usage:") == 1, f"solve --help: {helped.output}{helped.errors}")
     check(run("--version").output.startswith("orthostat "), "--version")
     check(run().exit_code == 2, "no command")
-    for words, stream in (((), "errors"), (("--help",), "output"), (("sovle",), "errors")):
+    for words, stream, exit_code in (((), "errors", 2), (("--help",), "output", 0), (("sovle",), "errors", 2)):
         said = run(*words, ranks=2)
+        check(said.exit_code == exit_code, f"{words} on 2 ranks: exit {said.exit_code}")
         check(getattr(said, stream).count("Usage:") == 1, f"{words} on 2 ranks, not said once: {said.output}{said.errors}")
     check(run("--version", ranks=2).output.count("orthostat") == 1, "--version on 2 ranks")
     wrong = run("sovle", "bar.yaml", folder=folder)
