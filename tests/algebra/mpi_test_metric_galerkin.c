@@ -11,6 +11,7 @@
 /* A block and the coarse level made of it. */
 typedef struct Coarse {
     ElasticProblem problem;
+    OstScaling *scaling;
     OstExactMatrix *exact;
     OstLevelMatrix *level;
     OstTentative *tentative;
@@ -21,7 +22,22 @@ typedef struct Coarse {
 static const ElasticBlock soft_and_stiff = {
     .bricks = {7, 6, 11}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .contrast = 100.0, .held = 1};
 
-/* `of_node` NULL: aggregates of about `target` nodes. */
+/* Rows of a block share their columns, which the product relies on. */
+static void check_columns(const OstMetricBlocks *blocks, const OstProlongator *p)
+{
+    for (OstLocal b = 0; b < blocks->count; b++) {
+        const OstLocal first = blocks->node[blocks->node_start[b]];
+        const OstLocal columns = p->row_start[first + 1] - p->row_start[first];
+        for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++) {
+            const OstLocal i = blocks->node[m];
+            assert_int_equal(p->row_start[i + 1] - p->row_start[i], columns);
+            for (OstLocal k = 0; k < columns; k++)
+                assert_int_equal(p->column[p->row_start[i] + k], p->column[p->row_start[first] + k]);
+        }
+    }
+}
+
+/* `given` NULL: of the scaled matrix, on aggregates of about `target` nodes. */
 static void make_coarse(const ElasticBlock *block, double target, const OstAggregates *given, Coarse *c)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 1};
@@ -31,7 +47,9 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     OstSmoother *smoother = NULL;
     memset(c, 0, sizeof *c);
     assert_success(elastic_create(ctx, block, &c->problem));
-    assert_success(ost_exact_matrix_borrow(c->problem.matrix, NULL, &c->exact));
+    if (!given)
+        assert_success(ost_scaling_create(c->problem.matrix, &c->scaling));
+    assert_success(ost_exact_matrix_borrow(c->problem.matrix, c->scaling, &c->exact));
     assert_success(ost_level_matrix_create(c->exact, &c->level));
     assert_success(ost_metric_graph_create(c->problem.matrix, &c->problem.geometry, &graph));
     if (!given)
@@ -42,6 +60,7 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     assert_success(ost_tentative_smooth(c->tentative, c->exact, smoother, &c->prolongator));
     assert_success(
         ost_galerkin_create(c->exact, smoother->blocks, c->prolongator, c->tentative->first_coarse, &c->coarse));
+    check_columns(smoother->blocks, c->prolongator);
     ost_smoother_destroy(&smoother);
     ost_aggregates_destroy(&aggregates);
     ost_metric_graph_destroy(&graph);
@@ -54,6 +73,7 @@ static void destroy_coarse(Coarse *c)
     ost_tentative_destroy(&c->tentative);
     ost_level_matrix_destroy(&c->level);
     ost_exact_matrix_destroy(&c->exact);
+    ost_scaling_destroy(&c->scaling);
     elastic_destroy(&c->problem);
 }
 
@@ -79,10 +99,13 @@ static void apply(const OstExactMatrix *a, double *x, double *y)
     const int size = a->size;
     assert_success(ost_halo_import(a->halo, (size_t)size * sizeof *x, x));
     for (OstLocal i = 0; i < a->rows; i++)
-        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++)
+        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
+            double room[9];
+            const double *block = ost_exact_matrix_block(a, size, i, k, room);
             for (int r = 0; r < size; r++)
                 for (int c = 0; c < size; c++)
-                    y[size * i + r] += a->value[size * size * k + size * r + c] * x[size * a->column[k] + c];
+                    y[size * i + r] += block[size * r + c] * x[size * a->column[k] + c];
+        }
 }
 
 static double global_dot(size_t n, const double *a, const double *b)
