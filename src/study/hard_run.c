@@ -10,10 +10,8 @@
 /* The stated error is an estimate; it may be less than the error by this factor, and no more. */
 static const double slack = 3.0;
 
-/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. What is run
- * refuses from 0.1 on, by an estimate of its own: each is the root of a mean square over eight throws, whose standard
- * deviation is a quarter, so that within a factor of two they do not contradict each other. */
-static const double hopeless = 0.05;
+/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
+static const double hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
 static const char *const reason_word[OST_HARD_FLAWS] = {
