@@ -86,9 +86,10 @@ typedef struct OstSolveReport {
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity; /* nonzeros of all levels over those of the finest */
     double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
-    double error_estimate; /* |u - u*| / |u| about, u the unknowns: in the norm of the energy, sqrt(u·K u); the 2-norm
-                              where factors are at hand. 0 if not known (PLAIN), INFINITY if there is no bound */
-    double rounding_error; /* what of it rounding of K explains; 0 where three digits are left, and nobody asked */
+    double error_estimate;  /* |u - u*| / |u| about, u the unknowns: in the norm of the energy, sqrt(u·K u); the 2-norm
+                               where factors are at hand. 0 if not known (PLAIN), INFINITY if there is no bound */
+    double rounding_error;  /* what of it rounding of K explains; 0 where three digits are left, and nobody asked */
+    double rounding_spread; /* standard error of that, over it: a mean over roundings thrown at random */
     OstSolverPlan plan;
     int steps; /* one more than times climbed */
     OstSolveStep step[OST_MAX_STEPS];

@@ -206,7 +206,7 @@ static OstStatus report_error(const Cg *cg, const double *f, const double *u, co
                               OstSolveReport *report)
 {
     double smallest, largest;
-    OstEnergyError error = {NAN, 0.0};
+    OstEnergyError error = {NAN, 0.0, 0.0};
     ost_lanczos_extremes(&cg->lanczos, &smallest, &largest);
     if (smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
         OST_TRY(ost_energy_error(cg->system, cg->preconditioner, smallest, f, u, goal->exact, &error));
@@ -215,6 +215,7 @@ static OstStatus report_error(const Cg *cg, const double *f, const double *u, co
     /* Factors whose steps do not settle are what rounding made them. */
     report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
     report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
+    report->rounding_spread = known ? error.spread : 0.0;
     return OST_SUCCESS;
 }
 

@@ -2,7 +2,9 @@
 #include "algebra/direct.h"
 
 #include "algebra/cg.h"
+#include "algebra/energy_error.h"
 #include "algebra/mumps.h"
+#include "algebra/rounded_stiffness.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -10,9 +12,6 @@
 
 /* A step by factors costs little beside making them: u is refined until this is all that it moves. */
 static const double settled = 1e-3;
-
-/* The relative error that leaves one digit. */
-static const double least_digit = 0.1;
 
 struct OstDirect {
     OstCgSystem system;
@@ -54,7 +53,8 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
 /* What was factored is not the stiffness itself: a body that can move freely looks the same, but holds no digit. */
 static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
 {
-    if (report->error_estimate > 0.0 && isfinite(report->error_estimate) && report->rounding_error <= least_digit)
+    if (report->error_estimate > 0.0 && isfinite(report->error_estimate) &&
+        !ost_surely_beyond(report->rounding_error, report->rounding_spread, ost_least_digit))
         return OST_SUCCESS;
     return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
                      "the stiffness, as double precision rounds it, is not positive definite, or hardly: the body, or "

@@ -3,11 +3,10 @@
 
 #include "algebra/exact_residual.h"
 #include "algebra/exact_step.h"
-#include "algebra/term_rounding.h"
+#include "algebra/rounded_stiffness.h"
 #include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/scatter.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,7 +15,10 @@
  * leaves a digit. */
 static const double three_digits = 1e-3;
 
-enum { THROWS = 8 };
+/* As many where the error is near to the least digit. */
+enum { FEWEST_THROWS = 8, MOST_THROWS = 64 };
+
+const double ost_least_digit = 0.1;
 
 /* Factors are led (algebra/exact_step.h) until a step is no more than this of the whole. */
 static const double roughly = 0.1;
@@ -28,8 +30,8 @@ typedef struct Work {
     const OstPreconditioner *preconditioner;
     size_t n;            /* unknowns this rank owns */
     double *u;           /* with room for ghosts */
+    OstGlobal *number;   /* of each block row, and of the ghosts */
     double *residual;    /* f - A u */
-    double *rounding;    /* size of what rounding leaves of it */
     double *vector;      /* the one that is measured */
     double *corrected;   /* M^-1 of that */
     OstExactStep *step;  /* where factors are led: then also */
@@ -40,27 +42,30 @@ typedef struct Work {
     double displacement; /* |u| */
 } Work;
 
-/* f - A u and its rounding; fills u's ghosts. */
+/* f - A u; fills u's ghosts. */
 static OstStatus find_residual(Work *work, const double *f, int exact)
 {
     const OstBlockMatrix *matrix = work->system->matrix;
-    if (exact) {
-        OST_TRY(ost_exact_residual(matrix, f, work->u, work->residual));
-    } else {
-        OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
-        for (size_t i = 0; i < work->n; i++)
-            work->residual[i] = f[i] - work->residual[i];
-    }
-    ost_term_rounding(matrix, work->u, work->rounding);
+    if (exact)
+        return ost_exact_residual(matrix, f, work->u, work->residual);
+    OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
+    for (size_t i = 0; i < work->n; i++)
+        work->residual[i] = f[i] - work->residual[i];
     return OST_SUCCESS;
 }
 
-/* vector = base + half of rounding, with signs at random; a base of NULL is none. */
-static void throw_signs(Work *work, const double *base, int throw)
+static OstStatus find_numbers(Work *work)
 {
-    const uint64_t first = 3 * (uint64_t)work->system->matrix->first_row;
-    for (size_t i = 0; i < work->n; i++)
-        work->vector[i] = (base ? base[i] : 0.0) + 0.5 * ost_scatter_sign(first + i, throw) * work->rounding[i];
+    const OstBlockMatrix *matrix = work->system->matrix;
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        work->number[row] = matrix->first_row + row;
+    return ost_halo_import(matrix->halo, sizeof *work->number, work->number);
+}
+
+/* The vector is what a rounding of A leaves of the residual. */
+static void throw_signs(Work *work, int throw)
+{
+    ost_rounded_stiffness_force(work->system->matrix, work->number, work->u, throw, work->vector);
 }
 
 /* M^-1 v; v is divided by `size` before: preconditioners work in single precision too. */
@@ -143,18 +148,19 @@ static OstStatus look(Work *work, double *error)
     return work->step ? measure_closely(work, error) : measure(work, error);
 }
 
-/* The root of the mean square over throws. */
 static OstStatus look_closer(Work *work, OstEnergyError *error)
 {
-    double residual, one, squares = 0.0;
+    double residual, one;
+    OstThrows throws = {0, 0.0};
     memcpy(work->vector, work->residual, work->n * sizeof(double));
     OST_TRY(look(work, &residual));
-    for (int throw = 1; throw <= THROWS && !work->lost; throw ++) {
-        throw_signs(work, NULL, throw);
+    while (!work->lost && ost_throws_undecided(&throws, ost_least_digit, FEWEST_THROWS, MOST_THROWS)) {
+        throw_signs(work, 1 + throws.count);
         OST_TRY(look(work, &one));
-        squares += one * one;
+        ost_throws_add(&throws, one);
     }
-    error->rounding = sqrt(squares / THROWS);
+    error->rounding = ost_throws_size(&throws);
+    error->spread = ost_throws_spread(&throws);
     error->whole = hypot(residual, error->rounding);
     return OST_SUCCESS;
 }
@@ -186,28 +192,31 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     double energy;
     OST_TRY(find_residual(work, f, exact));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
-    *error = (OstEnergyError){INFINITY, INFINITY};
+    *error = (OstEnergyError){INFINITY, INFINITY, 0.0};
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
     if (!(work->energy_norm > 0.0))
         return OST_SUCCESS;
     OST_TRY(find_displacement(work));
     error->rounding = 0.0;
-    throw_signs(work, work->residual, 0);
+    OST_TRY(find_numbers(work));
+    throw_signs(work, 0);
+    for (size_t i = 0; i < work->n; i++)
+        work->vector[i] += work->residual[i];
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
     OST_TRY(look(work, &error->whole));
     if (error->whole > three_digits && !work->lost)
         OST_TRY(look_closer(work, error));
     if (work->lost)
-        *error = (OstEnergyError){INFINITY, INFINITY};
+        *error = (OstEnergyError){INFINITY, INFINITY, 0.0};
     return OST_SUCCESS;
 }
 
 static OstStatus allocate(OstContext *ctx, Work *work)
 {
     OST_TRY(OST_NEW(ctx, &work->u, 3 * (size_t)work->system->matrix->columns));
+    OST_TRY(OST_NEW(ctx, &work->number, work->system->matrix->columns));
     OST_TRY(OST_NEW(ctx, &work->residual, work->n));
-    OST_TRY(OST_NEW(ctx, &work->rounding, work->n));
     OST_TRY(OST_NEW(ctx, &work->vector, work->n));
     return OST_NEW(ctx, &work->corrected, work->n);
 }
@@ -223,8 +232,8 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
         status = estimate(&work, smallest, f, exact, error);
     }
     OST_FREE(work.u);
+    OST_FREE(work.number);
     OST_FREE(work.residual);
-    OST_FREE(work.rounding);
     OST_FREE(work.vector);
     OST_FREE(work.corrected);
     OST_FREE(work.left);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/checks.h"
 
+#include "algebra/energy_error.h"
+#include "algebra/rounded_stiffness.h"
 #include "assembly/batch.h"
 #include "assembly/system.h"
 #include "core/error.h"
@@ -36,9 +38,6 @@ static const double rounding_steps = 4.0;
 
 /* A balance may miss by this much beyond what the residual explains. */
 static const double balance_tolerance = 1e-10;
-
-/* The relative error that leaves one digit. */
-static const double least_digit = 0.1;
 
 static void project_on_held(const OstSupports *supports, OstLocal node, const double vector[3], double held[3])
 {
@@ -193,7 +192,7 @@ static void judge(OstResult *result, double requested, Explained explained)
     if (!(checks->energy_imbalance <= explained.energy && checks->strain_energy >= 0.0))
         ost_object(result, "the strain energy %.10e is not the work %.10e of loads and reactions",
                    checks->strain_energy, checks->work);
-    if (!(lost_to_rounding(&result->solve) <= least_digit))
+    if (ost_surely_beyond(lost_to_rounding(&result->solve), result->solve.rounding_spread, ost_least_digit))
         object_to_rounding(result);
 }
 

@@ -44,6 +44,9 @@ typedef enum {
     OST_HARD_OUTCOMES
 } OstHardOutcome;
 
+/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
+extern const double ost_hard_hopeless;
+
 /* What is known of the equations without the recipe under test. */
 typedef struct OstHardTruth {
     int known;            /* is there a direct solution? */

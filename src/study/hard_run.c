@@ -10,8 +10,7 @@
 /* The stated error is an estimate; it may be less than the error by this factor, and no more. */
 static const double slack = 3.0;
 
-/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
-static const double hopeless = 0.1;
+const double ost_hard_hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
 static const char *const reason_word[OST_HARD_FLAWS] = {
@@ -76,7 +75,7 @@ static int is_true(const OstHardReading *reading)
 static void judge(OstHardReading *reading)
 {
     const OstHardTruth *truth = &reading->truth;
-    const int hopeless_case = truth->indefinite || truth->rounded > hopeless;
+    const int hopeless_case = truth->indefinite || truth->rounded > ost_hard_hopeless;
     reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
         reading->outcome = hopeless_case ? OST_HARD_REFUSED : OST_HARD_GIVEN_UP;

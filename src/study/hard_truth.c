@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/rounded_stiffness.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/scatter.h"
 #include "study/hard.h"
 #include "study/hard_direct.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Steps of inverse iteration for ||K^-1||, and roundings of K tried. */
-enum { INVERSE_STEPS = 6, ROUNDINGS = 8 };
+/* Steps of inverse iteration for ||K^-1||; roundings of K tried, as many as it takes to say on which side of hopeless
+ * they are. */
+enum { INVERSE_STEPS = 6, FEWEST_ROUNDINGS = 8, MOST_ROUNDINGS = 256 };
 
 /* The solution stands when a correction is no more than this of it; what a rounding moves is wanted less closely. */
 static const double settled = 1e-15, roughly = 1e-2;
@@ -76,59 +76,45 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
 
 /* --- what rounding the stiffness does to it --- */
 
-/* 1 or -1, the same for both entries of a pair, on any ranks. */
-static double sign_of_pair(OstGlobal i, OstGlobal j, int round)
+/* Vectors with room for ghosts: labels and u*. Leaves the solution of the last throw in `direct->u`. */
+static OstStatus try_roundings(OstHardDirect *direct, const OstGlobal *label, const double *u, double *force,
+                               OstHardTruth *truth)
 {
-    const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
-    return ost_scatter_sign(ost_scatter(low) + high, round);
-}
-
-/* The force by which u* no longer solves when every entry of K is up or down by half a unit in its last place. */
-static void round_stiffness(const OstHardDirect *direct, const double *u, int round, double *force)
-{
-    const OstSystem *system = direct->system;
-    const OstBlockMatrix *k = system->matrix;
-    memset(force, 0, direct->n * sizeof *force);
-    for (OstLocal i = 0; i < k->rows; i++)
-        for (OstLocal b = k->row_start[i]; b < k->row_start[i + 1]; b++)
-            for (int c = 0; c < 9; c++) {
-                const OstLocal j = k->column[b];
-                const OstGlobal row = 3 * system->mesh->node_label[system->node_of_row[i]] + c / 3;
-                const OstGlobal column = 3 * system->mesh->node_label[system->node_of_row[j]] + c % 3;
-                force[3 * (size_t)i + (size_t)(c / 3)] += 0.5 * DBL_EPSILON * sign_of_pair(row, column, round) *
-                                                          k->value[9 * (size_t)b + (size_t)c] *
-                                                          u[3 * (size_t)j + (size_t)(c % 3)];
-            }
-}
-
-/* The root of the mean square of what such roundings move. Leaves the solution of the last in `u`. */
-static OstStatus try_roundings(OstHardDirect *direct, const double *u, double *force, OstHardTruth *truth)
-{
-    double moved, squares = 0.0;
+    OstThrows throws = {0, 0.0};
     int known = 1;
-    for (int round = 0; round < ROUNDINGS && known; round++) {
-        round_stiffness(direct, u, round, force);
+    while (known && ost_throws_undecided(&throws, ost_hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
+        double moved;
+        ost_rounded_stiffness_force(direct->system->matrix, label, u, throws.count, force);
         OST_TRY(ost_hard_direct_solve(direct, force, roughly, NULL, &known));
         OST_TRY(ost_hard_direct_size(direct, &moved));
-        squares += moved * moved;
+        ost_throws_add(&throws, moved / truth->size);
     }
-    truth->rounded = known ? sqrt(squares / ROUNDINGS) / truth->size : NAN;
+    truth->rounded = known ? ost_throws_size(&throws) : NAN;
     return OST_SUCCESS;
 }
 
+/* Labels of nodes are the same on any ranks, and so are the signs. */
 static OstStatus find_rounded(OstHardDirect *direct, OstHardTruth *truth)
 {
+    const OstSystem *system = direct->system;
+    OstHalo *halo = system->matrix->halo;
+    OstGlobal *label = NULL;
     double *u = NULL, *force = NULL;
-    OstStatus status = OST_NEW(direct->ctx, &u, 3 * (size_t)direct->system->matrix->columns);
+    OstStatus status = OST_NEW(direct->ctx, &u, 3 * (size_t)system->matrix->columns);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(direct->ctx, &label, system->matrix->columns);
     if (status == OST_SUCCESS)
         status = OST_NEW(direct->ctx, &force, direct->n);
     OST_TRY_DONE(ost_agree(direct->ctx, status));
     for (size_t i = 0; i < direct->n; i++)
         u[i] = direct->u[i].high;
-    OST_TRY_DONE(ost_halo_import(direct->system->matrix->halo, 3 * sizeof *u, u));
-    OST_TRY_DONE(try_roundings(direct, u, force, truth));
+    for (OstLocal i = 0; i < system->matrix->columns; i++)
+        label[i] = system->mesh->node_label[system->node_of_row[i]];
+    OST_TRY_DONE(ost_halo_import(halo, 3 * sizeof *u, u));
+    OST_TRY_DONE(try_roundings(direct, label, u, force, truth));
 done:
     OST_FREE(u);
+    OST_FREE(label);
     OST_FREE(force);
     return status;
 }

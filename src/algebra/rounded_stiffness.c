@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/rounded_stiffness.h"
+
+#include "core/scatter.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Standard errors that make sure. */
+static const double sure = 3.0;
+
+/* Bits of the entries of a block below the diagonal, above it, and on it. */
+static const int bit_of_entry[3][9] = {
+    {0, 1, 2, 3, 4, 5, 6, 7, 8}, {0, 3, 6, 1, 4, 7, 2, 5, 8}, {0, 3, 6, 3, 4, 7, 6, 7, 8}};
+
+/* A bit for each entry of the block of two nodes, and the same for the transposed one's. */
+static uint64_t signs_of_pair(OstGlobal i, OstGlobal j, int throw)
+{
+    const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
+    return ost_scatter(ost_scatter(ost_scatter(low) + high) + (uint64_t) throw);
+}
+
+/* `bit` tells which bit is each entry's. */
+static inline void add_block(const double *block, uint64_t signs, const int bit[9], const double *u, double *force)
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            const double half = (double)(int)(signs >> bit[3 * r + c] & 1) - 0.5;
+            force[r] += half * DBL_EPSILON * (block[3 * r + c] * u[c]);
+        }
+}
+
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int throw,
+                                 double *force)
+{
+    memset(force, 0, 3 * (size_t)matrix->rows * sizeof *force);
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
+            const OstLocal column = matrix->column[k];
+            const OstGlobal i = number[row], j = number[column];
+            add_block(matrix->value + 9 * (size_t)k, signs_of_pair(i, j, throw), bit_of_entry[(i <= j) + (i == j)],
+                      u + 3 * (size_t)column, force + 3 * (size_t)row);
+        }
+}
+
+double ost_throws_size(const OstThrows *throws)
+{
+    return sqrt(throws->squares / throws->count);
+}
+
+double ost_throws_spread(const OstThrows *throws)
+{
+    return 1.0 / sqrt(2.0 * throws->count);
+}
+
+int ost_surely_beyond(double size, double spread, double limit)
+{
+    return !(size <= (1.0 + sure * spread) * limit);
+}
+
+int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most)
+{
+    if (throws->count < fewest)
+        return 1;
+    const double size = ost_throws_size(throws), margin = sure * ost_throws_spread(throws) * limit;
+    return throws->count < most && fabs(size - limit) <= margin;
+}

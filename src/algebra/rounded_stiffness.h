@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_ROUNDED_STIFFNESS_H
+#define ORTHOSTAT_ALGEBRA_ROUNDED_STIFFNESS_H
+
+#include "algebra/block_matrix.h"
+
+/* What double precision leaves unsaid of a stiffness: each of its entries may be off by half a unit in its last place,
+ * both of a pair alike, as one number was rounded. What that does to a displacement is looked at by throws of the
+ * signs at random, and told by the root of the mean square over them. */
+
+/* Local. The force (K' - K) u, of K' every entry of which is up or down by DBL_EPSILON / 2 of it; `throw` numbers the
+ * signs. u comes with its ghosts, and so does `number`, a number of each node that is its own: the same numbers give
+ * the same signs on any ranks. `force` has 3 × rows numbers. */
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int throw,
+                                 double *force);
+
+/* Sizes that throws had. */
+typedef struct OstThrows {
+    int count;
+    double squares;
+} OstThrows;
+
+static inline void ost_throws_add(OstThrows *throws, double size)
+{
+    throws->count++;
+    throws->squares += size * size;
+}
+
+/* Local. The root of the mean square, and its standard error over itself. That is of one soft mode, which is what there
+ * is to find in a badly conditioned body: sizes are then of a normal distribution; of more modes it is less. */
+double ost_throws_size(const OstThrows *throws);
+double ost_throws_spread(const OstThrows *throws);
+
+/* Local. Is `size` surely beyond the limit, by three standard errors? What is no number is. */
+int ost_surely_beyond(double size, double spread, double limit);
+
+/* Local. Is it so near to the limit that more throws are called for? */
+int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most);
+
+#endif

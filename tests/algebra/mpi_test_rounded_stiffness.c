@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "elastic_block.h"
+
+#include "algebra/rounded_stiffness.h"
+
+#include <float.h>
+
+static const ElasticBlock uneven = {
+    .bricks = {2, 3, 5}, .size = {1.0, 0.2, 3.0}, .modulus = 1e9, .poisson = 0.4, .contrast = 1e-6, .held = 1};
+
+typedef struct Rounded {
+    ElasticProblem problem;
+    OstGlobal *number;
+    double *u, *force; /* u with ghosts */
+} Rounded;
+
+static Rounded make(void)
+{
+    Rounded rounded = {.u = NULL};
+    assert_success(elastic_create(ctx, &uneven, &rounded.problem));
+    const OstBlockMatrix *matrix = rounded.problem.matrix;
+    assert_success(OST_NEW(ctx, &rounded.number, matrix->columns));
+    assert_success(OST_NEW(ctx, &rounded.u, 3 * (size_t)matrix->columns));
+    assert_success(OST_NEW(ctx, &rounded.force, 3 * (size_t)matrix->rows));
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        rounded.number[row] = matrix->first_row + row;
+    assert_success(ost_halo_import(matrix->halo, sizeof *rounded.number, rounded.number));
+    return rounded;
+}
+
+static void destroy(Rounded *rounded)
+{
+    elastic_destroy(&rounded->problem);
+    OST_FREE(rounded->number);
+    OST_FREE(rounded->u);
+    OST_FREE(rounded->force);
+}
+
+/* Something of every mode, the same on any ranks; `kind` of many. */
+static double wave(const Rounded *rounded, OstLocal column, int c, int kind)
+{
+    return sin((1.0 + 0.7 * kind) * (double)(3 * rounded->number[column] + c) + kind);
+}
+
+static void throw_at_wave(Rounded *rounded, int kind, int throw)
+{
+    const OstBlockMatrix *matrix = rounded->problem.matrix;
+    for (OstLocal column = 0; column < matrix->columns; column++)
+        for (int c = 0; c < 3; c++)
+            rounded->u[3 * column + c] = wave(rounded, column, c, kind);
+    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, throw, rounded->force);
+}
+
+static double sum_over_ranks(double sum)
+{
+    assert_int_equal(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)), MPI_SUCCESS);
+    return sum;
+}
+
+/* A wave times the force of another. */
+static double work_of(const Rounded *rounded, int kind)
+{
+    double sum = 0.0;
+    for (OstLocal row = 0; row < rounded->problem.matrix->rows; row++)
+        for (int c = 0; c < 3; c++)
+            sum += wave(rounded, row, c, kind) * rounded->force[3 * row + c];
+    return sum_over_ranks(sum);
+}
+
+/* Both entries of a pair are one number, on whichever ranks they are: v·(K' - K) u = u·(K' - K) v. */
+static void a_rounded_stiffness_is_symmetric(void **state)
+{
+    (void)state;
+    Rounded rounded = make();
+    for (int throw = 0; throw < 5; throw ++) {
+        throw_at_wave(&rounded, 0, throw);
+        const double one = work_of(&rounded, 1);
+        throw_at_wave(&rounded, 1, throw);
+        const double other = work_of(&rounded, 0);
+        assert_true(fabs(one) > 0.0);
+        assert_close(one, other, 1e-10 * fabs(one));
+    }
+    destroy(&rounded);
+}
+
+/* Of a u that is 1 in one unknown, the force is that column of K' - K. Sums (K' - K) : K over throws. */
+static double column_of_entries(Rounded *rounded, OstGlobal node, int component)
+{
+    enum { THROWS = 16 };
+    const OstBlockMatrix *matrix = rounded->problem.matrix;
+    double sum = 0.0;
+    for (OstLocal column = 0; column < matrix->columns; column++)
+        for (int c = 0; c < 3; c++)
+            rounded->u[3 * column + c] = rounded->number[column] == node && c == component;
+    for (int throw = 0; throw < THROWS; throw ++) {
+        ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, throw, rounded->force);
+        for (OstLocal row = 0; row < matrix->rows; row++)
+            for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
+                for (int c = 0; c < 3; c++) {
+                    const double entry = matrix->value[9 * (size_t)k + (size_t)(3 * c + component)];
+                    if (rounded->number[matrix->column[k]] != node || entry == 0.0)
+                        continue;
+                    const double off = rounded->force[3 * row + c] / entry;
+                    assert_close(fabs(off), 0.5 * DBL_EPSILON, 0.0);
+                    sum += off > 0.0 ? 1.0 : -1.0;
+                }
+    }
+    return sum_over_ranks(sum) / THROWS;
+}
+
+static void every_entry_is_off_by_half_a_unit_in_its_last_place_up_or_down(void **state)
+{
+    (void)state;
+    Rounded rounded = make();
+    const OstGlobal nodes = rounded.problem.matrix->global_rows;
+    double sum = 0.0;
+    for (OstGlobal node = 0; node < nodes; node++)
+        for (int c = 0; c < 3; c++)
+            sum += column_of_entries(&rounded, node, c);
+    /* Some 45 entries a column, twice each of 16 throws: the mean of so many signs has five standard errors of this. */
+    assert_true(fabs(sum) < 5.0 * sqrt(2.0 * 45.0 * 3.0 * (double)nodes / 16.0));
+    destroy(&rounded);
+}
+
+static void throws_differ(void **state)
+{
+    (void)state;
+    Rounded rounded = make();
+    const size_t n = 3 * (size_t)rounded.problem.matrix->rows;
+    double *first = NULL, product = 0.0, square = 0.0;
+    assert_success(OST_NEW(ctx, &first, n));
+    throw_at_wave(&rounded, 0, 0);
+    memcpy(first, rounded.force, n * sizeof *first);
+    for (int throw = 1; throw < 20; throw ++) {
+        throw_at_wave(&rounded, 0, throw);
+        for (size_t i = 0; i < n; i++) {
+            product += first[i] * rounded.force[i] / 19.0;
+            square += first[i] * first[i] / 19.0;
+        }
+    }
+    assert_true(fabs(sum_over_ranks(product)) < 0.2 * sum_over_ranks(square));
+    OST_FREE(first);
+    destroy(&rounded);
+}
+
+static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
+{
+    (void)state;
+    OstThrows throws = {0, 0.0};
+    ost_throws_add(&throws, 3.0);
+    ost_throws_add(&throws, 4.0);
+    assert_close(ost_throws_size(&throws), sqrt(12.5), 1e-15);
+    assert_close(ost_throws_spread(&throws), 0.5, 1e-15); /* of chi squared with 2 degrees of freedom: 1/sqrt(2·2) */
+}
+
+/* Eight throws tell a size but for 75 % (three times 1/sqrt(2·8)), 32 but for 37.5 %. */
+static void more_throws_are_called_for_near_the_limit(void **state)
+{
+    (void)state;
+    OstThrows throws = {7, 7 * 100.0};
+    assert_true(ost_throws_undecided(&throws, 1.0, 8, 32)); /* too few, whatever they say */
+    const double decided[] = {0.24, 1.76, (double)NAN, (double)INFINITY}, undecided[] = {0.26, 1.0, 1.74};
+    for (int i = 0; i < 4; i++) {
+        throws = (OstThrows){8, 8 * decided[i] * decided[i]};
+        assert_false(ost_throws_undecided(&throws, 1.0, 8, 32));
+    }
+    for (int i = 0; i < 3; i++) {
+        throws = (OstThrows){8, 8 * undecided[i] * undecided[i]};
+        assert_true(ost_throws_undecided(&throws, 1.0, 8, 32));
+        throws = (OstThrows){32, 32 * undecided[i] * undecided[i]};
+        assert_false(ost_throws_undecided(&throws, 1.0, 8, 32)); /* as many as there may be */
+    }
+}
+
+static void what_is_surely_beyond_is_three_standard_errors_beyond(void **state)
+{
+    (void)state;
+    assert_false(ost_surely_beyond(0.1, 0.0, 0.1));
+    assert_true(ost_surely_beyond(0.1001, 0.0, 0.1));
+    assert_false(ost_surely_beyond(0.129, 0.1, 0.1));
+    assert_true(ost_surely_beyond(0.131, 0.1, 0.1));
+    assert_true(ost_surely_beyond((double)NAN, 0.1, 0.1));
+    assert_true(ost_surely_beyond((double)INFINITY, 0.1, 0.1));
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_rounded_stiffness_is_symmetric),
+    cmocka_unit_test(every_entry_is_off_by_half_a_unit_in_its_last_place_up_or_down),
+    cmocka_unit_test(throws_differ),
+    cmocka_unit_test(sizes_are_told_by_the_root_of_their_mean_square),
+    cmocka_unit_test(more_throws_are_called_for_near_the_limit),
+    cmocka_unit_test(what_is_surely_beyond_is_three_standard_errors_beyond),
+};
+
+OST_TEST_MAIN(tests)
