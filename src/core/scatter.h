@@ -14,10 +14,4 @@ static inline uint64_t ost_scatter(uint64_t number)
     return number ^ (number >> 31);
 }
 
-/* 1 or -1; `which` of many such throws for the same number. */
-static inline double ost_scatter_sign(uint64_t number, int which)
-{
-    return ost_scatter(ost_scatter(number) + (uint64_t)which) & 1 ? 1.0 : -1.0;
-}
-
 #endif
