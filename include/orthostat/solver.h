@@ -89,7 +89,7 @@ typedef struct OstSolveReport {
     double error_estimate;  /* |u - u*| / |u| about, u the unknowns: in the norm of the energy, sqrt(u·K u); the 2-norm
                                where factors are at hand. 0 if not known (PLAIN), INFINITY if there is no bound */
     double rounding_error;  /* what of it rounding of K explains; 0 where three digits are left, and nobody asked */
-    double rounding_spread; /* standard error of that, over it: a mean over roundings thrown at random */
+    double rounding_spread; /* standard error of that, over it, where it is a mean over roundings thrown at random */
     OstSolverPlan plan;
     int steps; /* one more than times climbed */
     OstSolveStep step[OST_MAX_STEPS];

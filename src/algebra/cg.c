@@ -215,7 +215,7 @@ static OstStatus report_error(const Cg *cg, const double *f, const double *u, co
     /* Factors whose steps do not settle are what rounding made them. */
     report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
     report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
-    report->rounding_spread = known ? error.spread : 0.0;
+    report->rounding_spread = known && error.rounding >= goal->drift ? error.spread : 0.0;
     return OST_SUCCESS;
 }
 

@@ -63,9 +63,9 @@ static OstStatus find_numbers(Work *work)
 }
 
 /* The vector is what a rounding of A leaves of the residual. */
-static void throw_signs(Work *work, int throw)
+static void throw_rounding(Work *work, int which)
 {
-    ost_rounded_stiffness_force(work->system->matrix, work->number, work->u, throw, work->vector);
+    ost_rounded_stiffness_force(work->system->matrix, work->number, work->u, which, work->vector);
 }
 
 /* M^-1 v; v is divided by `size` before: preconditioners work in single precision too. */
@@ -139,7 +139,7 @@ static OstStatus measure_closely(Work *work, double *error)
         OST_TRY(find_norm(work, work->solution, error));
         indefinite = work->step->energy == 0.0 && moved > 0.0;
     }
-    work->lost |= indefinite || !(moved <= roughly * *error);
+    work->lost = indefinite || !(moved <= roughly * *error);
     return OST_SUCCESS;
 }
 
@@ -155,10 +155,12 @@ static OstStatus look_closer(Work *work, OstEnergyError *error)
     memcpy(work->vector, work->residual, work->n * sizeof(double));
     OST_TRY(look(work, &residual));
     while (!work->lost && ost_throws_undecided(&throws, ost_least_digit, FEWEST_THROWS, MOST_THROWS)) {
-        throw_signs(work, 1 + throws.count);
+        throw_rounding(work, 1 + throws.count);
         OST_TRY(look(work, &one));
         ost_throws_add(&throws, one);
     }
+    if (work->lost)
+        return OST_SUCCESS;
     error->rounding = ost_throws_size(&throws);
     error->spread = ost_throws_spread(&throws);
     error->whole = hypot(residual, error->rounding);
@@ -199,7 +201,7 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     OST_TRY(find_displacement(work));
     error->rounding = 0.0;
     OST_TRY(find_numbers(work));
-    throw_signs(work, 0);
+    throw_rounding(work, 0);
     for (size_t i = 0; i < work->n; i++)
         work->vector[i] += work->residual[i];
     if (exact && work->preconditioner->factors)

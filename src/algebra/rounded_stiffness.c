@@ -10,28 +10,38 @@
 /* Standard errors that make sure. */
 static const double sure = 3.0;
 
-/* Bits of the entries of a block below the diagonal, above it, and on it. */
-static const int bit_of_entry[3][9] = {
-    {0, 1, 2, 3, 4, 5, 6, 7, 8}, {0, 3, 6, 1, 4, 7, 2, 5, 8}, {0, 3, 6, 3, 4, 7, 6, 7, 8}};
+/* Where a block of the matrix is; which of the pair's nine bits is each entry's there. */
+typedef enum { BELOW_DIAGONAL, ABOVE_DIAGONAL, ON_DIAGONAL } Place;
 
-/* A bit for each entry of the block of two nodes, and the same for the transposed one's. */
-static uint64_t signs_of_pair(OstGlobal i, OstGlobal j, int throw)
+static const int bit_of_entry[][9] = {
+    [BELOW_DIAGONAL] = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+    [ABOVE_DIAGONAL] = {0, 3, 6, 1, 4, 7, 2, 5, 8},
+    [ON_DIAGONAL] = {0, 3, 6, 3, 4, 7, 6, 7, 8},
+};
+
+static inline Place place_of_block(OstGlobal i, OstGlobal j)
 {
-    const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
-    return ost_scatter(ost_scatter(ost_scatter(low) + high) + (uint64_t) throw);
+    if (i == j)
+        return ON_DIAGONAL;
+    return i > j ? BELOW_DIAGONAL : ABOVE_DIAGONAL;
 }
 
-/* `bit` tells which bit is each entry's. */
-static inline void add_block(const double *block, uint64_t signs, const int bit[9], const double *u, double *force)
+static inline uint64_t bits_of_pair(OstGlobal i, OstGlobal j, int which)
+{
+    const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
+    return ost_scatter(ost_scatter(ost_scatter(low) + high) + (uint64_t)which);
+}
+
+static inline void add_block(const double *block, uint64_t bits, Place place, const double *u, double *force)
 {
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
-            const double half = (double)(int)(signs >> bit[3 * r + c] & 1) - 0.5;
+            const double half = (double)(int)(bits >> bit_of_entry[place][3 * r + c] & 1) - 0.5;
             force[r] += half * DBL_EPSILON * (block[3 * r + c] * u[c]);
         }
 }
 
-void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int throw,
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int which,
                                  double *force)
 {
     memset(force, 0, 3 * (size_t)matrix->rows * sizeof *force);
@@ -39,7 +49,7 @@ void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *
         for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
             const OstLocal column = matrix->column[k];
             const OstGlobal i = number[row], j = number[column];
-            add_block(matrix->value + 9 * (size_t)k, signs_of_pair(i, j, throw), bit_of_entry[(i <= j) + (i == j)],
+            add_block(matrix->value + 9 * (size_t)k, bits_of_pair(i, j, which), place_of_block(i, j),
                       u + 3 * (size_t)column, force + 3 * (size_t)row);
         }
 }

@@ -4,14 +4,14 @@
 
 #include "algebra/block_matrix.h"
 
-/* What double precision leaves unsaid of a stiffness: each of its entries may be off by half a unit in its last place,
- * both of a pair alike, as one number was rounded. What that does to a displacement is looked at by throws of the
- * signs at random, and told by the root of the mean square over them. */
+/* What double precision leaves unsaid of a stiffness: each of its entries may be off by 2^-53 of itself, both of a pair
+ * alike, as one number was rounded. What that does to a displacement is looked at by throws of the signs at random, and
+ * told by the root of the mean square over them. */
 
-/* Local. The force (K' - K) u, of K' every entry of which is up or down by DBL_EPSILON / 2 of it; `throw` numbers the
- * signs. u comes with its ghosts, and so does `number`, a number of each node that is its own: the same numbers give
- * the same signs on any ranks. `force` has 3 × rows numbers. */
-void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int throw,
+/* Local. The force (K' - K) u, every entry of K' being up or down by 2^-53 of K's; `which` of many such throws. u comes
+ * with its ghosts, and so does `number`, a number of each node that is its own: the same numbers give the same signs on
+ * any ranks. `force` has 3 × rows numbers. */
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int which,
                                  double *force);
 
 /* Sizes that throws had. */
@@ -26,15 +26,16 @@ static inline void ost_throws_add(OstThrows *throws, double size)
     throws->squares += size * size;
 }
 
-/* Local. The root of the mean square, and its standard error over itself. That is of one soft mode, which is what there
- * is to find in a badly conditioned body: sizes are then of a normal distribution; of more modes it is less. */
+/* Local. The root of the mean square, and its standard error over itself. That is for one soft mode, which is what
+ * there is to find in a badly conditioned body: its share is normally distributed. With more modes it is less. */
 double ost_throws_size(const OstThrows *throws);
 double ost_throws_spread(const OstThrows *throws);
 
 /* Local. Is `size` surely beyond the limit, by three standard errors? What is no number is. */
 int ost_surely_beyond(double size, double spread, double limit);
 
-/* Local. Is it so near to the limit that more throws are called for? */
+/* Local. Are more throws called for? They are below `fewest`, and below `most` while the limit is within three standard
+ * errors. */
 int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most);
 
 #endif

@@ -56,8 +56,8 @@ typedef struct OstHardTruth {
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: error allowed by a residual, over that residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
     double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
-    double rounded; /* how far u* moves when every entry of K does by half a unit in its last place, root of the mean
-                       square over signs at random; NAN where the factors leave three digits, and nobody asked */
+    double rounded; /* how far u* moves when every entry of K does by 2^-53 of itself, root of the mean square over
+                       signs at random; NAN where the factors leave three digits, and nobody asked */
 } OstHardTruth;
 
 typedef struct OstHardReading {

@@ -76,7 +76,9 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
 
 /* --- what rounding the stiffness does to it --- */
 
-/* Vectors with room for ghosts: labels and u*. Leaves the solution of the last throw in `direct->u`. */
+/* Throws as the program's own, tested against other roundings (tests/algebra/mpi_test_energy_error.c), of other signs
+ * and with a factorisation led to 32 digits. Vectors with room for ghosts: labels and u*. Leaves the solution of the
+ * last throw in `direct->u`. */
 static OstStatus try_roundings(OstHardDirect *direct, const OstGlobal *label, const double *u, double *force,
                                OstHardTruth *truth)
 {

@@ -198,6 +198,8 @@ static void factors_go_on_where_rounding_hides_the_energy(void **state)
     assert_true(report.iterations >= 1 && report.iterations < 20);
     assert_close(report.condition_estimate, 1.0, 1e-12);
     assert_true(report.error_estimate > 1e-6); /* some 1e14 times 1e-16 */
+    assert_true(report.rounding_error > 0.05 && report.rounding_error < 0.5);
+    assert_true(report.rounding_spread >= 1.0 / sqrt(2.0 * 64.0) && report.rounding_spread <= 0.25);
     ost_mumps_destroy(&factors);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);

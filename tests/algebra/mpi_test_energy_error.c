@@ -314,9 +314,8 @@ static OstStatus halve(void *data, const double *r, double *z)
     return OST_SUCCESS;
 }
 
-/* A direction of negative energy in which u has nothing, and so no rounding of A either: what the residual found in it
- * stays found, however harmless the throws are. */
-static void an_indefinite_matrix_is_not_forgotten_where_rounding_is_harmless(void **state)
+/* A direction of negative energy in which u has nothing, and so no rounding of A either. */
+static void a_negative_energy_that_no_rounding_reaches_is_found_by_the_residual(void **state)
 {
     (void)state;
     ElasticProblem problem = diagonal_bar((const double[3]){2.0, 2.0, 2.0});
@@ -362,7 +361,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_rounding_does_is_told_by_factors_that_miss_a_soft_mode),
     cmocka_unit_test(near_the_least_digit_more_throws_are_made),
     cmocka_unit_test(a_matrix_that_rounding_left_indefinite_holds_no_digit),
-    cmocka_unit_test(an_indefinite_matrix_is_not_forgotten_where_rounding_is_harmless),
+    cmocka_unit_test(a_negative_energy_that_no_rounding_reaches_is_found_by_the_residual),
     cmocka_unit_test(what_cannot_be_measured_is_no_number),
 };
 

@@ -4,6 +4,7 @@
 #include "elastic_block.h"
 
 #include "algebra/rounded_stiffness.h"
+#include "algebra/term_rounding.h"
 
 #include <float.h>
 
@@ -44,13 +45,13 @@ static double wave(const Rounded *rounded, OstLocal column, int c, int kind)
     return sin((1.0 + 0.7 * kind) * (double)(3 * rounded->number[column] + c) + kind);
 }
 
-static void throw_at_wave(Rounded *rounded, int kind, int throw)
+static void throw_at_wave(Rounded *rounded, int kind, int which)
 {
     const OstBlockMatrix *matrix = rounded->problem.matrix;
     for (OstLocal column = 0; column < matrix->columns; column++)
         for (int c = 0; c < 3; c++)
             rounded->u[3 * column + c] = wave(rounded, column, c, kind);
-    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, throw, rounded->force);
+    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, which, rounded->force);
 }
 
 static double sum_over_ranks(double sum)
@@ -74,10 +75,10 @@ static void a_rounded_stiffness_is_symmetric(void **state)
 {
     (void)state;
     Rounded rounded = make();
-    for (int throw = 0; throw < 5; throw ++) {
-        throw_at_wave(&rounded, 0, throw);
+    for (int which = 0; which < 5; which++) {
+        throw_at_wave(&rounded, 0, which);
         const double one = work_of(&rounded, 1);
-        throw_at_wave(&rounded, 1, throw);
+        throw_at_wave(&rounded, 1, which);
         const double other = work_of(&rounded, 0);
         assert_true(fabs(one) > 0.0);
         assert_close(one, other, 1e-10 * fabs(one));
@@ -85,42 +86,72 @@ static void a_rounded_stiffness_is_symmetric(void **state)
     destroy(&rounded);
 }
 
-/* Of a u that is 1 in one unknown, the force is that column of K' - K. Sums (K' - K) : K over throws. */
-static double column_of_entries(Rounded *rounded, OstGlobal node, int component)
+/* Of a u that is 1 in one unknown, the force is that column of K' - K. */
+static void throw_at_unknown(Rounded *rounded, OstGlobal node, int component, int which)
 {
-    enum { THROWS = 16 };
     const OstBlockMatrix *matrix = rounded->problem.matrix;
-    double sum = 0.0;
     for (OstLocal column = 0; column < matrix->columns; column++)
         for (int c = 0; c < 3; c++)
             rounded->u[3 * column + c] = rounded->number[column] == node && c == component;
-    for (int throw = 0; throw < THROWS; throw ++) {
-        ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, throw, rounded->force);
-        for (OstLocal row = 0; row < matrix->rows; row++)
-            for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-                for (int c = 0; c < 3; c++) {
-                    const double entry = matrix->value[9 * (size_t)k + (size_t)(3 * c + component)];
-                    if (rounded->number[matrix->column[k]] != node || entry == 0.0)
-                        continue;
-                    const double off = rounded->force[3 * row + c] / entry;
-                    assert_close(fabs(off), 0.5 * DBL_EPSILON, 0.0);
-                    sum += off > 0.0 ? 1.0 : -1.0;
-                }
-    }
-    return sum_over_ranks(sum) / THROWS;
+    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, which, rounded->force);
 }
 
-static void every_entry_is_off_by_half_a_unit_in_its_last_place_up_or_down(void **state)
+/* The signs that each row's entries in a node's columns are thrown with; 0 where K has none. */
+typedef signed char Signs[3][3];
+
+static void find_signs(Rounded *rounded, OstGlobal node, int which, Signs *signs)
+{
+    const OstBlockMatrix *matrix = rounded->problem.matrix;
+    memset(signs, 0, (size_t)matrix->rows * sizeof *signs);
+    for (int c = 0; c < 3; c++) {
+        throw_at_unknown(rounded, node, c, which);
+        for (OstLocal row = 0; row < matrix->rows; row++)
+            for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
+                for (int r = 0; r < 3 && rounded->number[matrix->column[k]] == node; r++) {
+                    const double entry = matrix->value[9 * (size_t)k + (size_t)(3 * r + c)];
+                    if (entry == 0.0)
+                        continue;
+                    const double off = rounded->force[3 * row + r] / entry;
+                    assert_close(fabs(off), 0.5 * DBL_EPSILON, 0.0);
+                    signs[row][r][c] = off > 0.0 ? 1 : -1;
+                }
+    }
+}
+
+/* Sums over a block of signs, and of products of neighbours among them. */
+static void add_signs(Signs block, int is_diagonal, double sum[2], double count[2])
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            sum[0] += block[r][c];
+            count[0] += abs(block[r][c]);
+            if (is_diagonal) /* where neighbours may be a pair */
+                continue;
+            const int along = block[r][c] * block[r][(c + 1) % 3], across = block[r][c] * block[(r + 1) % 3][c];
+            sum[1] += along + across;
+            count[1] += abs(along) + abs(across);
+        }
+}
+
+/* The sums stay within five standard errors of none, those of so many throws, both signs of a pair being one. */
+static void every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down(void **state)
 {
     (void)state;
+    enum { THROWS = 16 };
     Rounded rounded = make();
-    const OstGlobal nodes = rounded.problem.matrix->global_rows;
-    double sum = 0.0;
-    for (OstGlobal node = 0; node < nodes; node++)
-        for (int c = 0; c < 3; c++)
-            sum += column_of_entries(&rounded, node, c);
-    /* Some 45 entries a column, twice each of 16 throws: the mean of so many signs has five standard errors of this. */
-    assert_true(fabs(sum) < 5.0 * sqrt(2.0 * 45.0 * 3.0 * (double)nodes / 16.0));
+    const OstBlockMatrix *matrix = rounded.problem.matrix;
+    Signs *signs = NULL;
+    double sum[2] = {0.0}, count[2] = {0.0};
+    assert_success(OST_NEW(ctx, &signs, matrix->rows));
+    for (OstGlobal node = 0; node < matrix->global_rows; node++)
+        for (int which = 0; which < THROWS; which++) {
+            find_signs(&rounded, node, which, signs);
+            for (OstLocal row = 0; row < matrix->rows; row++)
+                add_signs(signs[row], rounded.number[row] == node, sum, count);
+        }
+    for (int k = 0; k < 2; k++)
+        assert_true(fabs(sum_over_ranks(sum[k])) < 5.0 * sqrt(2.0 * sum_over_ranks(count[k])));
+    OST_FREE(signs);
     destroy(&rounded);
 }
 
@@ -133,8 +164,8 @@ static void throws_differ(void **state)
     assert_success(OST_NEW(ctx, &first, n));
     throw_at_wave(&rounded, 0, 0);
     memcpy(first, rounded.force, n * sizeof *first);
-    for (int throw = 1; throw < 20; throw ++) {
-        throw_at_wave(&rounded, 0, throw);
+    for (int which = 1; which < 20; which++) {
+        throw_at_wave(&rounded, 0, which);
         for (size_t i = 0; i < n; i++) {
             product += first[i] * rounded.force[i] / 19.0;
             square += first[i] * first[i] / 19.0;
@@ -143,6 +174,48 @@ static void throws_differ(void **state)
     assert_true(fabs(sum_over_ranks(product)) < 0.2 * sum_over_ranks(square));
     OST_FREE(first);
     destroy(&rounded);
+}
+
+/* Signs of a row's terms that are independent add up, in the mean square, to the root of the sum of their squares. */
+static void entries_of_a_row_are_rounded_independently(void **state)
+{
+    (void)state;
+    enum { THROWS = 64 };
+    Rounded rounded = make();
+    const size_t n = 3 * (size_t)rounded.problem.matrix->rows;
+    double *expected = NULL, squares[2] = {0.0, 0.0};
+    assert_success(OST_NEW(ctx, &expected, n));
+    for (int which = 0; which < THROWS; which++) {
+        throw_at_wave(&rounded, 0, which);
+        for (size_t i = 0; i < n; i++)
+            squares[0] += rounded.force[i] * rounded.force[i] / THROWS;
+    }
+    ost_term_rounding(rounded.problem.matrix, rounded.u, expected);
+    for (size_t i = 0; i < n; i++)
+        squares[1] += 0.25 * expected[i] * expected[i];
+    const double all = sum_over_ranks(squares[1]);
+    assert_close(sum_over_ranks(squares[0]), all, 0.1 * all);
+    OST_FREE(expected);
+    destroy(&rounded);
+}
+
+/* On this rank alone and on all of them, of the same numbers. */
+static void signs_do_not_depend_on_ranks(void **state)
+{
+    (void)state;
+    OstContext *world = ctx;
+    double work[2];
+    for (int alone = 0; alone < 2; alone++) {
+        if (alone)
+            assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
+        Rounded rounded = make();
+        throw_at_wave(&rounded, 0, 3);
+        work[alone] = work_of(&rounded, 1);
+        destroy(&rounded);
+    }
+    ost_context_destroy(&ctx);
+    ctx = world;
+    assert_close(work[0], work[1], 1e-10 * fabs(work[1]));
 }
 
 static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
@@ -187,8 +260,10 @@ static void what_is_surely_beyond_is_three_standard_errors_beyond(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_rounded_stiffness_is_symmetric),
-    cmocka_unit_test(every_entry_is_off_by_half_a_unit_in_its_last_place_up_or_down),
+    cmocka_unit_test(every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down),
     cmocka_unit_test(throws_differ),
+    cmocka_unit_test(entries_of_a_row_are_rounded_independently),
+    cmocka_unit_test(signs_do_not_depend_on_ranks),
     cmocka_unit_test(sizes_are_told_by_the_root_of_their_mean_square),
     cmocka_unit_test(more_throws_are_called_for_near_the_limit),
     cmocka_unit_test(what_is_surely_beyond_is_three_standard_errors_beyond),

@@ -160,6 +160,18 @@ static void rounding_that_leaves_no_digit_is_seen(void **state)
     check(&solved);
     assert_int_equal(solved.result.objections.count, 0);
     report->rounding_spread = 0.02;
+    report->rounding_limited = 1; /* the residual's part has no such excuse */
+    report->rounding_error = 0.02;
+    report->rounding_spread = 0.25;
+    report->error_estimate = 0.17;
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 1);
+    assert_true(objects_to(&solved, "an error of about 0.2"));
+    report->rounding_error = 0.168; /* nearly all of it is of throws: 0.175 is their border */
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 0);
+    report->rounding_limited = 0;
+    report->rounding_spread = 0.02;
     const double wrong[] = {0.11, (double)INFINITY, (double)NAN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         report->rounding_error = report->error_estimate = wrong[i];
