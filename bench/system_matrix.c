@@ -111,10 +111,12 @@ done:
 static OstStatus copy_rows(OstContext *ctx, const SystemFile *system, OstBlockMatrix *matrix)
 {
     const size_t rows = (size_t)system->rows, blocks = (size_t)system->blocks;
+    OST_TRY(OST_NEW(ctx, &matrix->label, matrix->columns));
     OST_TRY(OST_NEW(ctx, &matrix->row_start, rows + 1));
     OST_TRY(OST_NEW(ctx, &matrix->column, blocks));
     OST_TRY(OST_NEW(ctx, &matrix->diagonal, rows));
     OST_TRY(OST_NEW(ctx, &matrix->value, 9 * blocks));
+    memcpy(matrix->label, system->label, rows * sizeof *system->label);
     memcpy(matrix->row_start, system->row_start, (rows + 1) * sizeof *system->row_start);
     memcpy(matrix->column, system->column, blocks * sizeof *system->column);
     memcpy(matrix->value, system->value, 9 * blocks * sizeof *system->value);
@@ -139,6 +141,7 @@ OstStatus ost_bench_matrix(OstContext *ctx, const SystemFile *system, OstBlockMa
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_halo_create(ctx, system->rows, system->first_row, system->ghosts, system->ghost_row, &made->halo));
+    OST_TRY_DONE(ost_halo_import(made->halo, sizeof *made->label, made->label));
 done:
     if (status != OST_SUCCESS)
         ost_block_matrix_destroy(&made);

@@ -8,6 +8,7 @@ void ost_block_matrix_destroy(OstBlockMatrix **matrix)
 {
     if (!*matrix)
         return;
+    OST_FREE((*matrix)->label);
     OST_FREE((*matrix)->row_start);
     OST_FREE((*matrix)->column);
     OST_FREE((*matrix)->diagonal);

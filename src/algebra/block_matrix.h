@@ -12,6 +12,7 @@ typedef struct OstBlockMatrix {
     OstLocal columns;    /* rows + ghosts */
     OstGlobal first_row; /* global number of row 0 */
     OstGlobal global_rows;
+    OstGlobal *label;    /* columns: a number of each node's own, the same on any ranks */
     OstLocal *row_start; /* rows + 1 */
     OstLocal *column;    /* row_start[rows] */
     OstLocal *diagonal;  /* rows: where each diagonal block is */

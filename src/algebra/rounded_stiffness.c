@@ -41,14 +41,13 @@ static inline void add_block(const double *block, uint64_t bits, Place place, co
         }
 }
 
-void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int which,
-                                 double *force)
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force)
 {
     memset(force, 0, 3 * (size_t)matrix->rows * sizeof *force);
     for (OstLocal row = 0; row < matrix->rows; row++)
         for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
             const OstLocal column = matrix->column[k];
-            const OstGlobal i = number[row], j = number[column];
+            const OstGlobal i = matrix->label[row], j = matrix->label[column];
             add_block(matrix->value + 9 * (size_t)k, bits_of_pair(i, j, which), place_of_block(i, j),
                       u + 3 * (size_t)column, force + 3 * (size_t)row);
         }

@@ -8,11 +8,10 @@
  * alike, as one number was rounded. What that does to a displacement is looked at by throws of the signs at random, and
  * told by the root of the mean square over them. */
 
-/* Local. The force (K' - K) u, every entry of K' being up or down by 2^-53 of K's; `which` of many such throws. u comes
- * with its ghosts, and so does `number`, a number of each node that is its own: the same numbers give the same signs on
- * any ranks. `force` has 3 × rows numbers. */
-void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const OstGlobal *number, const double *u, int which,
-                                 double *force);
+/* Local. The force (K' - K) u, every entry of K' being up or down by 2^-53 of K's; `which` of many such throws, whose
+ * signs follow the nodes' labels and so are the same on any ranks. u comes with its ghosts; `force` has 3 × rows
+ * numbers. */
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force);
 
 /* Sizes that throws had. */
 typedef struct OstThrows {

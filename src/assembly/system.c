@@ -48,9 +48,14 @@ static OstStatus number_rows(const OstMesh *mesh, const OstSupports *supports, O
     }
     system->matrix->columns = columns;
     OST_TRY(OST_NEW(ctx, &system->node_of_row, columns));
-    for (OstLocal node = 0; node < mesh->node_count; node++)
-        if (system->row_of_node[node] >= 0)
-            system->node_of_row[system->row_of_node[node]] = node;
+    OST_TRY(OST_NEW(ctx, &system->matrix->label, columns));
+    for (OstLocal node = 0; node < mesh->node_count; node++) {
+        const OstLocal row = system->row_of_node[node];
+        if (row < 0)
+            continue;
+        system->node_of_row[row] = node;
+        system->matrix->label[row] = mesh->node_label[node];
+    }
     return OST_SUCCESS;
 }
 

@@ -9,7 +9,7 @@ static const double mesh_node_bytes = 24.0 + 8.0 + 8.0;      /* coordinates, num
 static const double mesh_tet_bytes = 16.0 + 8.0 + 8.0 + 4.0; /* nodes, label, index, region */
 static const double tet_axes_bytes = 72.0;                   /* where axes vary */
 static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
-static const double row_bytes = 4.0 + 4.0 + 4.0 + 4.0;       /* start, diagonal, and both maps of nodes and rows */
+static const double row_bytes = 8.0 + 4.0 + 4.0 + 4.0 + 4.0; /* label, start, diagonal, both maps of nodes and rows */
 static const double scatter_bytes = 16.0 * 4.0;              /* where the 16 blocks of a tet go */
 static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
 

@@ -12,6 +12,9 @@
  * they are. */
 enum { INVERSE_STEPS = 6, FEWEST_ROUNDINGS = 8, MOST_ROUNDINGS = 256 };
 
+/* Before it are those that the program itself throws. */
+enum { FIRST_ROUNDING = 1000 };
+
 /* The solution stands when a correction is no more than this of it; what a rounding moves is wanted less closely. */
 static const double settled = 1e-15, roughly = 1e-2;
 
@@ -37,11 +40,10 @@ static OstStatus find_floor(OstHardDirect *direct, double f_norm, OstHardTruth *
 /* ||K^-1|| by inverse iteration from a vector that has something of every mode, the same on any ranks. */
 static OstStatus find_amplification(OstHardDirect *direct, double f_norm, OstHardTruth *truth)
 {
-    const OstSystem *system = direct->system;
+    const OstGlobal *label = direct->system->matrix->label;
     double norm, inverse = 0.0;
     for (size_t i = 0; i < direct->n; i++)
-        direct->d[i] =
-            1.0 + sin(3.7 * (double)(3 * system->mesh->node_label[system->node_of_row[i / 3]]) + (double)(i % 3));
+        direct->d[i] = 1.0 + sin(3.7 * (double)(3 * label[i / 3]) + (double)(i % 3));
     for (int k = 0; k < INVERSE_STEPS; k++) {
         OST_TRY(ost_hard_direct_norm(direct, direct->d, &norm));
         for (size_t i = 0; i < direct->n; i++)
@@ -77,16 +79,14 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
 /* --- what rounding the stiffness does to it --- */
 
 /* Throws as the program's own, tested against other roundings (tests/algebra/mpi_test_energy_error.c), of other signs
- * and with a factorisation led to 32 digits. Vectors with room for ghosts: labels and u*. Leaves the solution of the
- * last throw in `direct->u`. */
-static OstStatus try_roundings(OstHardDirect *direct, const OstGlobal *label, const double *u, double *force,
-                               OstHardTruth *truth)
+ * and with a factorisation led to 32 digits. u is u* with its ghosts; that of `direct` becomes the last throw's. */
+static OstStatus try_roundings(OstHardDirect *direct, const double *u, double *force, OstHardTruth *truth)
 {
     OstThrows throws = {0, 0.0};
     int known = 1;
     while (known && ost_throws_undecided(&throws, ost_hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
         double moved;
-        ost_rounded_stiffness_force(direct->system->matrix, label, u, throws.count, force);
+        ost_rounded_stiffness_force(direct->system->matrix, u, FIRST_ROUNDING + throws.count, force);
         OST_TRY(ost_hard_direct_solve(direct, force, roughly, NULL, &known));
         OST_TRY(ost_hard_direct_size(direct, &moved));
         ost_throws_add(&throws, moved / truth->size);
@@ -95,28 +95,20 @@ static OstStatus try_roundings(OstHardDirect *direct, const OstGlobal *label, co
     return OST_SUCCESS;
 }
 
-/* Labels of nodes are the same on any ranks, and so are the signs. */
 static OstStatus find_rounded(OstHardDirect *direct, OstHardTruth *truth)
 {
-    const OstSystem *system = direct->system;
-    OstHalo *halo = system->matrix->halo;
-    OstGlobal *label = NULL;
+    const OstBlockMatrix *matrix = direct->system->matrix;
     double *u = NULL, *force = NULL;
-    OstStatus status = OST_NEW(direct->ctx, &u, 3 * (size_t)system->matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(direct->ctx, &label, system->matrix->columns);
+    OstStatus status = OST_NEW(direct->ctx, &u, 3 * (size_t)matrix->columns);
     if (status == OST_SUCCESS)
         status = OST_NEW(direct->ctx, &force, direct->n);
     OST_TRY_DONE(ost_agree(direct->ctx, status));
     for (size_t i = 0; i < direct->n; i++)
         u[i] = direct->u[i].high;
-    for (OstLocal i = 0; i < system->matrix->columns; i++)
-        label[i] = system->mesh->node_label[system->node_of_row[i]];
-    OST_TRY_DONE(ost_halo_import(halo, 3 * sizeof *u, u));
-    OST_TRY_DONE(try_roundings(direct, label, u, force, truth));
+    OST_TRY_DONE(ost_halo_import(matrix->halo, 3 * sizeof *u, u));
+    OST_TRY_DONE(try_roundings(direct, u, force, truth));
 done:
     OST_FREE(u);
-    OST_FREE(label);
     OST_FREE(force);
     return status;
 }

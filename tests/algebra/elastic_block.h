@@ -232,6 +232,10 @@ static inline OstStatus elastic_create(OstContext *context, const ElasticBlock *
     matrix->global_rows = (OstGlobal)layers * slab.plane;
     OST_TRY(elastic_pattern(&slab, matrix));
     OST_TRY(elastic_halo(&slab, matrix));
+    OST_TRY(OST_NEW(context, &matrix->label, matrix->columns));
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        matrix->label[row] = matrix->first_row + row;
+    OST_TRY(ost_halo_import(matrix->halo, sizeof *matrix->label, matrix->label));
     elastic_fill(&slab, matrix);
     return elastic_geometry(&slab, problem);
 }

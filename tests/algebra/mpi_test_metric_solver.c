@@ -114,12 +114,14 @@ static void a_matrix_of_one_row_is_solved(void **state)
     (void)state;
     const int mine = ost_rank(ctx) == ost_size(ctx) - 1;
     OstLocal row_start[2] = {0, 1}, column[1] = {0}, diagonal[1] = {0};
+    OstGlobal label[1] = {0};
     double value[9] = {4, 1, 0, 1, 3, 0, 0, 0, 2}, coordinates[3] = {1, 2, 3}, modes[18];
     const double about[3] = {0, 0, 0}, f[3] = {6, 7, 8}, expected[3] = {1, 2, 4};
     OstBlockMatrix matrix = {.ctx = ctx,
                              .rows = mine,
                              .columns = mine,
                              .global_rows = 1,
+                             .label = label,
                              .row_start = row_start,
                              .column = column,
                              .diagonal = diagonal,
@@ -143,6 +145,7 @@ static OstBlockMatrix *springs(OstLocal parts, OstLocal chain, double *coordinat
     const OstLocal rows = 2 * parts + (ost_rank(ctx) == 0 ? chain : 0);
     const OstGlobal mine = rows;
     assert_success(OST_NEW(ctx, &matrix, 1));
+    assert_success(OST_NEW(ctx, &matrix->label, rows));
     assert_success(OST_NEW(ctx, &matrix->row_start, rows + 1));
     assert_success(OST_NEW(ctx, &matrix->column, 3 * rows));
     assert_success(OST_NEW(ctx, &matrix->diagonal, rows));
@@ -167,6 +170,8 @@ static OstBlockMatrix *springs(OstLocal parts, OstLocal chain, double *coordinat
     matrix->rows = matrix->columns = rows;
     MPI_Scan(&mine, &matrix->first_row, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx));
     matrix->first_row -= rows;
+    for (OstLocal i = 0; i < rows; i++)
+        matrix->label[i] = matrix->first_row + i;
     MPI_Allreduce(&mine, &matrix->global_rows, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx));
     assert_success(ost_halo_create(ctx, rows, matrix->first_row, 0, NULL, &matrix->halo));
     return matrix;

@@ -13,7 +13,6 @@ static const ElasticBlock uneven = {
 
 typedef struct Rounded {
     ElasticProblem problem;
-    OstGlobal *number;
     double *u, *force; /* u with ghosts */
 } Rounded;
 
@@ -22,19 +21,14 @@ static Rounded make(void)
     Rounded rounded = {.u = NULL};
     assert_success(elastic_create(ctx, &uneven, &rounded.problem));
     const OstBlockMatrix *matrix = rounded.problem.matrix;
-    assert_success(OST_NEW(ctx, &rounded.number, matrix->columns));
     assert_success(OST_NEW(ctx, &rounded.u, 3 * (size_t)matrix->columns));
     assert_success(OST_NEW(ctx, &rounded.force, 3 * (size_t)matrix->rows));
-    for (OstLocal row = 0; row < matrix->rows; row++)
-        rounded.number[row] = matrix->first_row + row;
-    assert_success(ost_halo_import(matrix->halo, sizeof *rounded.number, rounded.number));
     return rounded;
 }
 
 static void destroy(Rounded *rounded)
 {
     elastic_destroy(&rounded->problem);
-    OST_FREE(rounded->number);
     OST_FREE(rounded->u);
     OST_FREE(rounded->force);
 }
@@ -42,7 +36,7 @@ static void destroy(Rounded *rounded)
 /* Something of every mode, the same on any ranks; `kind` of many. */
 static double wave(const Rounded *rounded, OstLocal column, int c, int kind)
 {
-    return sin((1.0 + 0.7 * kind) * (double)(3 * rounded->number[column] + c) + kind);
+    return sin((1.0 + 0.7 * kind) * (double)(3 * rounded->problem.matrix->label[column] + c) + kind);
 }
 
 static void throw_at_wave(Rounded *rounded, int kind, int which)
@@ -51,7 +45,7 @@ static void throw_at_wave(Rounded *rounded, int kind, int which)
     for (OstLocal column = 0; column < matrix->columns; column++)
         for (int c = 0; c < 3; c++)
             rounded->u[3 * column + c] = wave(rounded, column, c, kind);
-    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, which, rounded->force);
+    ost_rounded_stiffness_force(matrix, rounded->u, which, rounded->force);
 }
 
 static double sum_over_ranks(double sum)
@@ -92,8 +86,8 @@ static void throw_at_unknown(Rounded *rounded, OstGlobal node, int component, in
     const OstBlockMatrix *matrix = rounded->problem.matrix;
     for (OstLocal column = 0; column < matrix->columns; column++)
         for (int c = 0; c < 3; c++)
-            rounded->u[3 * column + c] = rounded->number[column] == node && c == component;
-    ost_rounded_stiffness_force(matrix, rounded->number, rounded->u, which, rounded->force);
+            rounded->u[3 * column + c] = rounded->problem.matrix->label[column] == node && c == component;
+    ost_rounded_stiffness_force(matrix, rounded->u, which, rounded->force);
 }
 
 /* The signs that each row's entries in a node's columns are thrown with; 0 where K has none. */
@@ -107,7 +101,7 @@ static void find_signs(Rounded *rounded, OstGlobal node, int which, Signs *signs
         throw_at_unknown(rounded, node, c, which);
         for (OstLocal row = 0; row < matrix->rows; row++)
             for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-                for (int r = 0; r < 3 && rounded->number[matrix->column[k]] == node; r++) {
+                for (int r = 0; r < 3 && rounded->problem.matrix->label[matrix->column[k]] == node; r++) {
                     const double entry = matrix->value[9 * (size_t)k + (size_t)(3 * r + c)];
                     if (entry == 0.0)
                         continue;
@@ -147,7 +141,7 @@ static void every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down(void **st
         for (int which = 0; which < THROWS; which++) {
             find_signs(&rounded, node, which, signs);
             for (OstLocal row = 0; row < matrix->rows; row++)
-                add_signs(signs[row], rounded.number[row] == node, sum, count);
+                add_signs(signs[row], matrix->label[row] == node, sum, count);
         }
     for (int k = 0; k < 2; k++)
         assert_true(fabs(sum_over_ranks(sum[k])) < 5.0 * sqrt(2.0 * sum_over_ranks(count[k])));
@@ -199,7 +193,7 @@ static void entries_of_a_row_are_rounded_independently(void **state)
     destroy(&rounded);
 }
 
-/* On this rank alone and on all of them, of the same numbers. */
+/* On this rank alone and on all of them, of the same labels. */
 static void signs_do_not_depend_on_ranks(void **state)
 {
     (void)state;
