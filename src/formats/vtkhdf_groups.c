@@ -173,20 +173,25 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     return OST_SUCCESS;
 }
 
+static OstStatus look_at_names(const OstHdf5 *h5, const char *list)
+{
+    int count = 0;
+    char **names = NULL;
+    const OstStatus status = ost_hdf5_has(h5, list) ? ost_hdf5_read_names(h5, list, &count, &names) : OST_SUCCESS;
+    for (int k = 0; k < count; k++)
+        OST_FREE(names[k]);
+    OST_FREE(names);
+    return status;
+}
+
 OstStatus ost_groups_look(const OstHdf5 *h5)
 {
     const char *const lists[] = {region_names, boundary_names};
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        int count = 0;
-        char **names = NULL;
-        const OstStatus status =
-            ost_hdf5_has(h5, lists[i]) ? ost_hdf5_read_names(h5, lists[i], &count, &names) : OST_SUCCESS;
-        for (int k = 0; k < count; k++)
-            OST_FREE(names[k]);
-        OST_FREE(names);
-        OST_TRY(status);
-    }
-    OST_TRY(ost_hdf5_look(h5, boundary_kinds, H5T_NATIVE_INT32));
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (look_at_names(h5, lists[i]) == OST_OUT_OF_MEMORY)
+            return OST_OUT_OF_MEMORY;
+    if (ost_hdf5_look(h5, boundary_kinds, H5T_NATIVE_INT32) == OST_OUT_OF_MEMORY)
+        return OST_OUT_OF_MEMORY;
     return ost_hdf5_look(h5, boundary_items, H5T_NATIVE_INT64);
 }
 

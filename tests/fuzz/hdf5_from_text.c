@@ -113,7 +113,7 @@ static int fill_buffer(const Array *array)
     static const char *words[MOST_VALUES];
     size_t found = 0;
     char *rest = NULL;
-    if (!array->values || array->count > MOST_VALUES)
+    if (!array->values || array->count * (double)H5Tget_size(array->memory) > (double)sizeof buffer.string)
         return 0;
     for (char *word = strtok_r(array->values, " \t", &rest); word && found < MOST_VALUES;
          word = strtok_r(NULL, " \t", &rest))
