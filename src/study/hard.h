@@ -57,7 +57,7 @@ typedef struct OstHardTruth {
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
     double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
     double rounded; /* how far u* moves when every entry of K does by 2^-53 of itself, root of the mean square over
-                       signs at random; NAN where the factors leave three digits, and nobody asked */
+                       signs at random; NAN where the factors leave five digits, and nobody asked */
 } OstHardTruth;
 
 typedef struct OstHardReading {

@@ -18,8 +18,9 @@ enum { FIRST_ROUNDING = 1000 };
 /* The solution stands when a correction is no more than this of it; what a rounding moves is wanted less closely. */
 static const double settled = 1e-15, roughly = 1e-2;
 
-/* What rounding K does is worth looking at where the factors leave less than three digits. */
-static const double three_digits = 1e-3;
+/* What rounding K does is worth looking at where the factors leave less than five digits: what they leave is one
+ * rounding more, not the same from run to run on several ranks, and may fall short. */
+static const double five_digits = 1e-5;
 
 /* --- the solution --- */
 
@@ -124,7 +125,7 @@ static OstStatus find_all(OstHardDirect *direct, const OstResult *result, double
     OST_TRY(find_errors(direct, result, plain, truth));
     OST_TRY(find_floor(direct, f_norm, truth));
     OST_TRY(find_amplification(direct, f_norm, truth));
-    return truth->plain > three_digits ? find_rounded(direct, truth) : OST_SUCCESS;
+    return truth->plain > five_digits ? find_rounded(direct, truth) : OST_SUCCESS;
 }
 
 OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth)
