@@ -176,10 +176,10 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
     return ost_mumps_solve(data, r, z);
 }
 
-/* A stiff brick on a soft one, held below: rounding hides the energy of the stiff one's rigid motion. */
-static void factors_go_on_where_rounding_hides_the_energy(void **state)
+/* A stiff brick on a soft one, held below: rounding hides the energy of the stiff one's rigid motion. With a drift that
+ * refinement is said to have left. */
+static OstSolveReport solve_pile(double drift)
 {
-    (void)state;
     const ElasticBlock pile = {
         .bricks = {1, 1, 2}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3, .contrast = 1e14, .held = 1};
     ElasticProblem problem;
@@ -188,21 +188,47 @@ static void factors_go_on_where_rounding_hides_the_energy(void **state)
     assert_success(elastic_create(ctx, &pile, &problem));
     assert_success(ost_scaling_create(problem.matrix, &scaling));
     assert_success(ost_mumps_create_of_rows(problem.matrix, scaling, 0.0, NULL, &factors));
-    double u[24];
+    double u[24] = {0.0};
     OstSolverOptions options = ost_solver_default_options();
     options.accept_attainable = 1;
     const OstCgSystem system = {.matrix = problem.matrix, .scaling = scaling};
     const OstPreconditioner preconditioner = {.data = factors, .apply = apply_factors, .factors = 1};
-    OstSolveReport report;
-    assert_success(solve_with(OWN, &system, &preconditioner, problem.force, u, &options, &report));
+    OstGoal goal;
+    OstSolveReport report = {0};
+    assert_success(ost_goal_set(problem.matrix, problem.force, &options, &goal));
+    goal.drift = drift;
+    assert_success(ost_cg_solve(&system, &preconditioner, problem.force, u, &goal, &report));
+    assert_success(ost_goal_verdict(&goal));
+    report.iterations = goal.iterations;
+    ost_mumps_destroy(&factors);
+    ost_scaling_destroy(&scaling);
+    elastic_destroy(&problem);
+    return report;
+}
+
+static void factors_go_on_where_rounding_hides_the_energy(void **state)
+{
+    (void)state;
+    const OstSolveReport report = solve_pile(0.0);
     assert_true(report.iterations >= 1 && report.iterations < 20);
     assert_close(report.condition_estimate, 1.0, 1e-12);
     assert_true(report.error_estimate > 1e-6); /* some 1e14 times 1e-16 */
     assert_true(report.rounding_error > 0.05 && report.rounding_error < 0.5);
     assert_true(report.rounding_spread >= 1.0 / sqrt(2.0 * 64.0) && report.rounding_spread <= 0.25);
-    ost_mumps_destroy(&factors);
-    ost_scaling_destroy(&scaling);
-    elastic_destroy(&problem);
+}
+
+/* A drift was watched, not thrown at random: where it is the larger, no allowance is made for what throws might miss.
+ */
+static void a_drift_beyond_rounding_is_the_error_and_has_no_spread(void **state)
+{
+    (void)state;
+    const OstSolveReport large = solve_pile(0.75), small = solve_pile(0.01);
+    assert_close(large.error_estimate, 0.75, 1e-15);
+    assert_close(large.rounding_error, 0.75, 1e-15);
+    assert_true(large.rounding_spread == 0.0);
+    assert_true(small.rounding_error > 0.05 && small.rounding_error < 0.5);
+    assert_true(small.error_estimate >= small.rounding_error);
+    assert_true(small.rounding_spread >= 1.0 / sqrt(2.0 * 64.0));
 }
 
 static void an_indefinite_matrix_is_refused_by_its_sign(void **state)
@@ -331,6 +357,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(scaling_gives_the_solution_of_the_unscaled_system),
     cmocka_unit_test(a_changing_preconditioner_is_allowed_where_flexible),
     cmocka_unit_test(factors_go_on_where_rounding_hides_the_energy),
+    cmocka_unit_test(a_drift_beyond_rounding_is_the_error_and_has_no_spread),
     cmocka_unit_test(an_indefinite_matrix_is_refused_by_its_sign),
     cmocka_unit_test(an_indefinite_preconditioner_is_refused_in_any_iteration),
     cmocka_unit_test(numbers_that_are_not_finite_are_refused),
