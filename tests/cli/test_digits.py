@@ -27,7 +27,34 @@ def relative_difference(points, others):
     return (square / sum((others[k] ** 2).sum() for k in points)) ** 0.5
 
 
+GEL = """
+mesh:
+  block: {size: [1, 1, 1], divisions: [2, 2, 2]}
+element: {order: 2}
+materials:
+  - {region: all, youngs_modulus: 1000, poissons_ratio: POISSON}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: [0, 0, 1]}
+"""
+
+
+def next_to_incompressible():
+    """The pose has a limit at nu = 1/2, which it nears by half of what nu is off (1e-6 here): digits, too, are of that."""
+    limit = None
+    for off in (1e-6, 1e-8, 1e-9, 1e-12):
+        finished, report, path = solve(GEL.replace("POISSON", repr(0.5 - off)))
+        check(finished.exit_code == 0, f"nu 0.5 - {off}: {finished.errors}")
+        points = read_points(path)
+        limit = limit or points
+        difference, stated = relative_difference(points, limit), report["checks"]["displacement_error"]
+        check(difference <= 1e-6 + 3.0 * stated, f"nu 0.5 - {off}: off by {difference:.1e}, where {stated:.1e} was stated")
+        check(stated < 1e-3, f"nu 0.5 - {off}: an error of {stated:.1e}")
+
+
 def main():
+    next_to_incompressible()
     for moduli, poisson, order in HARD:
         text = CASE.replace("MODULI", f"[{moduli}]").replace("POISSON", poisson).replace("ORDER", str(order))
         found = []
