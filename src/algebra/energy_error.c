@@ -12,8 +12,8 @@
 #include <string.h>
 
 /* Up to this error rounding is not looked at more closely, nor once a throw is no more: one that falls short a
- * thousandfold still leaves a digit. */
-static const double four_digits = 1e-4;
+ * hundredfold, as one in a hundred does, still leaves four digits. */
+static const double six_digits = 1e-6;
 
 /* As many where the error is near to the least digit. */
 enum { FEWEST_THROWS = 8, MOST_THROWS = 64 };
@@ -141,7 +141,7 @@ static OstStatus look(Work *work, double *error)
 
 static int more_throws(const OstThrows *throws)
 {
-    if (throws->count > 0 && ost_throws_size(throws) <= four_digits)
+    if (throws->count > 0 && ost_throws_size(throws) <= six_digits)
         return 0;
     return ost_throws_undecided(throws, ost_least_digit, FEWEST_THROWS, MOST_THROWS);
 }
@@ -204,7 +204,7 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
     OST_TRY(look(work, &error->whole));
-    if (error->whole > four_digits && !work->lost)
+    if (error->whole > six_digits && !work->lost)
         OST_TRY(look_closer(work, error));
     if (work->lost)
         *error = (OstEnergyError){INFINITY, INFINITY, 0.0};

@@ -15,7 +15,7 @@ static const ElasticBlock column = {
 static const ElasticBlock pile = {
     .bricks = {1, 1, 2}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3, .contrast = 1e12, .held = 1};
 
-enum { CLOSE_LOOK = 3 }; /* applications where less than four digits are left, and not by rounding */
+enum { CLOSE_LOOK = 3 }; /* applications where less than six digits are left, and not by rounding */
 
 /* A problem with a known solution, and its factors: M = A. */
 typedef struct Known {
