@@ -11,6 +11,10 @@
  * eigenvalue from above: an estimate, then, but one that sees how stiff each unknown is, where the 2-norm of r takes
  * all alike.
  *
+ * Where the energy is in one part of a body and the displacement in another, that tells little of the displacement:
+ * |M^-1 r| / (l |u|), in the 2-norm, is told where it is more (no bound, but the size of the next step over what of the
+ * way it goes).
+ *
  * Where M is the factors of A, M^-1 r is the error itself: then its 2-norm over that of u is told, which is what is
  * asked of a displacement, and owes nothing to l.
  *
@@ -26,6 +30,8 @@ typedef struct OstEnergyError {
                         then `rounding` as well */
     double rounding; /* of it, what rounding of A explains; 0 where six digits are left, and nobody asked */
     double spread;   /* standard error of `rounding`, over it; 0 where there is none */
+    int hidden;      /* less than six digits are left, and by the energy alone it would have been far more: then l, too,
+                        may be that of the one part, and more iterations are what tells */
 } OstEnergyError;
 
 /* The relative error that leaves one digit. */
