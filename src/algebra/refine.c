@@ -37,7 +37,6 @@ typedef struct Refinement {
     double moved;       /* largest number of the correction over that of u + correction; where goal->settled asks */
     double least_moved; /* of all corrections */
     int contracts;      /* did the last one lower that by least_gain? Noise would, against the one before */
-    int stalls;         /* in a row */
     OstExactStep *step; /* of factors' corrections, once residuals are summed exactly */
     OstGoal *goal;
 } Refinement;
@@ -216,7 +215,7 @@ static int is_done(const Refinement *work)
 }
 
 /* The goal is missed yet, or a second correction has not let u stand: where rounding is near, residuals are worth more
- * care from here on. It is where factors gain nothing. */
+ * care from here on. It is near where factors leave more of a residual than no displacement at all would. */
 static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
@@ -224,7 +223,7 @@ static OstStatus look_for_rounding(Refinement *work)
     if (goal->exact || !missed)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
-    goal->exact = goal->norm <= exact_below * goal->limit || (goal->settled > 0.0 && work->stalls > 0);
+    goal->exact = goal->norm <= exact_below * goal->limit || (goal->settled > 0.0 && goal->norm > goal->start);
     return goal->exact ? first_residual(work) : OST_SUCCESS;
 }
 
@@ -275,6 +274,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
     OstGoal *goal = work->goal;
     OST_TRY(first_residual(work));
     ost_pace_start(&goal->pace, goal->norm);
+    int stalls = 0;
     work->moved = work->least_moved = HUGE_VAL;
     double least_norm = goal->norm;
     do {
@@ -284,8 +284,8 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
         OST_TRY(look_for_rounding(work));
         const int gained = work->contracts || (goal->norm > goal->target && goal->norm < least_gain * least_norm);
         least_norm = fmin(least_norm, goal->norm);
-        work->stalls = gained ? 0 : work->stalls + 1;
-    } while (goal->end == OST_END_REACHED && !is_done(work) && work->stalls < most_stalls(work));
+        stalls = gained ? 0 : stalls + 1;
+    } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < most_stalls(work));
     if (goal->norm > goal->target)
         return judge(work);
     goal->end = OST_END_REACHED;
