@@ -145,6 +145,46 @@ static void what_is_no_number_is_seen(void **state)
     destroy(&solved);
 }
 
+static int is_held(const Solved *solved, OstLocal node)
+{
+    return solved->mesh->coordinates[3 * node] < 1e-12;
+}
+
+/* It strains nothing, but where the support moves its work and that of the reaction all but cancel. */
+static void load_the_support(Solved *solved, double force)
+{
+    for (OstLocal node = 0; node < solved->mesh->owned_nodes; node++)
+        for (int i = 0; is_held(solved, node) && i < 3; i++)
+            solved->result.force[3 * node + i] = force / (1.0 + i);
+}
+
+static void a_force_straight_into_a_support_is_no_miss(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        Solved solved = make(order);
+        load_the_support(&solved, 1e10);
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        destroy(&solved);
+    }
+}
+
+static void a_force_straight_into_a_support_hides_no_miss(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    const OstChecks *checks = &solved.result.checks;
+    load_the_support(&solved, 1e8);
+    for (OstLocal i = 0; i < 3 * solved.mesh->node_count; i++)
+        solved.result.displacement[i] *= 1.001;
+    check(&solved);
+    assert_true(objects_to(&solved, "true residual"));
+    assert_true(checks->energy_imbalance > 1e-5);
+    assert_true(fmax(checks->force_imbalance, checks->moment_imbalance) > 1e-5);
+    destroy(&solved);
+}
+
 static void rounding_that_leaves_no_digit_is_seen(void **state)
 {
     (void)state;
@@ -193,6 +233,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slip_in_the_displacement_is_seen),
     cmocka_unit_test(a_load_that_nothing_carries_is_seen),
     cmocka_unit_test(what_is_no_number_is_seen),
+    cmocka_unit_test(a_force_straight_into_a_support_is_no_miss),
+    cmocka_unit_test(a_force_straight_into_a_support_hides_no_miss),
     cmocka_unit_test(rounding_that_leaves_no_digit_is_seen),
 };
 
