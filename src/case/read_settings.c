@@ -109,7 +109,7 @@ static unsigned given(const OstYamlKey *keys)
 {
     return (keys[AGGREGATE].value ? OST_GIVEN_AGGREGATE : 0U) | (keys[COARSE].value ? OST_GIVEN_COARSE_AGGREGATE : 0U) |
            (keys[BLOCK].value ? OST_GIVEN_BLOCK : 0U) | (keys[DEGREE].value ? OST_GIVEN_DEGREE : 0U) |
-           (keys[RATIO].value ? OST_GIVEN_RATIO : 0U);
+           (keys[RATIO].value ? OST_GIVEN_RATIO : 0U) | (keys[COARSEST].value ? OST_GIVEN_COARSEST : 0U);
 }
 
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)

@@ -127,6 +127,12 @@ static int is_multigrid(OstRecipe recipe)
     return recipe != OST_RECIPE_PLAIN && recipe != OST_RECIPE_DIRECT;
 }
 
+/* A factorisation that is bounded may turn out not to fit, and then multigrid takes its place. */
+static int may_be_multigrid(const OstSolverPlan *plan)
+{
+    return is_multigrid(plan->first) || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+}
+
 static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *work)
 {
     OstContext *ctx = scene->ctx;
@@ -141,7 +147,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     OST_TRY(status);
     OST_TRY(test_rigid_motion(scene, result, work));
     ost_solver_plan(options, &facts, &plan);
-    if (is_multigrid(plan.first))
+    if (may_be_multigrid(&plan))
         OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
     const OstSolverGeometry geometry = {.coordinates = work->coordinates,
                                         .metric = work->metric,
