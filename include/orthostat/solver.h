@@ -22,7 +22,8 @@ enum {
     OST_GIVEN_COARSE_AGGREGATE = 2,
     OST_GIVEN_BLOCK = 4,
     OST_GIVEN_DEGREE = 8,
-    OST_GIVEN_RATIO = 16
+    OST_GIVEN_RATIO = 16,
+    OST_GIVEN_COARSEST = 32
 };
 
 typedef struct OstSolverOptions {
