@@ -22,8 +22,8 @@ typedef struct OstChecks {
     int finite;
 } OstChecks;
 
-/* Why a result is no answer. */
-enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = 600 };
+/* Why a result is no answer; one of them may be all that a ladder tried. */
+enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = OST_ERROR_TEXT_SIZE };
 
 typedef struct OstObjections {
     int count;

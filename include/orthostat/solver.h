@@ -63,7 +63,7 @@ typedef struct OstSolverPlan {
     char reason[OST_PLAN_REASONS][160]; /* the first is that of the rung */
 } OstSolverPlan;
 
-enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6 };
+enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6, OST_LONGEST_OUTCOME = 480 };
 
 /* A rung of the ladder that was tried. */
 typedef struct OstSolveStep {
@@ -72,15 +72,16 @@ typedef struct OstSolveStep {
     double factor;            /* by which the residual fell in an iteration, geometric mean; 0 if there was none */
     double relative_residual; /* true, at its end */
     double seconds;           /* setup and solve */
-    char outcome[240];        /* how it ended, in words */
+    char outcome[OST_LONGEST_OUTCOME]; /* how it ended, in words */
 } OstSolveStep;
 
 typedef struct OstSolveReport {
-    OstRecipe recipe;           /* the last rung */
-    int iterations;             /* over all rungs */
-    double relative_residual;   /* true, recomputed */
-    double attainable_residual; /* about what rounding allows; 0 where nobody asked */
-    int rounding_limited;       /* that, and not what was asked for, is what was reached (options.accept_attainable) */
+    OstRecipe recipe;         /* the last rung */
+    int iterations;           /* over all rungs */
+    double relative_residual; /* true, recomputed */
+    double
+        attainable_residual; /* about what rounding allows, or what was reached if that is less; 0 where nobody asked */
+    int rounding_limited;    /* that, and not what was asked for, is what was reached (options.accept_attainable) */
     double setup_seconds, solve_seconds;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];

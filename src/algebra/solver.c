@@ -69,9 +69,10 @@ static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *ste
 /* All that was tried, where that was more than one rung; `status` and its text are those of the last. */
 static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
-    char tried[1400] = "";
+    enum { LONGEST_NAME = 64 }; /* of a rung with its iterations */
+    char tried[OST_MAX_STEPS * (OST_LONGEST_OUTCOME + LONGEST_NAME)] = "";
     size_t length = 0;
-    char last[600];
+    char last[OST_ERROR_TEXT_SIZE];
     if (steps < 2 || !is_climbable(status))
         return status;
     snprintf(last, sizeof last, "%s", ost_error_text(ctx));
@@ -231,7 +232,7 @@ static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveRe
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
-        report->attainable_residual = goal->limit / goal->start;
+        report->attainable_residual = ost_goal_attainable(goal);
         report->rounding_limited = goal->end == OST_END_ROUNDING;
     }
 }

@@ -39,7 +39,7 @@ static void print_solve(const OstResult *result)
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
     if (report->rounding_limited)
-        printf("                   not what was asked for: double precision holds about %.1g here\n",
+        printf("                   not what was asked for: double precision holds about %.2g here\n",
                report->attainable_residual);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
