@@ -9,6 +9,7 @@
 #include "core/halo.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "solve/linearity.h"
 
 #include <float.h>
 #include <stdarg.h>
@@ -81,8 +82,9 @@ static void add_node(OstResult *result, const OstSupports *supports, OstLocal no
     sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
 }
 
-/* By the density of energy, so that it owes nothing to the forces that the work is told by. */
-static double energy_of_tets(const OstResult *result)
+/* By the density of energy, so that it owes nothing to the forces that the work is told by. On the way, how small the
+ * strains and rotations are. */
+static double energy_of_tets(const OstResult *result, OstLinearity *largest)
 {
     const OstMesh *mesh = result->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -95,6 +97,7 @@ static double energy_of_tets(const OstResult *result)
         ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->owned_tets);
         ost_batch_gather_vectors(&batch, element->nodes, result->displacement, u);
         element->means(batch.x, &batch.elasticity, u, &means);
+        ost_linearity_add(&batch, element, u, &means, largest);
         for (int lane = 0; lane < batch.count; lane++)
             energy += means.energy[lane] * means.volume[lane];
     }
@@ -211,6 +214,7 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
     double *internal = NULL, *magnitude = NULL;
     double sums[SUM_COUNT] = {0.0};
     double low[3], high[3], centre[3];
+    OstLinearity largest = {0.0, 0.0};
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     if (status == OST_SUCCESS)
@@ -221,7 +225,10 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
     OST_TRY_DONE(ost_mesh_bounds(mesh, low, high));
     for (int i = 0; i < 3; i++)
         centre[i] = 0.5 * (low[i] + high[i]);
-    sums[SUM_ENERGY] = energy_of_tets(result);
+    sums[SUM_ENERGY] = energy_of_tets(result, &largest);
+    OST_TRY_DONE(ost_linearity_agree(ctx, &largest));
+    result->checks.largest_strain = largest.strain;
+    result->checks.largest_rotation = largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_node(result, supports, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, centre, sums);
     OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
