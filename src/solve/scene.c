@@ -150,6 +150,8 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     made->c = c;
     OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
                        : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
+    ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
+            (long long)made->mesh->global_tets);
     ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
     OST_TRY_DONE(check_places(c, made->mesh));
     OST_TRY_DONE(make_field(made, &materials));
