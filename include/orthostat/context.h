@@ -26,6 +26,9 @@ MPI_Comm ost_comm(const OstContext *ctx);
 int ost_rank(const OstContext *ctx);
 int ost_size(const OstContext *ctx);
 
+/* The most that a text of failure holds, with its end. */
+enum { OST_ERROR_TEXT_SIZE = 4096 };
+
 /* Local. Text of the last failure ("" if none) and the source line that raised it. */
 const char *ost_error_text(const OstContext *ctx);
 const char *ost_error_origin(const OstContext *ctx);

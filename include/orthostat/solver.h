@@ -64,7 +64,7 @@ typedef struct OstSolverPlan {
     char reason[OST_PLAN_REASONS][160]; /* the first is that of the rung */
 } OstSolverPlan;
 
-enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6 };
+enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6, OST_LONGEST_OUTCOME = 480 };
 
 /* A rung of the ladder that was tried. */
 typedef struct OstSolveStep {
@@ -73,22 +73,25 @@ typedef struct OstSolveStep {
     double factor;            /* by which the residual fell in an iteration, geometric mean; 0 if there was none */
     double relative_residual; /* true, at its end */
     double seconds;           /* setup and solve */
-    char outcome[240];        /* how it ended, in words */
+    char outcome[OST_LONGEST_OUTCOME]; /* how it ended, in words */
 } OstSolveStep;
 
 typedef struct OstSolveReport {
-    OstRecipe recipe;           /* the last rung */
-    int iterations;             /* over all rungs */
-    double relative_residual;   /* true, recomputed */
-    double attainable_residual; /* about what rounding allows; 0 where nobody asked */
-    int rounding_limited;       /* that, and not what was asked for, is what was reached (options.accept_attainable) */
+    OstRecipe recipe;         /* the last rung */
+    int iterations;           /* over all rungs */
+    double relative_residual; /* true, recomputed */
+    double
+        attainable_residual; /* about what rounding allows, or what was reached if that is less; 0 where nobody asked */
+    int rounding_limited;    /* that, and not what was asked for, is what was reached (options.accept_attainable) */
     double setup_seconds, solve_seconds;
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity; /* nonzeros of all levels over those of the finest */
     double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
-    double error_estimate;  /* |u - u*| / |u| about, u the unknowns: in the norm of the energy, sqrt(u·K u); the 2-norm
-                               where factors are at hand. 0 if not known (PLAIN), INFINITY if there is no bound */
+    double error_estimate;     /* |u - u*| / |u| about, u the unknowns: the larger of that in the 2-norm and that in the
+                                  norm of the energy, sqrt(u·K u); the 2-norm where factors are at hand. 0 if not known
+                                  (PLAIN), INFINITY if there is no bound */
+    double energy_error;    /* in the norm of the energy, as error_estimate (which it is where factors are at hand) */
     double rounding_error;  /* what of it rounding of K explains; 0 where six digits are left, and nobody asked */
     double rounding_spread; /* standard error of that, over it, where it is a mean over roundings thrown at random */
     OstSolverPlan plan;

@@ -230,6 +230,7 @@ static OstStatus report_error(Cg *cg, const double *f, const double *u, const Os
     report->condition_estimate = cg->smallest > 0.0 ? cg->largest / cg->smallest : 0.0;
     /* Factors whose steps do not settle are what rounding made them. */
     report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
+    report->energy_error = known ? fmax(error.energy, goal->drift) : 0.0;
     report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
     report->rounding_spread = known && error.rounding >= goal->drift ? error.spread : 0.0;
     cg->hidden = known && error.hidden;

@@ -161,11 +161,10 @@ static int more_throws(const OstThrows *throws)
 /* The error that the residual leaves. */
 static OstStatus look_at_residual(Work *work, OstEnergyError *error)
 {
-    double energy;
     memcpy(work->vector, work->residual, work->n * sizeof(double));
-    OST_TRY(look(work, &energy));
-    error->hidden = work->moved > hidden_beyond * work->smallest * energy;
-    error->whole = at_least(energy, work->moved / work->smallest);
+    OST_TRY(look(work, &error->energy));
+    error->hidden = work->moved > hidden_beyond * work->smallest * error->energy;
+    error->whole = at_least(error->energy, work->moved / work->smallest);
     return OST_SUCCESS;
 }
 
@@ -185,6 +184,7 @@ static OstStatus look_closer(Work *work, OstEnergyError *error)
     error->rounding = ost_throws_size(&throws);
     error->spread = ost_throws_spread(&throws);
     error->whole = hypot(error->whole, error->rounding);
+    error->energy = hypot(error->energy, error->rounding);
     return OST_SUCCESS;
 }
 
@@ -210,12 +210,14 @@ static OstStatus prepare_to_lead(Work *work)
     return ost_exact_step_create(work->system->matrix, &work->step);
 }
 
+static const OstEnergyError unknown = {.whole = INFINITY, .energy = INFINITY, .rounding = INFINITY};
+
 static OstStatus estimate(Work *work, const double *f, int exact, OstEnergyError *error)
 {
     double energy;
     OST_TRY(find_residual(work, f, exact));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
-    *error = (OstEnergyError){.whole = INFINITY, .rounding = INFINITY};
+    *error = unknown;
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(work->smallest) : 0.0;
     if (!(work->energy_norm > 0.0))
         return OST_SUCCESS;
@@ -226,12 +228,12 @@ static OstStatus estimate(Work *work, const double *f, int exact, OstEnergyError
         work->vector[i] += work->residual[i];
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
-    OST_TRY(look(work, &error->whole));
-    error->whole = at_least(error->whole, work->moved / work->smallest);
+    OST_TRY(look(work, &error->energy));
+    error->whole = at_least(error->energy, work->moved / work->smallest);
     if (error->whole > six_digits && !work->lost)
         OST_TRY(look_closer(work, error));
     if (work->lost)
-        *error = (OstEnergyError){.whole = INFINITY, .rounding = INFINITY};
+        *error = unknown;
     return OST_SUCCESS;
 }
 

@@ -28,7 +28,8 @@ typedef struct OstEnergyError {
     double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution, or
                         where factors are led to find that A is not positive definite, or to nothing that settles:
                         then `rounding` as well */
-    double rounding; /* of it, what rounding of A explains; 0 where six digits are left, and nobody asked */
+    double energy;   /* in the norm of the energy alone (`whole` where M is factors), as it is for stresses */
+    double rounding; /* of `whole`, what rounding of A explains; 0 where six digits are left, and nobody asked */
     double spread;   /* standard error of `rounding`, over it; 0 where there is none */
     int hidden;      /* less than six digits are left, and by the energy alone it would have been far more: then l, too,
                         may be that of the one part, and more iterations are what tells */

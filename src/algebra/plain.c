@@ -160,6 +160,7 @@ OstStatus ost_plain_solve(OstPlain *plain, const double *f, double *u, OstGoal *
     report->levels = plain->levels;
     memcpy(report->level_unknowns, plain->level_unknowns, sizeof plain->level_unknowns);
     report->operator_complexity = plain->operator_complexity;
-    report->condition_estimate = report->error_estimate = report->rounding_error = report->rounding_spread = 0.0;
+    report->condition_estimate = report->error_estimate = report->energy_error = report->rounding_error =
+        report->rounding_spread = 0.0;
     return ost_aztec_solve(plain->matrix, &v_cycle, f, u, goal);
 }

@@ -227,6 +227,11 @@ static OstStatus look_for_rounding(Refinement *work)
     return goal->exact ? first_residual(work) : OST_SUCCESS;
 }
 
+double ost_goal_attainable(const OstGoal *goal)
+{
+    return fmin(goal->norm, goal->limit) / goal->start;
+}
+
 /* The goal was missed: is it rounding? */
 static OstStatus judge(Refinement *work)
 {
@@ -235,9 +240,9 @@ static OstStatus judge(Refinement *work)
     if (goal->norm <= rounding_slack * goal->limit) {
         goal->end = OST_END_ROUNDING;
         snprintf(goal->words, sizeof goal->words,
-                 "rounding in double precision allows about %.1g here: ask for no less, or look for what makes the "
+                 "rounding in double precision allows about %.2g here: ask for no less, or look for what makes the "
                  "stiffness so uneven",
-                 goal->limit / goal->start);
+                 ost_goal_attainable(goal));
     } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
         say_iterations(goal);
     } else if (goal->end == OST_END_REACHED) {

@@ -54,6 +54,10 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
  * reached. */
 OstStatus ost_goal_verdict(const OstGoal *goal);
 
+/* Local. About the least relative residual that double precision holds: the limit is an estimate, and what was reached
+ * says better where it is less. 0 where nobody asked. */
+double ost_goal_attainable(const OstGoal *goal);
+
 /* Local. Counts an iteration from r·z = weight that left a residual of this norm, and shows how far it is on the way.
  * Returns whether to go on: not if the goal is reached, out of iterations or of patience. */
 int ost_goal_count(OstGoal *goal, double norm, double weight);

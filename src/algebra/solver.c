@@ -59,6 +59,8 @@ static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *ste
         ost_ledger_leave(solver->ctx);
         solver->rung_seconds = ost_seconds() - start;
         solver->setup_seconds += solver->rung_seconds;
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_recipe_name(recipe),
+                status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->rung_seconds);
         if (status == OST_SUCCESS || !climbs(solver) || !is_climbable(status))
             return status;
         note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = solver->rung_seconds;
@@ -70,9 +72,10 @@ static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *ste
 /* All that was tried, where that was more than one rung; `status` and its text are those of the last. */
 static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
-    char tried[1400] = "";
+    enum { LONGEST_NAME = 64 }; /* of a rung with its iterations */
+    char tried[OST_MAX_STEPS * (OST_LONGEST_OUTCOME + LONGEST_NAME)] = "";
     size_t length = 0;
-    char last[600];
+    char last[OST_ERROR_TEXT_SIZE];
     if (steps < 2 || !is_climbable(status))
         return status;
     snprintf(last, sizeof last, "%s", ost_error_text(ctx));
@@ -95,6 +98,9 @@ static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan(options, &facts, &solver->plan);
+    for (int r = 0; r < solver->plan.reasons; r++)
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
+                r == 0 ? " first: " : "", solver->plan.reason[r]);
     return ost_epetra_map_create(solver->ctx, 3 * solver->matrix->rows, &solver->map);
 }
 
@@ -192,6 +198,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     step->factor = step->iterations > 0 ? ost_pace_whole_factor(&goal->pace) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->rung_seconds;
+    ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %d iterations in %.3f s to a residual of %.2e: %s",
+            ost_recipe_name(step->rung), step->iterations, ost_seconds() - start, step->relative_residual,
+            step->outcome);
     solver->rung_seconds = 0.0;
     return status;
 }
@@ -221,8 +230,6 @@ static OstRecipe fastest(const OstSolveReport *report)
 static OstStatus climb(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
     const OstRecipe from = ost_rung_recipe(solver->rung);
-    ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s; %s is next", ost_recipe_name(from), goal->words,
-            ost_recipe_name((OstRecipe)(from + 1)));
     const OstStatus status = stand_on(solver, (OstRecipe)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
@@ -250,7 +257,7 @@ static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveRe
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
-        report->attainable_residual = goal->limit / goal->start;
+        report->attainable_residual = ost_goal_attainable(goal);
         report->rounding_limited = goal->end == OST_END_ROUNDING;
     }
 }

@@ -67,21 +67,7 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
 
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
-    enum {
-        TITLE,
-        MESH,
-        ELEMENT,
-        MATERIALS,
-        CONSTRAINTS,
-        LOADS,
-        EFFECTS,
-        ACCURACY,
-        SOLVER,
-        OUTPUT,
-        WATCH,
-        VERIFY,
-        SECTIONS
-    };
+    enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, ACCURACY, SOLVER, OUTPUT, WATCH, VERIFY, SECTIONS };
     OstYamlKey keys[SECTIONS] = {
         [TITLE] = {"title", OST_OPTIONAL, NULL},
         [MESH] = {"mesh", OST_NEEDED, NULL},
@@ -89,7 +75,6 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [MATERIALS] = {"materials", OST_OPTIONAL, NULL},
         [CONSTRAINTS] = {"constraints", OST_OPTIONAL, NULL},
         [LOADS] = {"loads", OST_OPTIONAL, NULL},
-        [EFFECTS] = {"effects", OST_OPTIONAL, NULL},
         [ACCURACY] = {"accuracy", OST_OPTIONAL, NULL},
         [SOLVER] = {"solver", OST_OPTIONAL, NULL},
         [OUTPUT] = {"output", OST_OPTIONAL, NULL},
@@ -97,10 +82,10 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [VERIFY] = {"verify", OST_OPTIONAL, NULL},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,         [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
-        [LOADS] = ost_read_loads,       [CONSTRAINTS] = ost_read_constraints, [EFFECTS] = ost_read_effects,
-        [ACCURACY] = ost_read_accuracy, [SOLVER] = ost_read_solver,           [OUTPUT] = ost_read_output,
-        [WATCH] = ost_read_watches,     [VERIFY] = ost_read_verify,
+        [MESH] = ost_read_mesh,     [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
+        [LOADS] = ost_read_loads,   [CONSTRAINTS] = ost_read_constraints, [ACCURACY] = ost_read_accuracy,
+        [SOLVER] = ost_read_solver, [OUTPUT] = ost_read_output,           [WATCH] = ost_read_watches,
+        [VERIFY] = ost_read_verify,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
     if (keys[TITLE].value)

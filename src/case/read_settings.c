@@ -17,21 +17,6 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
     return OST_SUCCESS;
 }
 
-OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
-{
-    static const char *const words[] = {"auto", "off", "on"};
-    OstYamlKey keys[] = {{"large_rotation", OST_OPTIONAL, NULL}};
-    int word = 0;
-    (void)c;
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
-    if (keys[0].value)
-        OST_TRY(ost_yaml_word(yaml, keys[0].value, "setting", words, 3, &word));
-    if (word == 2)
-        return ost_yaml_raise(yaml, keys[0].value,
-                              "large_rotation: on is not part of this version; auto and off take rotations as small");
-    return OST_SUCCESS;
-}
-
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};

@@ -12,7 +12,6 @@ OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCa
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
-OstStatus ost_read_effects(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);

@@ -50,6 +50,23 @@ static OstStatus raise_unknown_boundary(const OstCase *c, const OstMesh *mesh, c
                             nearest ? "; did you mean '" : ".", nearest ? nearest : "", nearest ? "'?" : "", list);
 }
 
+OstStatus ost_raise_no_region(const OstCase *c, OstPlace place, const OstNames *regions, const char *name)
+{
+    char list[1024];
+    const char **words = NULL;
+    OST_TRY(OST_NEW(c->ctx, &words, (size_t)regions->count + 1));
+    for (int r = 0; r < regions->count; r++)
+        words[r] = regions->name[r];
+    words[regions->count] = "all";
+    const char *nearest = ost_nearest_word(name, words, regions->count + 1);
+    OST_FREE(words);
+    ost_names_list(regions, list, sizeof list);
+    return OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                     "%s:%d:%d: the mesh has no region '%.80s'%s%s%s It has: %s. 'all' stands for every one", c->path,
+                     place.line, place.column, name, nearest ? "; did you mean '" : ".", nearest ? nearest : "",
+                     nearest ? "'?" : "", list);
+}
+
 OstStatus ost_select_check_names(const OstCase *c, const OstMesh *mesh, const OstSelection *selection)
 {
     for (int n = 0; n < selection->boundaries.count; n++)

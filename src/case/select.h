@@ -15,6 +15,10 @@ OstStatus ost_select_check_names(const OstCase *c, const OstMesh *mesh, const Os
 /* Collective. Warns of a nearest vertex farther from its place than the body's edges are long there: likely a slip. */
 OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const OstSelection *selection);
 
+/* Local. Raises OST_INVALID_INPUT: no region has this name, with those that the mesh has and the one that may be meant.
+ */
+OstStatus ost_raise_no_region(const OstCase *c, OstPlace place, const OstNames *regions, const char *name);
+
 /* Local. Raises with the selection's line of the case in front. */
 OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

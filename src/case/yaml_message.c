@@ -125,6 +125,15 @@ static int edit_distance(const char *a, const char *b)
     return table[m][n];
 }
 
+/* Three quarters of the word, or more, begin both. */
+static int begins_alike(const char *word, const char *other)
+{
+    size_t alike = 0;
+    while (word[alike] && word[alike] == other[alike])
+        alike++;
+    return alike >= 4 && 4 * alike >= 3 * strlen(word);
+}
+
 const char *ost_nearest_word(const char *word, const char *const *words, int count)
 {
     const char *nearest = NULL;
@@ -136,5 +145,8 @@ const char *ost_nearest_word(const char *word, const char *const *words, int cou
             nearest = words[w];
         }
     }
+    for (int w = 0; w < count && !nearest; w++)
+        if (begins_alike(word, words[w]))
+            nearest = words[w];
     return nearest;
 }

@@ -62,7 +62,7 @@ OstStatus ost_yaml_direction(const OstYaml *yaml, const OstYamlNode *node, doubl
 OstStatus ost_yaml_word(const OstYaml *yaml, const OstYamlNode *node, const char *what, const char *const *words,
                         int count, int *which);
 
-/* Local. The name nearest to `word` by edit distance, or NULL if none is near enough to be meant. */
+/* Local. The name nearest to `word` by edit distance, or that begins like it, or NULL if none is near enough to be meant. */
 const char *ost_nearest_word(const char *word, const char *const *words, int count);
 
 #endif

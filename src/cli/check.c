@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/select.h"
 #include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "cli/destination.h"
@@ -59,14 +60,10 @@ static OstStatus check_load(const OstScene *scene, const OstLoad *load)
 {
     const int needs_faces = load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
                             (load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_FACES);
-    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE) {
-        char names[1024];
-        ost_names_list(&scene->mesh->regions, names, sizeof names);
+    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
         return names_no_region(scene, load->region)
-                   ? OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d:%d: the mesh has no region '%s'; it has: %s",
-                               scene->c->path, load->region_place.line, load->region_place.column, load->region, names)
+                   ? ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region)
                    : OST_SUCCESS;
-    }
     OstGlobal nodes;
     int some = 1;
     OST_TRY(count_nodes(scene, &load->on, &nodes));

@@ -12,13 +12,20 @@
 
 OstStatus ost_cli_draw_cost(const OstCost *cost, const char *picture)
 {
-    char folder[] = "/tmp/orthostat-prices-XXXXXX"; /* of its own: beside the picture it might meet a user's file */
-    char prices[sizeof folder + 16];
+    enum { LONGEST = 4096 };
+    char folder[LONGEST]; /* of its own: beside the picture it might meet a user's file */
+    char prices[LONGEST + 16];
+    const char *place = getenv("TMPDIR");
     if (ost_rank(cost->ctx) != 0)
         return OST_SUCCESS;
+    if (!place || !place[0])
+        place = "/tmp";
+    snprintf(folder, sizeof folder, "%s/orthostat-prices-XXXXXX", place); /* cut off, it has no X at its end: EINVAL */
     if (!mkdtemp(folder))
-        return OST_RAISE(cost->ctx, OST_FILE_FAILED, "cannot make a folder in /tmp for the picture's numbers: %s",
-                         strerror(errno));
+        return OST_RAISE(
+            cost->ctx, OST_FILE_FAILED,
+            "cannot make a folder in '%.200s' for the picture's numbers: %s; TMPDIR can name another place", place,
+            strerror(errno));
     snprintf(prices, sizeof prices, "%s/prices.json", folder);
     OstStatus status = ost_cost_write_json(cost, prices);
     if (status == OST_SUCCESS)

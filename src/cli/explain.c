@@ -112,11 +112,11 @@ int ost_cli_explain(OstContext *ctx, int argc, char **argv)
     if (status == OST_SUCCESS)
         status = make_plan(ctx, c, &plan);
     if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
-        if (!arguments.json)
-            print_plan(c, &plan, ost_size(ctx));
-        else if (print_json(c, &plan, ost_size(ctx)))
+        if (arguments.json && print_json(c, &plan, ost_size(ctx)))
             status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
                                c->path);
+        if (!arguments.json && ost_log_level(ctx) != OST_LOG_QUIET)
+            print_plan(c, &plan, ost_size(ctx));
     }
     status = ost_agree(ctx, status);
     ost_case_destroy(&c);

@@ -24,7 +24,8 @@ static void print_help(FILE *stream)
           stream);
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fputs("\nEvery command takes --help, -q (print nothing but errors) and -v (say more); -q and -v may come first.\n"
+    fputs("\nEvery command takes --help, -q (print nothing but errors, and the JSON or CSV that is asked for) and -v\n"
+          "(say more); -q and -v may come first.\n"
           "Exit status: 0 done, 1 not converged or a check failed, 2 wrong usage or input.\n",
           stream);
 }

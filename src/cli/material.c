@@ -255,7 +255,8 @@ static OstStatus report_material(const Request *request)
         return OST_SUCCESS;
     if (request->text[OPTION_JSON])
         return ost_material_report_print_json(ctx, &report);
-    ost_material_report_print(&report);
+    if (ost_log_level(ctx) != OST_LOG_QUIET)
+        ost_material_report_print(&report);
     return OST_SUCCESS;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const struct argp_option common_options[] = {
-    {"quiet", 'q', 0, 0, "Print nothing but errors", -1},
+    {"quiet", 'q', 0, 0, "Print nothing but errors, and JSON or CSV where that is asked for", -1},
     {"verbose", 'v', 0, 0, "Say more", -1},
     {0},
 };

@@ -4,7 +4,7 @@
 
 #include "orthostat/context.h"
 
-enum { OST_ERROR_TEXT_SIZE = 4096, OST_ERROR_ORIGIN_SIZE = 256, OST_LEDGER_DEPTH = 32 };
+enum { OST_ERROR_ORIGIN_SIZE = 256, OST_LEDGER_DEPTH = 32 };
 
 /* The inside of a context, for core/ alone. */
 struct OstContext {

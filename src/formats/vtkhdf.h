@@ -18,9 +18,10 @@ typedef struct OstOutputArray {
 } OstOutputArray;
 
 /* Says in the file that its fields are no answer: an attribute Status of /VTKHDF, the reasons as /Orthostat/Objections,
- * and a field data array `refused` (1), which VTK's reader hands on. */
+ * and field data arrays `refused` and, where so, `unfinished` (1), which VTK's reader hands on. */
 typedef struct OstOutputMark {
     const char *status; /* one word */
+    int unfinished;
     int reason_count;
     char *const *reasons;
 } OstOutputMark;

@@ -122,11 +122,13 @@ static OstStatus write_own_arrays(OstHdf5 *h5, OstPiece *piece, int count, const
 
 static OstStatus write_mark(OstHdf5 *h5, const OstOutputMark *mark)
 {
-    const int32_t refused = 1;
+    const int32_t yes = 1;
     const OstRows row = {.count = ost_rank(h5->ctx) == 0, .total = 1, .most = 1};
     OST_TRY(ost_hdf5_write_text(h5, "/VTKHDF", "Status", mark->status));
     OST_TRY(ost_hdf5_write_names(h5, "/Orthostat/Objections", mark->reason_count, mark->reasons));
-    return ost_hdf5_write_rows(h5, "/VTKHDF/FieldData/refused", H5T_NATIVE_INT32, 1, &row, &refused);
+    if (mark->unfinished)
+        OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/FieldData/unfinished", H5T_NATIVE_INT32, 1, &row, &yes));
+    return ost_hdf5_write_rows(h5, "/VTKHDF/FieldData/refused", H5T_NATIVE_INT32, 1, &row, &yes);
 }
 
 static OstStatus write_contents(OstHdf5 *h5, OstPiece *piece, int count, const OstOutputArray *arrays,

@@ -119,8 +119,9 @@ static void describe_violation(const OstOrthotropic *constants, const double rat
         const int b = (i + 1) % 3 + 1;
         const double nu = constants->poissons_ratio[i];
         if (fabs(ratios[i]) >= 1.0) {
-            snprintf(text, size, "nu%d%d² = %.6g must be below E%d/E%d = %.6g", a, b, nu * nu, a, b,
-                     constants->youngs_modulus[i] / constants->youngs_modulus[b - 1]);
+            const double ratio = constants->youngs_modulus[i] / constants->youngs_modulus[b - 1];
+            snprintf(text, size, "nu%d%d² = %.6g must be below E%d/E%d = %.6g (nu%d%d is %.6g)", a, b, nu * nu, a, b,
+                     ratio, b, a, nu / ratio);
             return;
         }
     }
@@ -147,22 +148,34 @@ static double family_nu(const OstOrthotropic *constants, const double ratios[3])
     return fmin(fmax(round(wanted * 1000.0) / 1000.0, -0.9), 0.49);
 }
 
+/* Each pair in both of its terms, as the user may have given either: "nu12 = 0.3 (nu21 = 0.1), ...". */
+static void list_ratios(const OstOrthotropic *constants, double scale, char *text, size_t size)
+{
+    const double *youngs = constants->youngs_modulus;
+    size_t length = 0;
+    for (int i = 0; i < 3 && length < size; i++) {
+        const int j = (i + 1) % 3;
+        const double nu = scale * constants->poissons_ratio[i];
+        length += (size_t)snprintf(text + length, size - length, "%snu%d%d = %.7g (nu%d%d = %.7g)", i > 0 ? ", " : "",
+                                   i + 1, j + 1, nu, j + 1, i + 1, nu * (youngs[j] / youngs[i]));
+    }
+}
+
 static OstStatus raise_indefinite(OstContext *ctx, const char *name, const OstOrthotropic *constants,
                                   const double ratios[3], const double eigenvalues[3])
 {
-    char violation[160];
+    char violation[160], stable[160], means[160];
     describe_violation(constants, ratios, violation, sizeof violation);
     const double scale = cut_to_four_digits(ost_orthotropic_stable_scale(eigenvalues));
-    const double *nu = constants->poissons_ratio;
     const double proposed = family_nu(constants, ratios);
     const OstOrthotropic family = ost_orthotropic_family(constants->youngs_modulus, proposed, OST_SHEAR_GEOMETRIC);
+    list_ratios(constants, scale, stable, sizeof stable);
+    list_ratios(&family, 1.0, means, sizeof means);
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "material '%s' is not stable (its stiffness is not positive definite, smallest normalised "
-                     "eigenvalue %.3g): %s. Stable up to %.4g of the given ratios: nu12 = %.7g, nu23 = %.7g, nu31 = "
-                     "%.7g. Or give one number, the stable family, any nu in -1 < nu < 0.5: nu = %.3g means nu12 = "
-                     "%.7g, nu23 = %.7g, nu31 = %.7g",
-                     name, eigenvalues[0], violation, scale, scale * nu[0], scale * nu[1], scale * nu[2], proposed,
-                     family.poissons_ratio[0], family.poissons_ratio[1], family.poissons_ratio[2]);
+                     "eigenvalue %.3g): %s. Stable up to %.4g of the given ratios: %s. Or give one number, the stable "
+                     "family, any nu in -1 < nu < 0.5: nu = %.3g means %s",
+                     name, eigenvalues[0], violation, scale, stable, proposed, means);
 }
 
 OstStatus ost_orthotropic_check(OstContext *ctx, const char *name, const OstOrthotropic *constants,

@@ -39,7 +39,7 @@ static void print_solve(const OstResult *result)
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
     if (report->rounding_limited)
-        printf("                   not what was asked for: double precision holds about %.1g here\n",
+        printf("                   not what was asked for: double precision holds about %.2g here\n",
                report->attainable_residual);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
@@ -60,6 +60,33 @@ static void print_objections(const OstResult *result)
 {
     for (int i = 0; i < result->objections.count; i++)
         printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->objections.text[i]);
+}
+
+/* Beyond this it is worth a word: strains of 4 %, or parts that turn by 0.2, which is 11 degrees. The mesh rarely
+ * leaves less. */
+static const double small_error = 0.02;
+
+int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
+{
+    const double error = ost_linear_error(checks);
+    char off[32] = "by more than 100 %";
+    text[0] = '\0';
+    if (!checks->finite || !(error > small_error))
+        return 0;
+    if (error < 1.0)
+        snprintf(off, sizeof off, "by about %.0f %%", 100.0 * error);
+    snprintf(text, OST_LONGEST_WARNING,
+             "parts turn by up to %.3g degrees and strain by up to %.3g %%: linear theory, which takes both as small, "
+             "is off %s there; scale the loads down, or read the result as a direction",
+             checks->largest_rotation * 57.29577951308232, 100.0 * checks->largest_strain, off);
+    return 1;
+}
+
+static void print_warning(const OstChecks *checks)
+{
+    char text[OST_LONGEST_WARNING];
+    if (ost_linearity_warning(checks, text))
+        printf("  %-16s %s\n", "WARNING", text);
 }
 
 static void print_checks(const OstChecks *checks)
@@ -83,6 +110,7 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     print_digits(&result->checks);
     printf("  strain energy    %.10g\n", result->checks.strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
+    print_warning(&result->checks);
     print_objections(result);
     if (file)
         printf("  written to       %s%s%s\n", file, result->objections.count > 0 ? ", marked as " : "",

@@ -28,6 +28,11 @@ void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
                                  const OstWatchedValue *watched, const char *file, const char *path);
 
+/* Local. What a person should know before trusting an answer that passes every check: strains or rotations that linear
+ * theory should not take as small. Returns 0, and leaves the text empty, where there is nothing of the kind. */
+enum { OST_LONGEST_WARNING = 320 };
+int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
+
 /* Local. The plan's effects as a list of {effect, on, reason}; the caller's reference, NULL if jansson fails. */
 struct json_t;
 struct json_t *ost_effects_json(const OstPlan *plan);

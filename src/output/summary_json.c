@@ -65,15 +65,26 @@ static json_t *solver_json(const OstSolveReport *report)
 
 static json_t *checks_json(const OstChecks *checks)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "relative_residual",
-                     number_json(checks->relative_residual), "rounding", number_json(checks->rounding), "rigid_motion",
-                     number_json(checks->rigid_motion), "displacement_error", number_json(checks->displacement_error),
-                     "digits", number_json(checks->digits), "force_error", number_json(checks->force_error),
-                     "force_digits", number_json(checks->force_digits), "load", vector_json(checks->load), "reaction",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}",
+                     "relative_residual", number_json(checks->relative_residual), "rounding",
+                     number_json(checks->rounding), "rigid_motion", number_json(checks->rigid_motion),
+                     "displacement_error", number_json(checks->displacement_error), "digits",
+                     number_json(checks->digits), "force_error", number_json(checks->force_error), "force_digits",
+                     number_json(checks->force_digits), "load", vector_json(checks->load), "reaction",
                      vector_json(checks->reaction), "force_imbalance", number_json(checks->force_imbalance),
                      "moment_imbalance", number_json(checks->moment_imbalance), "strain_energy",
                      number_json(checks->strain_energy), "work", number_json(checks->work), "energy_imbalance",
-                     number_json(checks->energy_imbalance), "finite", checks->finite);
+                     number_json(checks->energy_imbalance), "finite", checks->finite, "largest_strain",
+                     number_json(checks->largest_strain), "largest_rotation", number_json(checks->largest_rotation));
+}
+
+static json_t *warnings_json(const OstChecks *checks)
+{
+    json_t *warnings = json_array();
+    char text[OST_LONGEST_WARNING];
+    if (ost_linearity_warning(checks, text))
+        json_array_append_new(warnings, json_string(text));
+    return warnings;
 }
 
 static json_t *objections_json(const OstObjections *objections)
@@ -123,15 +134,16 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                         const OstWatchedValue *watched, const char *file)
 {
     const OstMesh *mesh = result->mesh;
-    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
-                     scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0, "status",
-                     ost_result_status(result), "reasons", objections_json(&result->objections), "ranks",
-                     ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes, "tets",
-                     (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
-                     solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
-                     number_json(result->largest_displacement), "largest_at", vector_json(result->largest_at),
-                     "watched", watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan),
-                     "ledger", ledger_json(summary), "output", file);
+    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
+                     "case", scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0,
+                     "status", ost_result_status(result), "reasons", objections_json(&result->objections), "warnings",
+                     warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices",
+                     (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
+                     (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
+                     checks_json(&result->checks), "largest_displacement", number_json(result->largest_displacement),
+                     "largest_at", vector_json(result->largest_at), "watched",
+                     watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan), "ledger",
+                     ledger_json(summary), "output", file);
 }
 
 static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)

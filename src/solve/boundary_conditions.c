@@ -3,6 +3,7 @@
 
 #include "assembly/field_loads.h"
 #include "assembly/loads.h"
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "solve/free_body.h"
@@ -99,10 +100,7 @@ static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, in
     *region = ost_mesh_find_region(scene->mesh, load->region);
     if (*region >= 0)
         return OST_SUCCESS;
-    char names[1024];
-    ost_names_list(&scene->mesh->regions, names, sizeof names);
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d:%d: the mesh has no region '%s'; it has: %s", scene->c->path,
-                     load->region_place.line, load->region_place.column, load->region, names);
+    return ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region);
 }
 
 /* Gravity with no mass anywhere is a mistake, not a load of zero. */

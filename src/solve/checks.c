@@ -9,6 +9,7 @@
 #include "core/halo.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "solve/linearity.h"
 
 #include <float.h>
 #include <stdarg.h>
@@ -112,8 +113,9 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
     sums[SUM_MOMENT_TERMS] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
 }
 
-/* By the density of energy, so that it owes nothing to the forces that the work is told by. */
-static double energy_of_tets(const OstResult *result)
+/* By the density of energy, so that it owes nothing to the forces that the work is told by. On the way, how small the
+ * strains and rotations are. */
+static double energy_of_tets(const OstResult *result, OstLinearity *largest)
 {
     const OstMesh *mesh = result->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -126,6 +128,7 @@ static double energy_of_tets(const OstResult *result)
         ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->owned_tets);
         ost_batch_gather_vectors(&batch, element->nodes, result->displacement, u);
         element->means(batch.x, &batch.elasticity, u, &means);
+        ost_linearity_add(&batch, element, u, &means, largest);
         for (int lane = 0; lane < batch.count; lane++)
             energy += means.energy[lane] * means.volume[lane];
     }
@@ -172,7 +175,7 @@ static double error_of_strain(const OstResult *result, const Body *body, const d
         return error;
     if (result->solve.recipe == OST_RECIPE_DIRECT) /* factors: of the displacement itself */
         return error * common_share(sums);
-    return error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);
+    return result->solve.energy_error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);
 }
 
 /* The work that the strains do not have, (f·u - u·K u) / f·u, is how far the displacement under the load is off: in K
@@ -365,6 +368,7 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
     double *internal = NULL, *magnitude = NULL;
     double sums[SUM_COUNT] = {0.0};
     Body body = {.supports = supports};
+    OstLinearity largest = {0.0, 0.0};
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     if (status == OST_SUCCESS)
@@ -373,7 +377,10 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
         status = ost_internal_force(mesh, result->field, result->displacement, internal, magnitude);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(look_at_body(result, &body));
-    sums[SUM_ENERGY] = energy_of_tets(result);
+    sums[SUM_ENERGY] = energy_of_tets(result, &largest);
+    OST_TRY_DONE(ost_linearity_agree(ctx, &largest));
+    result->checks.largest_strain = largest.strain;
+    result->checks.largest_rotation = largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_node(result, &body, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, sums);
     OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));

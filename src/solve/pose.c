@@ -80,10 +80,20 @@ static OstStatus fill_geometry(const OstScene *scene, Work *work)
     return ost_system_geometry(work->system, scene->field, work->coordinates, work->metric, work->modes);
 }
 
+/* What is wrong with the supports is told with the place of the first. */
+static OstStatus create_system(const OstScene *scene, Work *work)
+{
+    const OstCase *c = scene->c;
+    const OstStatus status = ost_system_create(scene->mesh, work->supports, &work->system);
+    if (status != OST_INVALID_INPUT || c->constraint_count == 0)
+        return status;
+    return ost_case_located(c, c->constraints[0].on.place, status);
+}
+
 static OstStatus assemble(const OstScene *scene, const OstResult *result, Work *work)
 {
     OstContext *ctx = scene->ctx;
-    OST_TRY(ost_system_create(scene->mesh, work->supports, &work->system));
+    OST_TRY(create_system(scene, work));
     const size_t rows = (size_t)work->system->matrix->rows;
     OstStatus status = ost_system_fill(work->system, scene->field);
     ost_system_release_scatter(work->system);

@@ -95,7 +95,7 @@ OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char
     Derived derived = {NULL, NULL};
     const OstObjections *objections = &result->objections;
     char *reasons[OST_MOST_OBJECTIONS];
-    const OstOutputMark mark = {ost_result_status(result), objections->count, reasons};
+    const OstOutputMark mark = {ost_result_status(result), result->unfinished, objections->count, reasons};
     int count = 0;
     ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
     OstStatus status = OST_SUCCESS;

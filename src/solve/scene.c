@@ -25,16 +25,36 @@ static int any_wants(const OstMesh *mesh, const OstSceneMaterials *materials, Os
     return 0;
 }
 
-static OstStatus check_mesh_axes(const OstMesh *mesh, const OstSceneMaterials *materials)
+/* Where the case gives this region its axes: the last entry that concerns it counts. */
+static OstPlace place_of_axes(const OstCase *c, const char *region)
+{
+    OstPlace place = {0};
+    for (int i = 0; i < c->material_count; i++)
+        if (strcmp(c->materials[i].region, "all") == 0 || strcmp(c->materials[i].region, region) == 0)
+            place = c->materials[i].axes_place;
+    return place;
+}
+
+static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
+{
+    const char *brings = c->mesh_kind == OST_MESH_FILE
+                             ? "the mesh file has no cell field 'axes' of nine components"
+                             : "the program's own shapes bring none, as a mesh file with a cell field 'axes' does";
+    return ost_case_located(
+        c, place_of_axes(c, region),
+        OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                  "region '%.80s' takes its axes from the mesh, but %s; give a table instead (axes: "
+                  "{cells: file.txt}), or a formula",
+                  region, brings));
+}
+
+static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const OstSceneMaterials *materials)
 {
     if (mesh->tet_axes || mesh->tet_count == 0)
         return OST_SUCCESS;
     for (int r = 0; r < mesh->regions.count; r++)
         if (wants(materials, r, OST_AXES_CELLS))
-            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
-                             "region '%s' takes its axes from the mesh, but the mesh file has no cell field 'axes' of "
-                             "nine components; give a table instead (axes: {cells: file.txt})",
-                             mesh->regions.name[r]);
+            return refuse_mesh_axes(c, mesh->regions.name[r]);
     return OST_SUCCESS;
 }
 
@@ -82,7 +102,7 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     const OstMesh *mesh = scene->mesh;
     double *centroids = NULL;
     double *gradient_axes = NULL;
-    OstStatus status = ost_agree(ctx, check_mesh_axes(mesh, materials));
+    OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
     if (status == OST_SUCCESS && any_wants(mesh, materials, OST_AXES_GRADIENT))
         status = solve_gradient_axes(scene, materials, &gradient_axes);
     if (status == OST_SUCCESS && needs_centroids(mesh, materials)) {
@@ -150,6 +170,8 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     made->c = c;
     OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
                        : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
+    ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
+            (long long)made->mesh->global_tets);
     ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
     OST_TRY_DONE(check_places(c, made->mesh));
     OST_TRY_DONE(make_field(made, &materials));

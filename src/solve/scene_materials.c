@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/scene_materials.h"
 
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <stdio.h>
 #include <string.h>
-
-enum { NAME_LIST_SIZE = 1024 };
 
 static void take_from_file(const OstFileMaterials *from_file, OstSceneMaterials *materials)
 {
@@ -25,13 +23,8 @@ static OstStatus take_from_case(const OstCase *c, const OstNames *regions, const
     OST_TRY(ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material));
     const int all = strcmp(stated->region, "all") == 0;
     const int only = all ? -1 : ost_names_find(regions, stated->region);
-    if (!all && only < 0) {
-        char names[NAME_LIST_SIZE];
-        ost_names_list(regions, names, sizeof names);
-        return OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                         "%s:%d:%d: the mesh has no region '%s'; it has: %s. 'all' stands for every one", c->path,
-                         stated->region_place.line, stated->region_place.column, stated->region, names);
-    }
+    if (!all && only < 0)
+        return ost_raise_no_region(c, stated->region_place, regions, stated->region);
     for (int r = 0; r < regions->count; r++) {
         if (!all && r != only)
             continue;

@@ -336,7 +336,7 @@ static void settings_are_read(void **state)
     (void)state;
     char whole[2048];
     snprintf(whole, sizeof whole,
-             "%s%selement: {order: 1}\neffects: {large_rotation: off}\naccuracy: {relative_residual: 1e-10, "
+             "%s%selement: {order: 1}\naccuracy: {relative_residual: 1e-10, "
              "out_of_reach: accept}\n"
              "solver: {recipe: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
              "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"

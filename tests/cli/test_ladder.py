@@ -99,6 +99,24 @@ def a_small_body_that_may_not_be_factored_is_iterated_on():
     check(report["solver"]["level_unknowns"][1] == 144, f"not on the linear tets: {report['solver']['level_unknowns']}")
 
 
+def all_that_was_tried_is_told_whole():
+    """To its last word: on standard error, in the JSON and in the file."""
+    folder = new_folder()
+    hopeless = case(CRIPPLED + ", factor_memory: 1, max_iterations: 125")
+    finished, _, path = solve(hopeless, folder=folder, extra=("--keep",))
+    with open(os.path.join(folder, "summary.json")) as stream:
+        report = json.load(stream)
+    steps = report["solver"]["steps"]
+    check(len(steps) == 5, f"five steps are wanted: {steps}")
+    reason = report["reasons"][0]
+    tried = "; ".join(f"{s['rung']} ({s['iterations']} iterations): {s['outcome']}" for s in steps)
+    check(reason.endswith("Tried: " + tried), f"not all of {tried}: {reason}")
+    check("or an iterative recipe" in steps[3]["outcome"], f"an outcome is cut off: {steps[3]}")
+    check(finished.errors.endswith(reason + "\n"), f"not whole: {finished.errors}")
+    with open(path, "rb") as stream:
+        check(reason.encode() in stream.read(), "the file's reason is not whole")
+
+
 def what_rounding_allows_is_refused_or_taken():
     finished, _, _ = solve(case("recipe: auto", tolerance="1e-15"))
     check(finished.exit_code == 1 and "double precision allows about" in finished.errors, finished.errors)
@@ -129,5 +147,6 @@ every_rung_gives_the_same_pose()
 a_climb_is_told()
 without_memory_all_that_was_tried_is_told()
 a_small_body_that_may_not_be_factored_is_iterated_on()
+all_that_was_tried_is_told_whole()
 what_rounding_allows_is_refused_or_taken()
 the_plan_is_explained()

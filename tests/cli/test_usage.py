@@ -96,6 +96,16 @@ def main():
     check(quiet.exit_code == 0 and not quiet.output and not quiet.errors, f"-q first: {quiet.output}{quiet.errors}")
     spoken = run("-q", "--verbose", "solve", "bar.yaml", folder=folder)
     check(spoken.exit_code == 0 and "vertices" in spoken.output, f"the last word counts: {spoken.output}{spoken.errors}")
+    for told in ("mesh: 45 vertices", "solver: direct first: ", "solver: direct: set up (", "iterations in "):
+        check(told in spoken.errors, f"-v does not tell '{told}': {spoken.errors}")
+    check(not run("solve", "bar.yaml", folder=folder).errors, "without -v it is not told")
+    steel = ("material", "--youngs", "1", "--nu", "0.3")
+    for words in (("explain", "bar.yaml"), ("check", "bar.yaml"), steel):
+        quiet = run(*words, "-q", folder=folder)
+        check(quiet.exit_code == 0 and not quiet.output and not quiet.errors, f"{words} -q: {quiet.output}{quiet.errors}")
+        json.loads(run(*words, "-q", "--json", folder=folder).output)
+    quiet = run("material", "-q", "--youngs", "1", "--nu", "0.6")
+    check(quiet.exit_code == 2 and not quiet.output and "orthostat: error: " in quiet.errors, f"{quiet.errors}")
     check(run("-v").exit_code == 2, "-v and no command")
     check(run("-q", "--help").output == helped_text, "-q --help")
 

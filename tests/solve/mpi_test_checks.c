@@ -41,7 +41,7 @@ static Solved make_held(int order, const double given[3], double load)
     result->displacement = numbers(size);
     result->force = numbers(size);
     result->reaction = numbers(size);
-    result->solve.error_estimate = 3e-5;
+    result->solve.error_estimate = result->solve.energy_error = 3e-5;
     result->solve.rounding_error = 1e-5;
     assert_success(ost_supports_create(mesh, &solved.supports));
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
@@ -269,15 +269,15 @@ static void forces_lost_beside_a_common_displacement_are_seen(void **state)
         const OstChecks *checks = &solved.result.checks;
         report->recipe = norms[n];
         report->rounding_error = 0.0;
-        report->error_estimate = 1e-11;
+        report->energy_error = report->error_estimate = 1e-11;
         check(&solved);
         assert_int_equal(solved.result.objections.count, 0);
         assert_true(checks->force_error > 1e3 * checks->displacement_error && checks->force_digits < 8.0);
         const double amplified = checks->force_error / 1e-11;
-        report->error_estimate = 0.09 / amplified;
+        report->energy_error = report->error_estimate = 0.09 / amplified;
         check(&solved);
         assert_int_equal(solved.result.objections.count, 0);
-        report->error_estimate = 0.11 / amplified;
+        report->energy_error = report->error_estimate = 0.11 / amplified;
         check(&solved);
         assert_close(checks->force_error, 0.11, 1e-3);
         assert_true(checks->digits > 3.0);
@@ -297,7 +297,7 @@ static void a_rigid_motion_has_no_forces_to_lose(void **state)
 {
     (void)state;
     Solved solved = make_along(1, 1e4, 0.0);
-    solved.result.solve.error_estimate = 1e-3; /* 1e4 times what deforms it */
+    solved.result.solve.energy_error = solved.result.solve.error_estimate = 1e-3; /* 1e4 times what deforms it */
     check(&solved);
     assert_true(solved.result.checks.force_digits == 0.0);
     assert_int_equal(solved.result.objections.count, 0);
@@ -321,7 +321,71 @@ static void forces_are_as_right_as_the_displacement_where_nothing_is_moved(void 
     destroy(&solved);
 }
 
+/* What a linear map does to a tet does not depend on its edges' being straight. */
+static void bend_edges(OstMesh *mesh)
+{
+    for (OstLocal node = 0; node < mesh->node_count; node++) {
+        double *x = mesh->coordinates + 3 * node;
+        x[2] += 0.05 * x[0] * x[0];
+    }
+}
+
+/* u = g x: the largest strain of a tet is the norm of g's symmetric part, the largest turn that of half its curl. */
+static void assert_linearity(const double g[9], double strain, double rotation)
+{
+    for (int order = 1; order <= 2; order++) {
+        Solved solved = make(order);
+        bend_edges(solved.mesh);
+        for (OstLocal node = 0; node < solved.mesh->node_count; node++)
+            ost_apply3(g, solved.mesh->coordinates + 3 * node, solved.result.displacement + 3 * node);
+        check(&solved);
+        assert_close(solved.result.checks.largest_strain, strain, 1e-12);
+        assert_close(solved.result.checks.largest_rotation, rotation, 1e-12);
+        assert_close(ost_linear_error(&solved.result.checks), fmax(0.5 * strain, 0.5 * rotation * rotation), 1e-12);
+        destroy(&solved);
+    }
+}
+
+static void large_strains_and_rotations_are_measured(void **state)
+{
+    (void)state;
+    assert_linearity((const double[9]){0.0, -0.3, 0.2, 0.3, 0.0, -0.6, -0.2, 0.6, 0.0}, 0.0, 0.7);
+    assert_linearity((const double[9]){0.1, 0.0, 0.0, 0.0, -0.25, 0.0, 0.0, 0.0, 0.2}, 0.25, 0.0);
+    assert_linearity((const double[9]){0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.04}, 0.04, 0.0);
+    /* simple shear by 0.08: principal strains of 0.04 and a turn of 0.04, about x, y and z */
+    assert_linearity((const double[9]){0.0, 0.0, 0.0, 0.0, 0.0, 0.08, 0.0, 0.0, 0.0}, 0.04, 0.04);
+    assert_linearity((const double[9]){0.0, 0.0, 0.08, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.04, 0.04);
+    assert_linearity((const double[9]){0.0, 0.0, 0.0, 0.08, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.04, 0.04);
+    /* all six strains: -0.2 v v' with |v| = 1, (2, -1, 2) / 3, and a pull of 0.1 across it, (1, 2, 0) / sqrt(5) */
+    const double v[3] = {2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}, w[3] = {1.0 / sqrt(5.0), 2.0 / sqrt(5.0), 0.0};
+    double g[9];
+    for (int i = 0; i < 9; i++)
+        g[i] = 0.1 * w[i / 3] * w[i % 3] - 0.2 * v[i / 3] * v[i % 3];
+    assert_linearity(g, 0.2, 0.0);
+}
+
+/* One tet is enough, on whichever rank it is. */
+static void the_largest_of_all_ranks_counts(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    const OstMesh *mesh = solved.mesh;
+    memset(solved.result.displacement, 0, 3 * (size_t)mesh->node_count * sizeof(double));
+    for (OstLocal node = 0; node < mesh->node_count; node++)
+        if (mesh->node_label[node] == 1)
+            solved.result.displacement[3 * node] = 1.0;
+    check(&solved);
+    double all[2] = {solved.result.checks.largest_strain, solved.result.checks.largest_rotation}, least[2];
+    assert_true(all[0] > 0.1 && all[1] > 0.1);
+    MPI_Allreduce(all, least, 2, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    assert_close(all[0], least[0], 0.0);
+    assert_close(all[1], least[1], 0.0);
+    destroy(&solved);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(large_strains_and_rotations_are_measured),
+    cmocka_unit_test(the_largest_of_all_ranks_counts),
     cmocka_unit_test(an_answer_passes),
     cmocka_unit_test(a_slip_in_the_displacement_is_seen),
     cmocka_unit_test(work_that_the_strains_do_not_have_is_missing_from_the_digits),

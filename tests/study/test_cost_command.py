@@ -98,6 +98,21 @@ class Cost(unittest.TestCase):
         self.assertEqual([row["order"] for row in rows], ["1", "1"])
         self.assertEqual(rows[0]["tip error"], "", "the finest answer knows nothing of itself")
 
+    def test_the_picture_goes_by_way_of_tmpdir(self):
+        """An installed program runs the script beside it: here one that tells what it is to draw."""
+        for folder in ("bin", "share/orthostat", "somewhere"):
+            os.makedirs(self.path(folder))
+        program = shutil.copy(PROGRAM, self.path("bin"))
+        with open(self.path("share/orthostat/plot-cost"), "w") as stream:
+            stream.write('#!/bin/sh\ntest -s "$1" && echo "$1"\n')
+        os.chmod(stream.name, 0o755)
+        done = subprocess.run([program, "cost", "beam.yaml", *LADDER, "-q", "--picture", "p.png"], cwd=self.folder,
+                              capture_output=True, text=True, timeout=100,
+                              env={**os.environ, "TMPDIR": self.path("somewhere")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith(self.path("somewhere/orthostat-prices-")), done.stdout)
+        self.assertFalse(os.path.exists(done.stdout.strip()))
+
     def test_picture_is_drawn(self):
         self.assertEqual(self.cost(*LADDER, "-q", "--picture", "p.png").stdout, "")
         with open(self.path("p.png"), "rb") as stream:

@@ -1,0 +1,49 @@
+"""Linear theory takes strains and rotations as small: where they are not, summary and JSON say so in plain words."""
+import json
+import os
+
+from program import check, new_folder, run
+
+CASE = """
+mesh:
+  block: {size: [4, 1, 1], divisions: [8, 2, 2]}
+element: {order: 2}
+materials:
+  - {region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: FORCE}
+"""
+
+
+def solve(folder, force, ranks=1, extra=()):
+    with open(os.path.join(folder, "case.yaml"), "w") as stream:
+        stream.write(CASE.replace("FORCE", force))
+    finished = run("solve", "case.yaml", "--json", "summary.json", *extra, ranks=ranks, folder=folder)
+    check(finished.exit_code == 0, finished.errors)
+    with open(os.path.join(folder, "summary.json")) as stream:
+        return finished, json.load(stream)
+
+
+def main():
+    folder = new_folder()
+    for ranks in (1, 2):
+        finished, report = solve(folder, "[0, 0, 1e4]", ranks)
+        check(report["accepted"], f"a warning is no refusal: {report['reasons']}")
+        check(len(report["warnings"]) == 1 and report["warnings"][0] in finished.output, f"{report['warnings']}")
+        # by the theory of beams the end turns by F L² / 2 E I = 0.96, which is 55 degrees
+        checks = report["checks"]
+        check(0.9 < checks["largest_rotation"] < 1.05, f"turns by {checks['largest_rotation']}")
+        for words in ("WARNING", "parts turn by up to 5", "degrees and strain by up to", "linear theory", "scale the loads down"):
+            check(words in finished.output, f"'{words}' is not in: {finished.output}")
+    for force, warned in (("[1e5, 0, 0]", True), ("[3e4, 0, 0]", False), ("[0, 0, 1e3]", False), ("[0, 0, 1e7]", True)):
+        finished, report = solve(folder, force)
+        check(bool(report["warnings"]) == warned and ("WARNING" in finished.output) == warned,
+              f"{force}: {report['warnings']}, {report['checks']}")
+    check("more than 100 %" in finished.output, f"3200 degrees: {finished.output}")
+    finished, report = solve(folder, "[0, 0, 1e4]", extra=("-q",))
+    check(not finished.output and not finished.errors and report["warnings"], f"-q: {finished.output}{finished.errors}")
+
+
+main()
