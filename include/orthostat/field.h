@@ -23,6 +23,7 @@ typedef struct OstMaterialField {
     /* NULL, or region_count × 3: stress of the mode that sees its mean alone (ost_field_mean_dilatation), along the
      * material axes; zero in regions without. */
     double *region_stiff_mode;
+    double *region_rest; /* NULL likewise, or region_count × 36: C without it, in material axes */
 } OstMaterialField;
 
 /* Local. C of a tet in world axes. */
@@ -75,6 +76,10 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
 
 /* Local. m of a region along its axes (three numbers), or NULL if its C is not split. */
 const double *ost_field_stiff_mode(const OstMaterialField *field, int32_t region);
+
+/* Local. C - m m' of such a region in material axes (36 numbers), or NULL. It is not had by that difference, which
+ * would be wrong by the rounding of what is taken away, and that is as large as 1/e: near nu = 1/2 all of it. */
+const double *ost_field_rest(const OstMaterialField *field, int32_t region);
 
 void ost_field_destroy(OstMaterialField **field);
 

@@ -13,12 +13,15 @@ typedef struct OstChecks {
     double rigid_motion;       /* most that a tet, or a row of the matrix, resisted rigid motion, over |K| |motion| */
     double displacement_error; /* of the displacement, relative: the solver's error_estimate; NAN if not known */
     double digits;             /* that this leaves, 0 to 16; NAN if not known */
+    double force_error;        /* of reactions and stresses, about: the most of the imbalances below and of the
+                                  displacement's error beside what strains the body; NAN if not known */
+    double force_digits;       /* that this leaves */
     double load[3], reaction[3];
-    double force_imbalance;  /* |sum of loads + reactions| over the sum of their magnitudes */
+    double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
     double moment_imbalance; /* likewise about the body's centre */
     double strain_energy;    /* ½ u·K u */
     double work;             /* of loads and reactions: ½ (f·u + r·g) */
-    double energy_imbalance; /* |strain_energy - work| / larger */
+    double energy_imbalance; /* |strain_energy - work| over ½ the sum of |load + reaction| |u| by component */
     int finite;
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */

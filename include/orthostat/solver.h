@@ -22,7 +22,8 @@ enum {
     OST_GIVEN_COARSE_AGGREGATE = 2,
     OST_GIVEN_BLOCK = 4,
     OST_GIVEN_DEGREE = 8,
-    OST_GIVEN_RATIO = 16
+    OST_GIVEN_RATIO = 16,
+    OST_GIVEN_COARSEST = 32
 };
 
 typedef struct OstSolverOptions {
@@ -89,7 +90,7 @@ typedef struct OstSolveReport {
     double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known (PLAIN) */
     double error_estimate;  /* |u - u*| / |u| about, u the unknowns: in the norm of the energy, sqrt(u·K u); the 2-norm
                                where factors are at hand. 0 if not known (PLAIN), INFINITY if there is no bound */
-    double rounding_error;  /* what of it rounding of K explains; 0 where four digits are left, and nobody asked */
+    double rounding_error;  /* what of it rounding of K explains; 0 where six digits are left, and nobody asked */
     double rounding_spread; /* standard error of that, over it, where it is a mean over roundings thrown at random */
     OstSolverPlan plan;
     int steps; /* one more than times climbed */

@@ -12,13 +12,16 @@
 #include <string.h>
 
 /* Up to this error rounding is not looked at more closely, nor once a throw is no more: one that falls short a
- * thousandfold still leaves a digit. */
-static const double four_digits = 1e-4;
+ * hundredfold, as one in a hundred does, still leaves four digits. */
+static const double six_digits = 1e-6;
 
 /* As many where the error is near to the least digit. */
 enum { FEWEST_THROWS = 8, MOST_THROWS = 64 };
 
 const double ost_least_digit = 0.1;
+
+/* Little of the energy is where the displacement is, if the two tell errors that differ by more than this. */
+static const double hidden_beyond = 10.0;
 
 /* Factors are led (algebra/exact_step.h) until a step is no more than this of the whole. */
 static const double roughly = 0.1;
@@ -37,8 +40,10 @@ typedef struct Work {
     double *left;        /* what of the vector is left to solve for, */
     double *solution;    /* and A^-1 of the rest, over |u| */
     int lost;            /* is A not positive definite, or does none settle? */
+    double smallest;     /* eigenvalue of M^-1 A */
     double energy_norm;  /* |u|_A sqrt(smallest) */
     double displacement; /* |u| */
+    double moved;        /* |M^-1 v| over that, of the last vector that was measured, where M is not factors */
 } Work;
 
 /* f - A u; fills u's ghosts. */
@@ -91,13 +96,20 @@ static OstStatus find_norm(const Work *work, const double *v, double *norm)
 static OstStatus measure(Work *work, double *error)
 {
     double size, square;
+    work->moved = 0.0;
     OST_TRY(correct(work, &size));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, work->vector, work->corrected, &square));
     *error = square == 0.0 ? 0.0 : size * sqrt(square) / work->energy_norm;
-    if (!work->preconditioner->factors || !(square > 0.0))
+    if (!(square > 0.0))
         return OST_SUCCESS;
     unscale(work, size / work->displacement);
-    return find_norm(work, work->corrected, error);
+    return find_norm(work, work->corrected, work->preconditioner->factors ? error : &work->moved);
+}
+
+/* The larger, but NAN stays. */
+static double at_least(double error, double other)
+{
+    return other > error ? other : error;
 }
 
 /* The next step towards the solution of what is left, and how far it leads. */
@@ -141,27 +153,38 @@ static OstStatus look(Work *work, double *error)
 
 static int more_throws(const OstThrows *throws)
 {
-    if (throws->count > 0 && ost_throws_size(throws) <= four_digits)
+    if (throws->count > 0 && ost_throws_size(throws) <= six_digits)
         return 0;
     return ost_throws_undecided(throws, ost_least_digit, FEWEST_THROWS, MOST_THROWS);
 }
 
+/* The error that the residual leaves. */
+static OstStatus look_at_residual(Work *work, OstEnergyError *error)
+{
+    double energy;
+    memcpy(work->vector, work->residual, work->n * sizeof(double));
+    OST_TRY(look(work, &energy));
+    error->hidden = work->moved > hidden_beyond * work->smallest * energy;
+    error->whole = at_least(energy, work->moved / work->smallest);
+    return OST_SUCCESS;
+}
+
+/* How much a throw moves depends on no eigenvalue: few of its many directions are those of the least one. */
 static OstStatus look_closer(Work *work, OstEnergyError *error)
 {
-    double residual, one;
+    double one;
     OstThrows throws = {0, 0.0};
-    memcpy(work->vector, work->residual, work->n * sizeof(double));
-    OST_TRY(look(work, &residual));
+    OST_TRY(look_at_residual(work, error));
     while (!work->lost && more_throws(&throws)) {
         throw_rounding(work, 1 + throws.count);
         OST_TRY(look(work, &one));
-        ost_throws_add(&throws, one);
+        ost_throws_add(&throws, at_least(one, work->moved));
     }
     if (work->lost)
         return OST_SUCCESS;
     error->rounding = ost_throws_size(&throws);
     error->spread = ost_throws_spread(&throws);
-    error->whole = hypot(residual, error->rounding);
+    error->whole = hypot(error->whole, error->rounding);
     return OST_SUCCESS;
 }
 
@@ -187,13 +210,13 @@ static OstStatus prepare_to_lead(Work *work)
     return ost_exact_step_create(work->system->matrix, &work->step);
 }
 
-static OstStatus estimate(Work *work, double smallest, const double *f, int exact, OstEnergyError *error)
+static OstStatus estimate(Work *work, const double *f, int exact, OstEnergyError *error)
 {
     double energy;
     OST_TRY(find_residual(work, f, exact));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
-    *error = (OstEnergyError){INFINITY, INFINITY, 0.0};
-    work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(smallest) : 0.0;
+    *error = (OstEnergyError){.whole = INFINITY, .rounding = INFINITY};
+    work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(work->smallest) : 0.0;
     if (!(work->energy_norm > 0.0))
         return OST_SUCCESS;
     OST_TRY(find_displacement(work));
@@ -204,10 +227,11 @@ static OstStatus estimate(Work *work, double smallest, const double *f, int exac
     if (exact && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
     OST_TRY(look(work, &error->whole));
-    if (error->whole > four_digits && !work->lost)
+    error->whole = at_least(error->whole, work->moved / work->smallest);
+    if (error->whole > six_digits && !work->lost)
         OST_TRY(look_closer(work, error));
     if (work->lost)
-        *error = (OstEnergyError){INFINITY, INFINITY, 0.0};
+        *error = (OstEnergyError){.whole = INFINITY, .rounding = INFINITY};
     return OST_SUCCESS;
 }
 
@@ -223,11 +247,12 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
                            const double *f, const double *u, int exact, OstEnergyError *error)
 {
     const OstBlockMatrix *matrix = system->matrix;
-    Work work = {.system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows};
+    Work work = {
+        .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows, .smallest = smallest};
     OstStatus status = ost_agree(matrix->ctx, allocate(matrix->ctx, &work));
     if (status == OST_SUCCESS) {
         memcpy(work.u, u, work.n * sizeof *u);
-        status = estimate(&work, smallest, f, exact, error);
+        status = estimate(&work, f, exact, error);
     }
     OST_FREE(work.u);
     OST_FREE(work.residual);

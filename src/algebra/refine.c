@@ -215,7 +215,7 @@ static int is_done(const Refinement *work)
 }
 
 /* The goal is missed yet, or a second correction has not let u stand: where rounding is near, residuals are worth more
- * care from here on. */
+ * care from here on. It is near where factors leave more of a residual than no displacement at all would. */
 static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
@@ -223,7 +223,7 @@ static OstStatus look_for_rounding(Refinement *work)
     if (goal->exact || !missed)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
-    goal->exact = goal->norm <= exact_below * goal->limit;
+    goal->exact = goal->norm <= exact_below * goal->limit || (goal->settled > 0.0 && goal->norm > goal->start);
     return goal->exact ? first_residual(work) : OST_SUCCESS;
 }
 

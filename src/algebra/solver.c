@@ -5,6 +5,7 @@
 #include "algebra/exact_residual.h"
 #include "algebra/rung.h"
 #include "algebra/solver_options.h"
+#include "algebra/solver_plan.h"
 #include "algebra/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -84,17 +85,41 @@ static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps,
     return OST_RAISE(ctx, OST_NOT_CONVERGED, "%s. Tried: %s", last, tried);
 }
 
-static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
+static OstSolverFacts facts_of(const OstSolver *solver)
 {
     OstSolverFacts facts = {0};
     if (solver->geometry.facts)
         facts = *solver->geometry.facts;
     facts.unknowns = 3 * solver->matrix->global_rows;
-    ost_solver_plan(options, &facts, &solver->plan);
+    return facts;
+}
+
+static void tell_plan(const OstSolver *solver)
+{
     for (int r = 0; r < solver->plan.reasons; r++)
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
                 r == 0 ? " first: " : "", solver->plan.reason[r]);
+}
+
+static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
+{
+    const OstSolverFacts facts = facts_of(solver);
+    ost_solver_plan(options, &facts, &solver->plan);
+    tell_plan(solver);
     return ost_epetra_map_create(solver->ctx, 3 * solver->matrix->rows, &solver->map);
+}
+
+/* The plan's rule of thumb lets a small body be factored that the analysis then finds not to fit. */
+static OstStatus stand_on_first(OstSolver *solver, const OstSolverOptions *options)
+{
+    const OstStatus status = stand_on(solver, solver->plan.first, solver->step, &solver->steps);
+    const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
+    if (!has_no_room || !climbs(solver) || solver->plan.first != OST_RECIPE_DIRECT)
+        return status;
+    const OstSolverFacts facts = facts_of(solver);
+    ost_solver_plan_without_factors(options, &facts, &solver->plan);
+    tell_plan(solver);
+    return stand_on(solver, solver->plan.first, solver->step, &solver->steps);
 }
 
 OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
@@ -111,7 +136,7 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->geometry = *geometry;
     OST_TRY_DONE(make_plan(made, options));
     if (matrix->global_rows > 0)
-        status = stand_on(made, made->plan.first, made->step, &made->steps);
+        status = stand_on_first(made, options);
     if (status != OST_SUCCESS)
         status = raise_all(ctx, made->step, made->steps, status);
 done:

@@ -55,7 +55,11 @@ OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *opti
     OST_TRY(check_number(ctx, "smoother_ratio", options->smoother_ratio, 1.0, 1e6));
     OST_TRY(check_number(ctx, "coarsest_unknowns", options->coarsest_unknowns, 0.0, INT_MAX));
     OST_TRY(check_number(ctx, "most_levels", options->most_levels, 0.0, OST_MAX_LEVELS));
-    return check_number(ctx, "factor_memory", options->factor_memory, -1e-300, 1e300);
+    if (options->factor_memory >= 0.0 && options->factor_memory <= 1e300)
+        return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_INVALID_INPUT,
+                     "solver option factor_memory is %g bytes; expected 0, for what is free, or more, at most 1e300",
+                     options->factor_memory);
 }
 
 void ost_solver_rung_options(const OstSolverOptions *planned, OstRecipe rung, OstSolverOptions *options)

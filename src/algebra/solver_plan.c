@@ -42,12 +42,32 @@ double ost_solver_factor_bytes(OstGlobal unknowns)
     return 505e6 * pow((double)unknowns / 74340.0, 1.29);
 }
 
-static void plan_rung(const OstSolverFacts *facts, OstSolverPlan *plan)
+/* What a factorisation may take; 0 where it is not known. */
+static double allowed_memory(const OstSolverOptions *options, const OstSolverFacts *facts)
+{
+    return options->factor_memory > 0.0 ? options->factor_memory : facts->free_memory;
+}
+
+/* Multigrid, which would factor so few unknowns as its coarsest level if it were not told otherwise. */
+static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    const OstGlobal fewer = facts->unknowns / 4;
+    plan->first = OST_RECIPE_METRIC;
+    if (!(plan->options.given & OST_GIVEN_COARSEST) && plan->options.coarsest_unknowns > fewer)
+        plan->options.coarsest_unknowns = fewer > 0 ? (int)fewer : 1;
+    say(plan, "%lld unknowns are few, but a factorisation would not fit into the %.3g MiB %s: multigrid",
+        (long long)facts->unknowns, allowed_memory(&plan->options, facts) / 1048576.0,
+        plan->options.factor_memory > 0.0 ? "allowed" : "free");
+}
+
+static void plan_rung(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     const long long unknowns = (long long)facts->unknowns;
     if (plan->options.recipe != OST_RECIPE_AUTO) {
         plan->first = plan->options.recipe;
         say(plan, "the case asks for it");
+    } else if (facts->unknowns < direct_below && !fits) {
+        plan_around_memory(facts, plan);
     } else if (facts->unknowns < direct_below) {
         plan->first = OST_RECIPE_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: a factorisation is at hand at once", unknowns,
@@ -93,7 +113,7 @@ static void plan_trouble(const OstSolverFacts *facts, OstSolverPlan *plan)
 static void plan_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const double wanted = ost_solver_factor_bytes(facts->unknowns);
-    const double allowed = plan->options.factor_memory > 0.0 ? plan->options.factor_memory : facts->free_memory;
+    const double allowed = allowed_memory(&plan->options, facts);
     if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT || !(allowed > 0.0))
         return;
     say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the last rung is %s reach",
@@ -101,12 +121,23 @@ static void plan_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
         wanted <= allowed ? "in" : "out of");
 }
 
-void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)
+static void make_plan(const OstSolverOptions *options, const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     memset(plan, 0, sizeof *plan);
     plan->options = *options;
-    plan_rung(facts, plan);
+    plan_rung(facts, fits, plan);
     plan_aggregates(facts, plan);
     plan_trouble(facts, plan);
     plan_memory(facts, plan);
+}
+
+void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    const double allowed = allowed_memory(options, facts);
+    make_plan(options, facts, !(allowed > 0.0) || ost_solver_factor_bytes(facts->unknowns) <= allowed, plan);
+}
+
+void ost_solver_plan_without_factors(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)
+{
+    make_plan(options, facts, 0, plan);
 }

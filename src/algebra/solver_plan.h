@@ -7,4 +7,7 @@
 /* Local. Memory that factoring a body's stiffness takes, as a rule of thumb; MUMPS's analysis knows better. */
 double ost_solver_factor_bytes(OstGlobal unknowns);
 
+/* Local. As ost_solver_plan, where the analysis has found that a factorisation does not fit. */
+void ost_solver_plan_without_factors(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
+
 #endif

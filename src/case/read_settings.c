@@ -36,13 +36,27 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
     return OST_SUCCESS;
 }
 
-/* A number of nodes, 1 or more. */
-static OstStatus read_nodes(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
+/* The solver's own bounds (ost_solver_check_options), where a line can still be named. */
+static const double most_aggregate = 1e6, most_block = 1e3, most_ratio = 1e6, most_mebibytes = 1e12;
+
+static OstStatus read_aggregate(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
 {
     if (!key->value)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, key->value, nodes));
-    return *nodes >= 1.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number of nodes, 1 or above", "");
+    return *nodes > 1.0 && *nodes <= most_aggregate
+               ? OST_SUCCESS
+               : ost_yaml_raise_type(yaml, key->value, "a number of nodes above 1, at most 1e6", "");
+}
+
+static OstStatus read_block(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
+{
+    if (!key->value)
+        return OST_SUCCESS;
+    OST_TRY(ost_yaml_number(yaml, key->value, nodes));
+    return *nodes >= 1.0 && *nodes <= most_block
+               ? OST_SUCCESS
+               : ost_yaml_raise_type(yaml, key->value, "a number of nodes from 1 to 1000", "");
 }
 
 static OstStatus read_count(const OstYaml *yaml, const OstYamlKey *key, int64_t high, int *count)
@@ -76,7 +90,9 @@ static OstStatus read_ratio(const OstYaml *yaml, const OstYamlKey *key, double *
     if (!key->value)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, key->value, ratio));
-    return *ratio > 1.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number above 1", "");
+    return *ratio > 1.0 && *ratio <= most_ratio
+               ? OST_SUCCESS
+               : ost_yaml_raise_type(yaml, key->value, "a number above 1, at most 1e6", "");
 }
 
 static OstStatus read_memory(const OstYaml *yaml, const OstYamlKey *key, double *bytes)
@@ -86,7 +102,9 @@ static OstStatus read_memory(const OstYaml *yaml, const OstYamlKey *key, double 
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, key->value, &mebibytes));
     *bytes = 1048576.0 * mebibytes;
-    return mebibytes > 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, key->value, "a number of MiB above 0", "");
+    return mebibytes > 0.0 && mebibytes <= most_mebibytes
+               ? OST_SUCCESS
+               : ost_yaml_raise_type(yaml, key->value, "a number of MiB above 0, at most 1e12", "");
 }
 
 /* What plan and ladder are to leave alone. */
@@ -94,7 +112,7 @@ static unsigned given(const OstYamlKey *keys)
 {
     return (keys[AGGREGATE].value ? OST_GIVEN_AGGREGATE : 0U) | (keys[COARSE].value ? OST_GIVEN_COARSE_AGGREGATE : 0U) |
            (keys[BLOCK].value ? OST_GIVEN_BLOCK : 0U) | (keys[DEGREE].value ? OST_GIVEN_DEGREE : 0U) |
-           (keys[RATIO].value ? OST_GIVEN_RATIO : 0U);
+           (keys[RATIO].value ? OST_GIVEN_RATIO : 0U) | (keys[COARSEST].value ? OST_GIVEN_COARSEST : 0U);
 }
 
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -117,9 +135,9 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     OST_TRY(read_recipe(yaml, &keys[RECIPE], &solver->recipe));
     OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
     OST_TRY(read_count(yaml, &keys[PATIENCE], 1000000, &solver->patience));
-    OST_TRY(read_nodes(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));
-    OST_TRY(read_nodes(yaml, &keys[COARSE], &solver->coarse_aggregate_nodes));
-    OST_TRY(read_nodes(yaml, &keys[BLOCK], &solver->smoother_block_nodes));
+    OST_TRY(read_aggregate(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));
+    OST_TRY(read_aggregate(yaml, &keys[COARSE], &solver->coarse_aggregate_nodes));
+    OST_TRY(read_block(yaml, &keys[BLOCK], &solver->smoother_block_nodes));
     OST_TRY(read_count(yaml, &keys[DEGREE], 20, &solver->smoother_degree));
     OST_TRY(read_ratio(yaml, &keys[RATIO], &solver->smoother_ratio));
     OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));

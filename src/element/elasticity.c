@@ -130,9 +130,12 @@ static void evaluate_axes(const OstMaterialField *field, const OstLocal tets[OST
     }
 }
 
-/* Takes the stiff mode out of C: m is its stress, given along the axes. */
-static void split(const double mode[3], const OstLanes axes[9], OstLanes *c, OstLanes m[6])
+/* C in its two parts, where the stiff mode is split off: m is its stress, given along the axes, c the rest. */
+static void turn_split(const OstMaterialField *field, int32_t region, const OstLanes axes[9], OstLanes *c,
+                       OstLanes m[6])
 {
+    const double *mode = ost_field_stiff_mode(field, region);
+    rotate(ost_field_rest(field, region), axes, c);
     memset(m, 0, 6 * sizeof *m);
     for (int a = 0; a < 3; a++) {
         OstLanes along[6];
@@ -140,9 +143,6 @@ static void split(const double mode[3], const OstLanes axes[9], OstLanes *c, Ost
         for (int p = 0; p < 6; p++)
             m[p] += mode[a] * along[p];
     }
-    for (int p = 0, n = 0; p < 6; p++)
-        for (int q = p; q < 6; q++)
-            c[n++] -= m[p] * m[q];
 }
 
 /* Two directions turn about the axis and one does not: A = t I + (a - t) axis axis' + (r - t) d d' / d'd, with the
@@ -196,14 +196,15 @@ static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *fi
     const double *of_region = field->region_axes ? field->region_axes + 9 * (size_t)region : world;
     OstLanes axes[9];
     elasticity->points = 1;
-    fill_lanes(field->region_stiffness + 36 * (size_t)region, elasticity->c[0]);
     for (int i = 0; i < 9; i++)
         for (int lane = 0; lane < OST_LANES; lane++)
             axes[i][lane] = of_region[i];
+    if (elasticity->by_mean)
+        turn_split(field, region, axes, elasticity->c[0], elasticity->m[0]);
+    else
+        fill_lanes(field->region_stiffness + 36 * (size_t)region, elasticity->c[0]);
     if (elasticity->by_metric)
         stretched_metric(elasticity->stretch, axes, elasticity->metric);
-    if (elasticity->by_mean)
-        split(ost_field_stiff_mode(field, region), axes, elasticity->c[0], elasticity->m[0]);
 }
 
 static void gather_varying(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
@@ -216,9 +217,10 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
             evaluate_axes(field, tets, places + 3 * point, axes);
         else
             gather_axes(field, tets, axes);
-        turn(elasticity, field->material[region].stiffness, axes, point);
         if (elasticity->by_mean)
-            split(ost_field_stiff_mode(field, region), axes, elasticity->c[point], elasticity->m[point]);
+            turn_split(field, region, axes, elasticity->c[point], elasticity->m[point]);
+        else
+            turn(elasticity, field->material[region].stiffness, axes, point);
     }
 }
 

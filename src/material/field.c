@@ -224,48 +224,73 @@ done:
     return status;
 }
 
-/* The part m of a material's one stiff mode beyond that of `nu_limit`, or zeros. */
-static OstStatus find_stiff_mode(OstContext *ctx, const OstOrthotropic *constants, double nu_limit, double mode[3],
-                                 int *found)
+/* C = E^(1/2) (sum of w w' / e) E^(1/2) in the normal block, without what of the first mode is taken out of it. */
+static void build_rest(const OstMaterial *material, double nu_limit, const double eigenvalues[3],
+                       const double vectors[9], double rest[36])
+{
+    const double *modulus = material->constants.youngs_modulus;
+    const double resisted[3] = {1.0 / (1.0 - 2.0 * nu_limit), 1.0 / eigenvalues[1], 1.0 / eigenvalues[2]};
+    memcpy(rest, material->stiffness, 36 * sizeof *rest);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++)
+                sum += resisted[k] * vectors[3 * k + a] * vectors[3 * k + b];
+            rest[6 * a + b] = sqrt(modulus[a] * modulus[b]) * sum;
+        }
+}
+
+/* The part m of a material's one stiff mode beyond that of `nu_limit`, and the rest of C; or zeros. */
+static OstStatus split_material(OstContext *ctx, const OstMaterial *material, double nu_limit, double mode[3],
+                                double rest[36], int *found)
 {
     double ratios[3], block[9], eigenvalues[3], vectors[9];
-    ost_orthotropic_normalised_ratios(constants, ratios);
+    ost_orthotropic_normalised_ratios(&material->constants, ratios);
     ost_normalised_block(ratios, block);
     OST_TRY(ost_symmetric_eigen(ctx, 3, block, eigenvalues, vectors));
     *found = ost_equivalent_poisson(eigenvalues[0]) > nu_limit && ost_equivalent_poisson(eigenvalues[1]) <= nu_limit;
-    const double excess = *found ? 1.0 / eigenvalues[0] - 1.0 / (1.0 - 2.0 * nu_limit) : 0.0;
+    if (!*found)
+        return OST_SUCCESS;
+    const double excess = 1.0 / eigenvalues[0] - 1.0 / (1.0 - 2.0 * nu_limit);
     for (int a = 0; a < 3; a++)
-        mode[a] = vectors[a] * sqrt(constants->youngs_modulus[a] * excess);
+        mode[a] = vectors[a] * sqrt(material->constants.youngs_modulus[a] * excess);
+    build_rest(material, nu_limit, eigenvalues, vectors, rest);
     return OST_SUCCESS;
+}
+
+static void forget_split(OstMaterialField *field)
+{
+    OST_FREE(field->region_stiff_mode);
+    OST_FREE(field->region_rest);
 }
 
 OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions)
 {
-    double *modes = NULL;
     *regions = 0;
-    OST_TRY(OST_NEW(field->ctx, &modes, 3 * field->region_count));
-    for (int r = 0; r < field->region_count; r++) {
+    forget_split(field);
+    OstStatus status = OST_NEW(field->ctx, &field->region_stiff_mode, 3 * field->region_count);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(field->ctx, &field->region_rest, 36 * field->region_count);
+    for (int r = 0; r < field->region_count && status == OST_SUCCESS; r++) {
         int found = 0;
-        const OstStatus status =
-            find_stiff_mode(field->ctx, &field->material[r].constants, nu_limit, modes + 3 * (size_t)r, &found);
-        if (status != OST_SUCCESS) {
-            OST_FREE(modes);
-            return status;
-        }
+        status = split_material(field->ctx, &field->material[r], nu_limit, field->region_stiff_mode + 3 * r,
+                                field->region_rest + 36 * r, &found);
         *regions += found;
     }
-    OST_FREE(field->region_stiff_mode);
-    if (*regions > 0)
-        field->region_stiff_mode = modes;
-    else
-        OST_FREE(modes);
-    return OST_SUCCESS;
+    if (status != OST_SUCCESS || *regions == 0)
+        forget_split(field);
+    return status;
 }
 
 const double *ost_field_stiff_mode(const OstMaterialField *field, int32_t region)
 {
     const double *mode = field->region_stiff_mode ? field->region_stiff_mode + 3 * (size_t)region : NULL;
     return mode && (mode[0] != 0.0 || mode[1] != 0.0 || mode[2] != 0.0) ? mode : NULL;
+}
+
+const double *ost_field_rest(const OstMaterialField *field, int32_t region)
+{
+    return ost_field_stiff_mode(field, region) ? field->region_rest + 36 * (size_t)region : NULL;
 }
 
 static void destroy_formulas(OstMaterialField *field)
@@ -280,7 +305,7 @@ void ost_field_destroy(OstMaterialField **field)
     if (!*field)
         return;
     destroy_formulas(*field);
-    OST_FREE((*field)->region_stiff_mode);
+    forget_split(*field);
     OST_FREE((*field)->material);
     OST_FREE((*field)->region_stiffness);
     OST_FREE((*field)->region_axes);

@@ -47,9 +47,13 @@ static void print_solve(const OstResult *result)
 
 static void print_digits(const OstChecks *checks)
 {
-    if (isfinite(checks->digits) && isfinite(checks->displacement_error))
-        printf("  digits           about %.0f of the displacement hold (error about %.1e)\n", floor(checks->digits),
-               checks->displacement_error);
+    if (!isfinite(checks->digits) || !isfinite(checks->displacement_error))
+        return;
+    printf("  digits           about %.0f of the displacement hold (error about %.1e)", floor(checks->digits),
+           checks->displacement_error);
+    if (isfinite(checks->force_error))
+        printf(", %.0f of reactions and stresses (%.1e)", floor(checks->force_digits), checks->force_error);
+    printf("\n");
 }
 
 static void print_objections(const OstResult *result)

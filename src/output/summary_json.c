@@ -65,10 +65,12 @@ static json_t *solver_json(const OstSolveReport *report)
 
 static json_t *checks_json(const OstChecks *checks)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}", "relative_residual",
-                     number_json(checks->relative_residual), "rounding", number_json(checks->rounding), "rigid_motion",
-                     number_json(checks->rigid_motion), "displacement_error", number_json(checks->displacement_error),
-                     "digits", number_json(checks->digits), "load", vector_json(checks->load), "reaction",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}",
+                     "relative_residual", number_json(checks->relative_residual), "rounding",
+                     number_json(checks->rounding), "rigid_motion", number_json(checks->rigid_motion),
+                     "displacement_error", number_json(checks->displacement_error), "digits",
+                     number_json(checks->digits), "force_error", number_json(checks->force_error), "force_digits",
+                     number_json(checks->force_digits), "load", vector_json(checks->load), "reaction",
                      vector_json(checks->reaction), "force_imbalance", number_json(checks->force_imbalance),
                      "moment_imbalance", number_json(checks->moment_imbalance), "strain_energy",
                      number_json(checks->strain_energy), "work", number_json(checks->work), "energy_imbalance",

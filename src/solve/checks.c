@@ -22,13 +22,18 @@ enum {
     SUM_ROUNDING, /* squares of what rounding may leave of it */
     SUM_LOAD,     /* 3 */
     SUM_REACTION = SUM_LOAD + 3,
-    SUM_LOAD_SIZE = SUM_REACTION + 3, /* of |f| + |r| */
-    SUM_MOMENT,                       /* 3 */
+    SUM_FORCE_SIZE = SUM_REACTION + 3, /* of |f + r|: what goes straight into a support strains nothing */
+    SUM_FORCE_TERMS,                   /* of |f| + |r|, by which f + r is rounded */
+    SUM_MOMENT,                        /* 3 */
     SUM_MOMENT_SIZE = SUM_MOMENT + 3,
+    SUM_MOMENT_TERMS,
     SUM_ENERGY,      /* of the tets, by their strain */
     SUM_SQUARE,      /* of u */
+    SUM_DEFORMATION, /* squares of u less the common displacement */
     SUM_DOUBLE_WORK, /* (f + r)·u */
-    SUM_WORK_SIZE,   /* of |(f + r)·u| */
+    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component */
+    SUM_WORK_TERMS,  /* of |f·u| + |r·u| */
+    SUM_FREE_LOAD,   /* squares of P f: what does not go straight into a support */
     SUM_NOT_FINITE,
     SUM_COUNT
 };
@@ -39,6 +44,17 @@ static const double rounding_steps = 4.0;
 
 /* A balance may miss by this much beyond what the residual explains. */
 static const double balance_tolerance = 1e-10;
+
+/* A common displacement is to speak of where it is this many times the rest. */
+static const double common_by_far = 10.0;
+
+/* What the sums over nodes ask of the body. */
+typedef struct Body {
+    const OstSupports *supports;
+    double centre[3];
+    int moved;        /* does a support give a displacement? */
+    double common[3]; /* the mean one if so: elsewhere there is none to take out */
+} Body;
 
 static void project_on_held(const OstSupports *supports, OstLocal node, const double vector[3], double held[3])
 {
@@ -52,8 +68,20 @@ static void project_on_held(const OstSupports *supports, OstLocal node, const do
         held[i] = vector[i] - free_part[i];
 }
 
-static void add_node(OstResult *result, const OstSupports *supports, OstLocal node, const double *internal,
-                     const double *magnitude, const double centre[3], double *sums)
+static void add_sizes(const Body *body, OstLocal node, const double *f, const double *u, double *sums)
+{
+    double held[3];
+    project_on_held(body->supports, node, f, held);
+    for (int i = 0; i < 3; i++) {
+        const double deformation = u[i] - body->common[i];
+        sums[SUM_SQUARE] += u[i] * u[i];
+        sums[SUM_DEFORMATION] += deformation * deformation;
+        sums[SUM_FREE_LOAD] += (f[i] - held[i]) * (f[i] - held[i]);
+    }
+}
+
+static void add_node(OstResult *result, const Body *body, OstLocal node, const double *internal,
+                     const double *magnitude, double *sums)
 {
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
@@ -61,25 +89,28 @@ static void add_node(OstResult *result, const OstSupports *supports, OstLocal no
     double out_of_balance[3], external[3], arm[3], moment[3];
     for (int i = 0; i < 3; i++)
         out_of_balance[i] = internal[i] - f[i];
-    project_on_held(supports, node, out_of_balance, r);
+    project_on_held(body->supports, node, out_of_balance, r);
     for (int i = 0; i < 3; i++) {
         const double residual = out_of_balance[i] - r[i];
         external[i] = f[i] + r[i];
-        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] - centre[i];
+        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] - body->centre[i];
         sums[SUM_RESIDUAL] += residual * residual;
         sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
         sums[SUM_LOAD + i] += f[i];
         sums[SUM_REACTION + i] += r[i];
-        sums[SUM_SQUARE] += u[i] * u[i];
         sums[SUM_DOUBLE_WORK] += external[i] * u[i];
         sums[SUM_WORK_SIZE] += fabs(external[i] * u[i]);
+        sums[SUM_WORK_TERMS] += (fabs(f[i]) + fabs(r[i])) * fabs(u[i]);
         sums[SUM_NOT_FINITE] += !isfinite(u[i]) || !isfinite(internal[i]);
     }
+    add_sizes(body, node, f, u, sums);
     ost_cross3(arm, external, moment);
     for (int i = 0; i < 3; i++)
         sums[SUM_MOMENT + i] += moment[i];
-    sums[SUM_LOAD_SIZE] += ost_norm3(f) + ost_norm3(r);
-    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
+    sums[SUM_FORCE_SIZE] += ost_norm3(external);
+    sums[SUM_FORCE_TERMS] += ost_norm3(f) + ost_norm3(r);
+    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(external);
+    sums[SUM_MOMENT_TERMS] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
 }
 
 /* By the density of energy, so that it owes nothing to the forces that the work is told by. On the way, how small the
@@ -116,7 +147,7 @@ static void draw_conclusions(OstChecks *checks, const double *sums, double rhs_n
     const double scale = fmax(rhs_norm, tiny);
     checks->relative_residual = sqrt(sums[SUM_RESIDUAL]) / scale;
     checks->rounding = rounding_steps * DBL_EPSILON * sqrt(sums[SUM_ROUNDING]) / scale;
-    checks->force_imbalance = ost_norm3(force) / fmax(sums[SUM_LOAD_SIZE], tiny);
+    checks->force_imbalance = ost_norm3(force) / fmax(sums[SUM_FORCE_SIZE], tiny);
     checks->moment_imbalance = ost_norm3(sums + SUM_MOMENT) / fmax(sums[SUM_MOMENT_SIZE], tiny);
     checks->strain_energy = sums[SUM_ENERGY];
     checks->work = 0.5 * sums[SUM_DOUBLE_WORK];
@@ -124,11 +155,38 @@ static void draw_conclusions(OstChecks *checks, const double *sums, double rhs_n
     checks->finite = sums[SUM_NOT_FINITE] == 0.0;
 }
 
-static void estimate_digits(OstChecks *checks, const OstSolveReport *report)
+static double digits_of(double error)
 {
-    const int known = report->error_estimate > 0.0;
-    checks->displacement_error = known ? report->error_estimate : NAN;
-    checks->digits = known ? fmax(-log10(fmax(checks->displacement_error, DBL_EPSILON)), 0.0) : NAN;
+    return isnan(error) ? NAN : fmax(-log10(fmax(error, DBL_EPSILON)), 0.0);
+}
+
+/* How many times the deformation the displacement is. */
+static double common_share(const double *sums)
+{
+    return sqrt(sums[SUM_SQUARE] / fmax(sums[SUM_DEFORMATION], DBL_MIN));
+}
+
+/* The estimate is over the displacement, or over the energy of the unknowns, to which a support that takes all along is
+ * a wall that they run into; what strains the body may be far less. */
+static double error_of_strain(const OstResult *result, const Body *body, const double *sums, double work)
+{
+    const double error = result->checks.displacement_error;
+    if (!body->moved)
+        return error;
+    if (result->solve.recipe == OST_RECIPE_DIRECT) /* factors: of the displacement itself */
+        return error * common_share(sums);
+    return error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);
+}
+
+static void estimate_digits(OstResult *result, const Body *body, const double *sums, double work)
+{
+    OstChecks *checks = &result->checks;
+    const int known = result->solve.error_estimate > 0.0;
+    checks->displacement_error = known ? result->solve.error_estimate : NAN;
+    checks->digits = digits_of(checks->displacement_error);
+    const double missed = fmax(checks->force_imbalance, fmax(checks->moment_imbalance, checks->energy_imbalance));
+    checks->force_error = known ? fmax(missed, error_of_strain(result, body, sums, work)) : NAN;
+    checks->force_digits = digits_of(checks->force_error);
 }
 
 void ost_object(OstResult *result, const char *format, ...)
@@ -142,18 +200,26 @@ void ost_object(OstResult *result, const char *format, ...)
     va_end(arguments);
 }
 
-/* What of the imbalances is no news, because the residual says it: internal forces sum to zero exactly, so the balances
- * miss the sum of the residual, at most sqrt(n) its norm; the energy misses its work on the displacement. */
+/* What of the imbalances is no news: the residual says it, as internal forces sum to zero exactly, so that the balances
+ * miss the sum of the residual, at most sqrt(n) its norm, and the energy misses its work on the displacement; and so
+ * does rounding, of a force that goes straight into a support and is all but cancelled there. */
 typedef struct Explained {
-    double balance, energy;
+    double force, moment, energy;
 } Explained;
+
+static double explained_part(double residual, double terms, double size)
+{
+    return balance_tolerance + (residual + rounding_steps * DBL_EPSILON * terms) / fmax(size, DBL_MIN);
+}
 
 static Explained explain(const OstResult *result, const double *sums, double rhs_norm)
 {
     const double residual = sqrt(sums[SUM_RESIDUAL]) + result->checks.rounding * rhs_norm;
-    return (Explained){balance_tolerance +
-                           sqrt((double)result->unknowns) * residual / fmax(sums[SUM_LOAD_SIZE], DBL_MIN),
-                       balance_tolerance + sqrt(sums[SUM_SQUARE]) * residual / fmax(sums[SUM_WORK_SIZE], DBL_MIN)};
+    const double of_balance = sqrt((double)result->unknowns) * residual;
+    const double arm = sums[SUM_MOMENT_SIZE] / fmax(sums[SUM_FORCE_SIZE], DBL_MIN);
+    return (Explained){explained_part(of_balance, sums[SUM_FORCE_TERMS], sums[SUM_FORCE_SIZE]),
+                       explained_part(arm * of_balance, sums[SUM_MOMENT_TERMS], sums[SUM_MOMENT_SIZE]),
+                       explained_part(sqrt(sums[SUM_SQUARE]) * residual, sums[SUM_WORK_TERMS], sums[SUM_WORK_SIZE])};
 }
 
 /* Where rounding kept the solver from the residual asked for, what is left of that is rounding too. */
@@ -170,17 +236,69 @@ static int loses_the_last_digit(const OstSolveReport *report)
     return ost_surely_beyond(lost, thrown * thrown * report->rounding_spread, ost_least_digit);
 }
 
+static void describe_error(double error, char left[48])
+{
+    snprintf(left, 48, "none at all");
+    if (isfinite(error))
+        snprintf(left, 48, "an error of about %.1g", error);
+}
+
 static void object_to_rounding(OstResult *result)
 {
-    const double lost = lost_to_rounding(&result->solve);
-    char left[48] = "none at all";
-    if (isfinite(lost))
-        snprintf(left, sizeof left, "an error of about %.1g", lost);
+    char left[48];
+    describe_error(lost_to_rounding(&result->solve), left);
     ost_object(
         result,
         "rounding in double precision leaves the displacement less than one digit (%s); bring the stiffnesses of "
         "the parts nearer to each other, or hold the body better",
         left);
+}
+
+/* By the error of what strains the body; where no solver states one, by a residual that is more than the load. */
+static double forces_lost_in_common(const OstResult *result, const double *sums)
+{
+    if (isnan(result->checks.force_error))
+        return sums[SUM_RESIDUAL] > sums[SUM_FREE_LOAD] ? INFINITY : 0.0;
+    return result->checks.force_error;
+}
+
+/* Without a load nothing speaks against a rigid motion, whose forces are rounding alone. What the residual asked for
+ * may leave at every unknown, all one way, is the user's choice. Where no common displacement hides it the
+ * displacement's error is judged by itself, and energy may miss work beside a displacement and reactions that hold: a
+ * part that is stiffer by 1e9 strains by less than rounding. That is stated, and no reason to refuse. */
+static int loses_the_forces(const OstResult *result, const double *sums, double requested)
+{
+    const OstChecks *checks = &result->checks;
+    const double chosen = result->solve.rounding_limited ? 0.0 : sqrt((double)result->unknowns) * requested;
+    double error = fmax(checks->force_imbalance, checks->moment_imbalance);
+    if (!(sqrt(sums[SUM_FREE_LOAD]) > rounding_steps * DBL_EPSILON * sums[SUM_FORCE_TERMS]))
+        return 0;
+    if (common_share(sums) > common_by_far)
+        error = fmax(error, forces_lost_in_common(result, sums));
+    return error > fmax(ost_least_digit, chosen);
+}
+
+static void object_to_forces(OstResult *result, const Body *body, const double *sums)
+{
+    const OstChecks *checks = &result->checks;
+    const double *c = body->common;
+    const double nodes = (double)result->mesh->global_nodes;
+    const double to_speak_of = 1e-3 * ost_norm3(c);
+    char left[48];
+    char remedy[240] = "bring the stiffnesses of the parts nearer to each other, or hold the body better";
+    if (common_share(sums) > common_by_far)
+        snprintf(
+            remedy, sizeof remedy,
+            "the body moves as a whole by about (%.3g, %.3g, %.3g), and what deforms it, about %.1g, is lost beside "
+            "that; take the common part out of the given displacements",
+            fabs(c[0]) > to_speak_of ? c[0] : 0.0, fabs(c[1]) > to_speak_of ? c[1] : 0.0,
+            fabs(c[2]) > to_speak_of ? c[2] : 0.0, sqrt(sums[SUM_DEFORMATION] / nodes));
+    describe_error(checks->force_error < 1.0 ? checks->force_error : INFINITY, left);
+    ost_object(result,
+               "reactions and stresses hold less than one digit (%s): loads and reactions miss each other by %.2g %%, "
+               "their moments by %.2g %%, strain energy and work by %.2g %%; %s",
+               left, 100.0 * checks->force_imbalance, 100.0 * checks->moment_imbalance,
+               100.0 * checks->energy_imbalance, remedy);
 }
 
 /* Comparisons are such that what is no number fails. */
@@ -195,11 +313,11 @@ static void judge(OstResult *result, double requested, Explained explained)
         ost_object(result,
                    "the true residual, summed tet by tet, is %.2e where %.2e was asked for (rounding explains %.1e)",
                    checks->relative_residual, requested, checks->rounding);
-    if (!(checks->force_imbalance <= explained.balance && checks->moment_imbalance <= explained.balance))
+    if (!(checks->force_imbalance <= explained.force && checks->moment_imbalance <= explained.moment))
         ost_object(result,
-                   "loads and reactions do not balance: force %.2e, moment %.2e of their size, where %.1e can be "
-                   "explained",
-                   checks->force_imbalance, checks->moment_imbalance, explained.balance);
+                   "loads and reactions do not balance: force %.2e, moment %.2e of their size, where %.1e and %.1e can "
+                   "be explained",
+                   checks->force_imbalance, checks->moment_imbalance, explained.force, explained.moment);
     if (!(checks->energy_imbalance <= explained.energy && checks->strain_energy >= 0.0))
         ost_object(result, "the strain energy %.10e is not the work %.10e of loads and reactions",
                    checks->strain_energy, checks->work);
@@ -207,13 +325,41 @@ static void judge(OstResult *result, double requested, Explained explained)
         object_to_rounding(result);
 }
 
-OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual, double rhs_norm)
+static OstStatus find_common(const OstResult *result, Body *body)
+{
+    const OstMesh *mesh = result->mesh;
+    double sums[4] = {0.0};
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        double projector[9], given[3];
+        if (ost_supports_get(body->supports, n, projector, given) > 0)
+            sums[3] += given[0] != 0.0 || given[1] != 0.0 || given[2] != 0.0;
+        for (int i = 0; i < 3; i++)
+            sums[i] += result->displacement[3 * (size_t)n + (size_t)i];
+    }
+    OST_TRY(OST_MPI(result->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, ost_comm(result->ctx))));
+    body->moved = sums[3] > 0.0;
+    for (int i = 0; body->moved && i < 3; i++)
+        body->common[i] = sums[i] / (double)mesh->global_nodes;
+    return OST_SUCCESS;
+}
+
+static OstStatus look_at_body(const OstResult *result, Body *body)
+{
+    double low[3], high[3];
+    OST_TRY(ost_mesh_bounds(result->mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        body->centre[i] = 0.5 * (low[i] + high[i]);
+    return find_common(result, body);
+}
+
+OstStatus ost_result_check(OstResult *result, const OstSupports *supports, double requested_residual,
+                           const OstSolvedFor *rhs)
 {
     OstContext *ctx = result->ctx;
     const OstMesh *mesh = result->mesh;
     double *internal = NULL, *magnitude = NULL;
     double sums[SUM_COUNT] = {0.0};
-    double low[3], high[3], centre[3];
+    Body body = {.supports = supports};
     OstLinearity largest = {0.0, 0.0};
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
@@ -222,20 +368,20 @@ OstStatus ost_result_check(OstResult *result, const OstSupports *supports, doubl
     if (status == OST_SUCCESS)
         status = ost_internal_force(mesh, result->field, result->displacement, internal, magnitude);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_mesh_bounds(mesh, low, high));
-    for (int i = 0; i < 3; i++)
-        centre[i] = 0.5 * (low[i] + high[i]);
+    OST_TRY_DONE(look_at_body(result, &body));
     sums[SUM_ENERGY] = energy_of_tets(result, &largest);
     OST_TRY_DONE(ost_linearity_agree(ctx, &largest));
     result->checks.largest_strain = largest.strain;
     result->checks.largest_rotation = largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        add_node(result, supports, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, centre, sums);
+        add_node(result, &body, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, sums);
     OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
-    draw_conclusions(&result->checks, sums, rhs_norm);
-    estimate_digits(&result->checks, &result->solve);
-    judge(result, requested_residual, explain(result, sums, rhs_norm));
+    draw_conclusions(&result->checks, sums, rhs->norm);
+    estimate_digits(result, &body, sums, rhs->work);
+    judge(result, requested_residual, explain(result, sums, rhs->norm));
+    if (result->checks.finite && !result->unfinished && loses_the_forces(result, sums, requested_residual))
+        object_to_forces(result, &body, sums);
 done:
     OST_FREE(internal);
     OST_FREE(magnitude);

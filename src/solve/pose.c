@@ -137,6 +137,12 @@ static int is_multigrid(OstRecipe recipe)
     return recipe != OST_RECIPE_PLAIN && recipe != OST_RECIPE_DIRECT;
 }
 
+/* A factorisation that is bounded may turn out not to fit, and then multigrid takes its place. */
+static int may_be_multigrid(const OstSolverPlan *plan)
+{
+    return is_multigrid(plan->first) || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+}
+
 static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *work)
 {
     OstContext *ctx = scene->ctx;
@@ -151,7 +157,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     OST_TRY(status);
     OST_TRY(test_rigid_motion(scene, result, work));
     ost_solver_plan(options, &facts, &plan);
-    if (is_multigrid(plan.first))
+    if (may_be_multigrid(&plan))
         OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
     const OstSolverGeometry geometry = {.coordinates = work->coordinates,
                                         .metric = work->metric,
@@ -173,15 +179,17 @@ static double residual_to_hold(const OstScene *scene, const OstResult *result)
     return report->rounding_limited ? fmax(asked, report->relative_residual) : asked;
 }
 
-static OstStatus norm_of_rhs(const Work *work, double *norm)
+static OstStatus describe_rhs(const Work *work, OstSolvedFor *rhs)
 {
     const size_t n = 3 * (size_t)work->system->matrix->rows;
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += work->rhs[i] * work->rhs[i];
+    double sums[2] = {0.0};
+    for (size_t i = 0; i < n; i++) {
+        sums[0] += work->rhs[i] * work->rhs[i];
+        sums[1] += work->rhs[i] * work->v[i];
+    }
     OstContext *ctx = work->system->ctx;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
-    *norm = sqrt(sum);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    *rhs = (OstSolvedFor){sqrt(sums[0]), sums[1]};
     return OST_SUCCESS;
 }
 
@@ -209,11 +217,11 @@ static OstStatus find_largest_displacement(OstResult *result)
 }
 
 /* Checks what the solver reached, finished or not, and adds the fields asked for. */
-static OstStatus examine(const OstScene *scene, OstResult *result, const OstSupports *supports, double rhs_norm)
+static OstStatus examine(const OstScene *scene, OstResult *result, const OstSupports *supports, const OstSolvedFor *rhs)
 {
     if (scene->c->free_body)
         OST_TRY(ost_free_body_centre(scene->mesh, result->displacement));
-    OST_TRY(ost_result_check(result, supports, residual_to_hold(scene, result), rhs_norm));
+    OST_TRY(ost_result_check(result, supports, residual_to_hold(scene, result), rhs));
     OST_TRY(find_largest_displacement(result));
     return ost_agree(result->ctx, ost_result_recover(result, scene->c->output_fields));
 }
@@ -264,7 +272,7 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
     OstContext *ctx = scene->ctx;
     Work work = {0};
     OstResult *result = NULL;
-    double rhs_norm = 0.0;
+    OstSolvedFor rhs = {0.0, 0.0};
     OstStatus status = ost_agree(ctx, create_result(scene, &result));
     if (status != OST_SUCCESS)
         goto done;
@@ -277,9 +285,9 @@ OstStatus ost_scene_solve(OstScene *scene, OstResult **out)
     result->unfinished = solved != OST_SUCCESS;
     if (result->unfinished)
         ost_object(result, "%s", ost_error_text(ctx));
-    OST_TRY_DONE(norm_of_rhs(&work, &rhs_norm));
+    OST_TRY_DONE(describe_rhs(&work, &rhs));
     release_system(&work);
-    OST_TRY_DONE(examine(scene, result, work.supports, rhs_norm));
+    OST_TRY_DONE(examine(scene, result, work.supports, &rhs));
     status = raise_objections(result, solved);
 done:
     release_system(&work);

@@ -231,6 +231,40 @@ static void a_drift_beyond_rounding_is_the_error_and_has_no_spread(void **state)
     assert_true(small.rounding_spread >= 1.0 / sqrt(2.0 * 64.0));
 }
 
+/* Stiff and soft unknowns in turn, the soft ones loaded so little that the residual does not see them. */
+static double stiff_and_soft(OstGlobal g)
+{
+    return g % 2 == 0 ? 1e10 : 1.0 + 0.5 * (double)g;
+}
+
+/* Two iterations reach the residual; the displacement, all of it soft, is solved for beyond that. */
+static void a_displacement_that_the_residual_does_not_see_is_solved_for(void **state)
+{
+    (void)state;
+    ElasticProblem problem = diagonal_problem(stiff_and_soft);
+    const OstBlockMatrix *matrix = problem.matrix;
+    const OstLocal n = 3 * matrix->rows;
+    const OstGlobal first = 3 * matrix->first_row;
+    Weighted weighted = {.n = (size_t)n, .weight = {first % 2 ? 1.0 : 1e-10, first % 2 ? 1e-10 : 1.0}};
+    const OstSolverOptions options = ost_solver_default_options();
+    OstSolveReport report;
+    double u[12], sums[2] = {0.0};
+    for (OstLocal i = 0; i < n; i++)
+        problem.force[i] = (first + i) % 2 ? 1e-10 : 1.0;
+    assert_success(solve(OWN, matrix, &weighted, problem.force, u, &options, &report));
+    for (OstLocal i = 0; i < n; i++) {
+        const double right = problem.force[i] / stiff_and_soft(first + i);
+        sums[0] += (u[i] - right) * (u[i] - right);
+        sums[1] += right * right;
+    }
+    assert_int_equal(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)), MPI_SUCCESS);
+    const double error = sqrt(sums[0] / sums[1]);
+    assert_true(report.relative_residual <= options.relative_residual);
+    assert_true(error <= 1e-6 && error <= 3.0 * report.error_estimate);
+    assert_true(report.condition_estimate > 4.0); /* 1.5 to 6.5 and more: that of the soft ones too */
+    elastic_destroy(&problem);
+}
+
 static void an_indefinite_matrix_is_refused_by_its_sign(void **state)
 {
     (void)state;
@@ -358,6 +392,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_changing_preconditioner_is_allowed_where_flexible),
     cmocka_unit_test(factors_go_on_where_rounding_hides_the_energy),
     cmocka_unit_test(a_drift_beyond_rounding_is_the_error_and_has_no_spread),
+    cmocka_unit_test(a_displacement_that_the_residual_does_not_see_is_solved_for),
     cmocka_unit_test(an_indefinite_matrix_is_refused_by_its_sign),
     cmocka_unit_test(an_indefinite_preconditioner_is_refused_in_any_iteration),
     cmocka_unit_test(numbers_that_are_not_finite_are_refused),

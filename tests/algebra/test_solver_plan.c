@@ -30,6 +30,29 @@ static void few_unknowns_are_factored(void **state)
     assert_true(has_reason(&plan, "2999 unknowns are fewer"));
 }
 
+static void a_factorisation_that_does_not_fit_is_not_begun_with(void **state)
+{
+    (void)state;
+    const OstSolverFacts facts = {.unknowns = 882, .anisotropy = 1.0};
+    OstSolverOptions options = ost_solver_default_options();
+    OstSolverPlan plan;
+    options.factor_memory = 1048576.0;
+    ost_solver_plan(&options, &facts, &plan);
+    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    assert_true(has_reason(&plan, "882 unknowns are few, but a factorisation would not fit into the 1 MiB allowed"));
+    assert_true(plan.options.coarsest_unknowns < 441); /* or multigrid is a factorisation by another name */
+    options.given = OST_GIVEN_COARSEST;
+    ost_solver_plan(&options, &facts, &plan);
+    assert_int_equal(plan.options.coarsest_unknowns, options.coarsest_unknowns);
+    options.recipe = OST_RECIPE_DIRECT;
+    ost_solver_plan(&options, &facts, &plan);
+    assert_int_equal(plan.first, OST_RECIPE_DIRECT);
+    const OstSolverFacts no_room = {.unknowns = 2999, .free_memory = 1e6};
+    plan = plan_of(OST_RECIPE_AUTO, &no_room);
+    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    assert_true(has_reason(&plan, "MiB free"));
+}
+
 static void the_metric_comes_first_whatever_the_ratio(void **state)
 {
     (void)state;
@@ -100,6 +123,7 @@ static void near_incompressibility_asks_for_small_aggregates_unless_the_case_say
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(near_incompressibility_asks_for_small_aggregates_unless_the_case_says_otherwise),
     cmocka_unit_test(few_unknowns_are_factored),
+    cmocka_unit_test(a_factorisation_that_does_not_fit_is_not_begun_with),
     cmocka_unit_test(the_metric_comes_first_whatever_the_ratio),
     cmocka_unit_test(what_the_case_asks_for_is_planned),
     cmocka_unit_test(trouble_is_foretold),

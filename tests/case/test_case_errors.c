@@ -215,7 +215,23 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "solver: {most_levels: 13}\n",
                    "3:23: solver.most_levels: found '13', expected a whole number from 1 to 12");
     assert_refused(CUBE STEEL "solver: {factor_memory: 0}\n",
-                   "3:25: solver.factor_memory: found '0', expected a number of MiB above 0");
+                   "3:25: solver.factor_memory: found '0', expected a number of MiB above 0, at most 1e12");
+    assert_refused(CUBE STEEL "solver: {factor_memory: 1e300}\n",
+                   "3:25: solver.factor_memory: found '1e300', expected a number of MiB above 0, at most 1e12");
+    assert_refused(CUBE STEEL "solver: {aggregate_nodes: 1}\n",
+                   "3:27: solver.aggregate_nodes: found '1', expected a number of nodes above 1, at most 1e6");
+    assert_refused(CUBE STEEL "solver: {coarse_aggregate_nodes: 2e6}\n",
+                   "3:34: solver.coarse_aggregate_nodes: found '2e6', expected a number of nodes above 1, at most 1e6");
+    assert_refused(CUBE STEEL "solver: {smoother_block_nodes: 1000000}\n",
+                   "3:32: solver.smoother_block_nodes: found '1000000', expected a number of nodes from 1 to 1000");
+    assert_refused(CUBE STEEL "solver: {smoother_block_nodes: 0.5}\n",
+                   "3:32: solver.smoother_block_nodes: found '0.5', expected a number of nodes from 1 to 1000");
+    assert_refused(CUBE STEEL "solver: {smoother_ratio: 1e7}\n",
+                   "3:26: solver.smoother_ratio: found '1e7', expected a number above 1, at most 1e6");
+    assert_refused(CUBE STEEL "solver: {smoother_degree: 21}\n",
+                   "3:27: solver.smoother_degree: found '21', expected a whole number from 1 to 20");
+    assert_refused(CUBE STEEL "solver: {coarsest_unknowns: 0}\n",
+                   "3:29: solver.coarsest_unknowns: found '0', expected a whole number from 1 to 1000000");
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 9e-16}\n",
                    "3:31: accuracy.relative_residual: found '9e-16', expected a number from 1e-15 to 0.5");
     assert_refused(

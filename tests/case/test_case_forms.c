@@ -358,7 +358,7 @@ static void settings_are_read(void **state)
     assert_int_equal(c->solver.most_levels, 3);
     assert_close(c->solver.factor_memory, 2097152.0, 0.0);
     assert_int_equal(c->solver.given, OST_GIVEN_AGGREGATE | OST_GIVEN_COARSE_AGGREGATE | OST_GIVEN_BLOCK |
-                                          OST_GIVEN_DEGREE | OST_GIVEN_RATIO);
+                                          OST_GIVEN_DEGREE | OST_GIVEN_RATIO | OST_GIVEN_COARSEST);
     assert_string_equal(c->output_file, "a.vtkhdf");
     assert_int_equal(c->output_fields, 1U << OST_FIELD_DISPLACEMENT | 1U << OST_FIELD_RANK);
     ost_case_destroy(&c);

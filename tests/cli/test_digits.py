@@ -27,7 +27,61 @@ def relative_difference(points, others):
     return (square / sum((others[k] ** 2).sum() for k in points)) ** 0.5
 
 
+GEL = """
+mesh:
+  block: {size: [1, 1, 1], divisions: [2, 2, 2]}
+element: {order: 2}
+materials:
+  - {region: all, youngs_modulus: 1000, poissons_ratio: POISSON}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: [0, 0, 1]}
+"""
+
+
+def next_to_incompressible():
+    """The pose has a limit at nu = 1/2, which it nears by half of what nu is off (1e-6 here): digits, too, are of that."""
+    limit = None
+    for off in (1e-6, 1e-8, 1e-9, 1e-12):
+        finished, report, path = solve(GEL.replace("POISSON", repr(0.5 - off)))
+        check(finished.exit_code == 0, f"nu 0.5 - {off}: {finished.errors}")
+        points = read_points(path)
+        limit = limit or points
+        difference, stated = relative_difference(points, limit), report["checks"]["displacement_error"]
+        check(difference <= 1e-6 + 3.0 * stated, f"nu 0.5 - {off}: off by {difference:.1e}, where {stated:.1e} was stated")
+        check(stated < 1e-3, f"nu 0.5 - {off}: an error of {stated:.1e}")
+
+
+PULLED = """
+mesh:
+  block: {size: [100, 1, 1], divisions: [100, 2, 2]}
+materials:
+  - {region: all, youngs_modulus: 1, poissons_ratio: 0.3}
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+loads:
+  - {on: {boundary: xmax}, total_force: [1, 0, 0]}
+  - {on: {nearest: [100, 0.5, 0.5]}, point_force: [0, 0, 1e-4]}
+solver: {recipe: RECIPE}
+"""
+
+
+def bent_by_little():
+    """A bar's pull has the energy and the residual, and a small force that bends it the displacement."""
+    found = []
+    for recipe, ranks in (("direct", 1), ("metric", 1), ("metric", 2), ("strong", 1)):
+        finished, report, path = solve(PULLED.replace("RECIPE", recipe), ranks=ranks)
+        check(finished.exit_code == 0, f"{recipe} on {ranks} ranks: {finished.errors}")
+        found.append((recipe, report["checks"]["displacement_error"], read_points(path)))
+    for recipe, error, points in found[1:]:
+        difference = relative_difference(points, found[0][2])
+        check(difference <= error + found[0][1], f"{recipe}: differs by {difference:.1e}, {error:.1e} was stated")
+
+
 def main():
+    next_to_incompressible()
+    bent_by_little()
     for moduli, poisson, order in HARD:
         text = CASE.replace("MODULI", f"[{moduli}]").replace("POISSON", poisson).replace("ORDER", str(order))
         found = []

@@ -90,6 +90,33 @@ def all_that_was_tried_is_told_whole():
         check(reason.encode() in stream.read(), "the file's reason is not whole")
 
 
+SMALL = """
+mesh: {block: {size: [1, 1, 1], divisions: [6, 6, 6]}}
+element: {order: ORDER}
+materials: [{region: all, youngs_modulus: 2e11, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
+solver: {factor_memory: MEMORY}
+"""
+
+
+def a_small_body_that_may_not_be_factored_is_iterated_on():
+    # below what the plan takes a factorisation for, and above that but below what the analysis foresees
+    for memory, said in (("0.5", "would not fit into the 0.5 MiB allowed"), ("1.7", "would not fit into the 1.7 MiB allowed")):
+        for ranks in (1, 2):
+            finished, report, path = solve(SMALL.replace("MEMORY", memory).replace("ORDER", "1"), ranks=ranks)
+            check(finished.exit_code == 0, f"{memory} MiB, {ranks} ranks: {finished.errors}")
+            check(report["solver"]["recipe"] == "metric", f"{memory} MiB: {report['solver']['recipe']}")
+            check(len(report["solver"]["level_unknowns"]) > 1, f"{memory} MiB: factored after all")
+            check(said in report["solver"]["plan"][0], f"{memory} MiB: {report['solver']['plan']}")
+            free, _, expected = solve(SMALL.replace("MEMORY", "1000").replace("ORDER", "1"))
+            check("solver           direct" in free.output, free.output)
+            close(read_points(path), read_points(expected), f"{memory} MiB")
+    finished, report, _ = solve(SMALL.replace("MEMORY", "1.7").replace("ORDER", "2").replace("6, 6, 6", "3, 3, 3"))
+    check(finished.exit_code == 0 and report["solver"]["recipe"] == "metric", finished.errors + finished.output)
+    check(report["solver"]["level_unknowns"][1] == 144, f"not on the linear tets: {report['solver']['level_unknowns']}")
+
+
 def what_rounding_allows_is_refused_or_taken():
     finished, _, _ = solve(case("recipe: auto", tolerance="1e-15"))
     check(finished.exit_code == 1 and "double precision allows about" in finished.errors, finished.errors)
@@ -120,5 +147,6 @@ every_rung_gives_the_same_pose()
 a_climb_is_told()
 without_memory_all_that_was_tried_is_told()
 all_that_was_tried_is_told_whole()
+a_small_body_that_may_not_be_factored_is_iterated_on()
 what_rounding_allows_is_refused_or_taken()
 the_plan_is_explained()

@@ -170,6 +170,40 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
     }
 }
 
+/* C in its two parts keeps the digits of the soft one: next to nu = 1/2, on axes of any direction, an isotropic body
+ * resists a change of shape by 2 G, and a pull beside that by the limit's bulk modulus. */
+static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **state)
+{
+    (void)state;
+    static const int32_t region[OST_LANES] = {0};
+    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
+    const OstLocal tets[OST_LANES] = {0, 1, 2, 3};
+    const OstOrthotropic constants = ost_orthotropic_isotropic(2.0, 0.5 - 1e-10);
+    const double shear = 2.0 / (2.0 * 1.5),
+                 bulk = 2.0 / (3.0 * 0.1); /* G = E / (2 (1 + nu)), E / (3 (1 - 2 nu_limit)) */
+    const OstLanes places[3] = {{0}};
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    OstElasticity elasticity;
+    int regions = 0;
+    assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
+    assert_success(ost_field_create(ctx, 1, &material, NULL, OST_LANES, region, label, NULL, NULL, &field));
+    assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
+    ost_elasticity_clear(&elasticity);
+    ost_elasticity_gather(&elasticity, field, tets, 1, places);
+    assert_int_equal(elasticity.by_mean, 1);
+    const double expected = bulk + 4.0 / 3.0 * shear, beside = bulk - 2.0 / 3.0 * shear;
+    for (int lane = 0; lane < OST_LANES; lane++) {
+        assert_close(elasticity.c[0][0][lane], expected, 1e-9 * expected); /* nu is 1e-10 from 1/2 */
+        assert_close(elasticity.c[0][1][lane], beside, 1e-9 * expected);
+        assert_close(elasticity.c[0][OST_ELASTICITY_COUNT - 1][lane], shear, 1e-9 * shear);
+        assert_close((elasticity.c[0][0][lane] - elasticity.c[0][1][lane]) /
+                         (2.0 * material.constants.shear_modulus[0]),
+                     1.0, 1e-14);
+    }
+    ost_field_destroy(&field);
+}
+
 /* Four tets with random axes, each its own (CELLS) or one for all (FIXED), of one material of the family. */
 static OstMaterialField *family_field(const double youngs_modulus[3], double nu, OstShearRule rule, OstAxesKind kind)
 {
@@ -325,6 +359,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(lanes_of_several_regions_hold_theirs),
     cmocka_unit_test(a_uniform_region_is_gathered_once),
     cmocka_unit_test(a_formula_is_evaluated_at_the_points_of_each_tet),
+    cmocka_unit_test(a_split_elasticity_keeps_its_digits_next_to_incompressible),
 };
 
 OST_TEST_MAIN(tests)

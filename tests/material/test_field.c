@@ -296,6 +296,36 @@ static void the_stiff_mode_of_nearly_incompressible_regions_is_found(void **stat
     assert_int_equal(ost_ledger_bytes(ctx), before);
 }
 
+/* Near nu = 1/2 the mode is 1e10 times as stiff as the rest, which keeps all its digits: along sqrt(E) times what is at
+ * right angles to the mode, C of the family is E^(1/2) w / (1 + nu), and along the mode it is that of the limit. */
+static void the_rest_keeps_its_digits_next_to_incompressible(void **state)
+{
+    (void)state;
+    const double e[3] = {1, 10, 100}, nu = 0.5 - 1e-10;
+    const double shape[3][3] = {{1, 1, 1}, {1, -1, 0}, {1, 1, -2}};
+    const double expected[3] = {1.0 / (1.0 - 2.0 * 0.45), 1.0 / (1.0 + nu), 1.0 / (1.0 + nu)};
+    const OstOrthotropic constants = ost_orthotropic_family(e, nu, OST_SHEAR_GEOMETRIC);
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    int regions = 0;
+    assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
+    assert_success(ost_field_create(ctx, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    assert_null(ost_field_rest(field, 0));
+    assert_success(ost_field_mean_dilatation(field, 0.45, &regions));
+    assert_int_equal(regions, 1);
+    const double *rest = ost_field_rest(field, 0);
+    for (int k = 0; k < 3; k++)
+        for (int p = 0; p < 3; p++) {
+            double stress = 0.0;
+            for (int q = 0; q < 3; q++)
+                stress += rest[6 * p + q] * shape[k][q] / sqrt(e[q]);
+            assert_close(stress / sqrt(e[p]), expected[k] * shape[k][p], 1e-13 * expected[k]);
+        }
+    for (int p = 3; p < 6; p++)
+        assert_close(rest[7 * p], material.stiffness[7 * p], 0.0);
+    ost_field_destroy(&field);
+}
+
 static void two_stiff_modes_are_left_alone(void **state)
 {
     (void)state;
@@ -320,6 +350,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(bad_axes_regions_and_points_are_refused),
     cmocka_unit_test(a_formula_gives_axes_at_any_point),
     cmocka_unit_test(the_stiff_mode_of_nearly_incompressible_regions_is_found),
+    cmocka_unit_test(the_rest_keeps_its_digits_next_to_incompressible),
     cmocka_unit_test(two_stiff_modes_are_left_alone),
     cmocka_unit_test(a_rank_without_tets_has_a_field_too),
 };

@@ -11,7 +11,7 @@ typedef struct Solved {
     OstMaterialField *field;
     OstSupports *supports;
     OstResult result;
-    double rhs_norm;
+    OstSolvedFor rhs;
 } Solved;
 
 static const double requested = 1e-12;
@@ -27,8 +27,8 @@ static OstMesh *make_mesh(int order)
     return mesh;
 }
 
-/* Held at one end, moved there, and loaded at every other node. */
-static Solved make(int order)
+/* Held at one end, moved there, by `common` all along, and loaded at every other node. */
+static Solved make_along(int order, double common, double load)
 {
     static const double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const OstMaterial material = make_material(ctx, 1);
@@ -47,9 +47,9 @@ static Solved make(int order)
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         for (int i = 0; i < 3; i++) {
             if (mesh->coordinates[3 * node] < 1e-12)
-                assert_success(ost_supports_hold(solved.supports, node, unit[i], 0.01 * i));
+                assert_success(ost_supports_hold(solved.supports, node, unit[i], common + 0.01 * i));
             else
-                result->force[3 * node + i] = random_of(mesh->node_label[node], 40 + i);
+                result->force[3 * node + i] = load * random_of(mesh->node_label[node], 40 + i);
         }
     assert_success(ost_supports_complete(solved.supports));
     OstSystem *system = make_system(mesh, solved.supports, solved.field);
@@ -59,11 +59,16 @@ static Solved make(int order)
     solve(ctx, system->matrix, rhs, v);
     assert_success(ost_system_displacement(system, v, result->displacement));
     result->unknowns = 3 * system->matrix->global_rows;
-    solved.rhs_norm = sqrt(dot(ctx, length, rhs, rhs));
+    solved.rhs = (OstSolvedFor){sqrt(dot(ctx, length, rhs, rhs)), dot(ctx, length, rhs, v)};
     free(rhs);
     free(v);
     ost_system_destroy(&system);
     return solved;
+}
+
+static Solved make(int order)
+{
+    return make_along(order, 0.0, 1.0);
 }
 
 static void destroy(Solved *solved)
@@ -79,7 +84,7 @@ static void destroy(Solved *solved)
 static void check(Solved *solved)
 {
     solved->result.objections.count = 0;
-    assert_success(ost_result_check(&solved->result, solved->supports, requested, solved->rhs_norm));
+    assert_success(ost_result_check(&solved->result, solved->supports, requested, &solved->rhs));
 }
 
 static int objects_to(const Solved *solved, const char *words)
@@ -145,6 +150,46 @@ static void what_is_no_number_is_seen(void **state)
     destroy(&solved);
 }
 
+static int is_held(const Solved *solved, OstLocal node)
+{
+    return solved->mesh->coordinates[3 * node] < 1e-12;
+}
+
+/* It strains nothing, but where the support moves its work and that of the reaction all but cancel. */
+static void load_the_support(Solved *solved, double force)
+{
+    for (OstLocal node = 0; node < solved->mesh->owned_nodes; node++)
+        for (int i = 0; is_held(solved, node) && i < 3; i++)
+            solved->result.force[3 * node + i] = force / (1.0 + i);
+}
+
+static void a_force_straight_into_a_support_is_no_miss(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        Solved solved = make(order);
+        load_the_support(&solved, 1e10);
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        destroy(&solved);
+    }
+}
+
+static void a_force_straight_into_a_support_hides_no_miss(void **state)
+{
+    (void)state;
+    Solved solved = make(1);
+    const OstChecks *checks = &solved.result.checks;
+    load_the_support(&solved, 1e8);
+    for (OstLocal i = 0; i < 3 * solved.mesh->node_count; i++)
+        solved.result.displacement[i] *= 1.001;
+    check(&solved);
+    assert_true(objects_to(&solved, "true residual"));
+    assert_true(checks->energy_imbalance > 1e-5);
+    assert_true(fmax(checks->force_imbalance, checks->moment_imbalance) > 1e-5);
+    destroy(&solved);
+}
+
 static void rounding_that_leaves_no_digit_is_seen(void **state)
 {
     (void)state;
@@ -185,6 +230,69 @@ static void rounding_that_leaves_no_digit_is_seen(void **state)
     check(&solved);
     assert_int_equal(solved.result.objections.count, 0);
     assert_true(isnan(solved.result.checks.digits));
+    destroy(&solved);
+}
+
+/* How right the strains are beside a displacement that all share; by the two norms that an estimate may be in. */
+static void forces_lost_beside_a_common_displacement_are_seen(void **state)
+{
+    (void)state;
+    const OstRecipe norms[] = {OST_RECIPE_METRIC, OST_RECIPE_DIRECT};
+    for (int n = 0; n < 2; n++) {
+        Solved solved = make_along(1, 1e4, 1.0);
+        OstSolveReport *report = &solved.result.solve;
+        const OstChecks *checks = &solved.result.checks;
+        report->recipe = norms[n];
+        report->rounding_error = 0.0;
+        report->error_estimate = 1e-11;
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        assert_true(checks->force_error > 1e3 * checks->displacement_error && checks->force_digits < 8.0);
+        const double amplified = checks->force_error / 1e-11;
+        report->error_estimate = 0.09 / amplified;
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        report->error_estimate = 0.11 / amplified;
+        check(&solved);
+        assert_close(checks->force_error, 0.11, 1e-3);
+        assert_true(checks->digits > 3.0);
+        assert_int_equal(solved.result.objections.count, 1);
+        assert_true(objects_to(&solved, "by about (1e+04, 1e+04, 1e+04)"));
+        assert_true(objects_to(&solved, "(an error of about 0.1)"));
+        assert_true(objects_to(&solved, "take the common part out of the given displacements"));
+        solved.result.unfinished = 1; /* which says more */
+        check(&solved);
+        assert_int_equal(solved.result.objections.count, 0);
+        destroy(&solved);
+    }
+}
+
+/* Its forces are rounding alone, and miss each other by their own size. */
+static void a_rigid_motion_has_no_forces_to_lose(void **state)
+{
+    (void)state;
+    Solved solved = make_along(1, 1e4, 0.0);
+    solved.result.solve.error_estimate = 1e-3; /* 1e4 times what deforms it */
+    check(&solved);
+    assert_true(solved.result.checks.force_digits == 0.0);
+    assert_int_equal(solved.result.objections.count, 0);
+    load_the_support(&solved, 1e3); /* nor does this strain anything */
+    check(&solved);
+    assert_int_equal(solved.result.objections.count, 0);
+    destroy(&solved);
+}
+
+static void forces_are_as_right_as_the_displacement_where_nothing_is_moved(void **state)
+{
+    (void)state;
+    Solved solved = make_along(1, 0.0, 1.0);
+    const OstChecks *checks = &solved.result.checks;
+    check(&solved);
+    assert_true(checks->force_error >= checks->displacement_error);
+    assert_true(checks->force_error < 100.0 * checks->displacement_error);
+    solved.result.solve.error_estimate = 0.0; /* not known */
+    check(&solved);
+    assert_true(isnan(checks->force_error) && isnan(checks->force_digits));
     destroy(&solved);
 }
 
@@ -257,7 +365,12 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slip_in_the_displacement_is_seen),
     cmocka_unit_test(a_load_that_nothing_carries_is_seen),
     cmocka_unit_test(what_is_no_number_is_seen),
+    cmocka_unit_test(a_force_straight_into_a_support_is_no_miss),
+    cmocka_unit_test(a_force_straight_into_a_support_hides_no_miss),
     cmocka_unit_test(rounding_that_leaves_no_digit_is_seen),
+    cmocka_unit_test(forces_lost_beside_a_common_displacement_are_seen),
+    cmocka_unit_test(a_rigid_motion_has_no_forces_to_lose),
+    cmocka_unit_test(forces_are_as_right_as_the_displacement_where_nothing_is_moved),
 };
 
 OST_TEST_MAIN(tests)
