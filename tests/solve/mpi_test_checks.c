@@ -27,8 +27,8 @@ static OstMesh *make_mesh(int order)
     return mesh;
 }
 
-/* Held at one end, moved there, by `common` all along, and loaded at every other node. */
-static Solved make_along(int order, double common, double load)
+/* Held at one end, moved there as given, and loaded at every other node. */
+static Solved make_held(int order, const double given[3], double load)
 {
     static const double unit[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const OstMaterial material = make_material(ctx, 1);
@@ -47,7 +47,7 @@ static Solved make_along(int order, double common, double load)
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         for (int i = 0; i < 3; i++) {
             if (mesh->coordinates[3 * node] < 1e-12)
-                assert_success(ost_supports_hold(solved.supports, node, unit[i], common + 0.01 * i));
+                assert_success(ost_supports_hold(solved.supports, node, unit[i], given[i]));
             else
                 result->force[3 * node + i] = load * random_of(mesh->node_label[node], 40 + i);
         }
@@ -64,6 +64,12 @@ static Solved make_along(int order, double common, double load)
     free(v);
     ost_system_destroy(&system);
     return solved;
+}
+
+/* Moved by `common` all along, and a little beside. */
+static Solved make_along(int order, double common, double load)
+{
+    return make_held(order, (const double[3]){common, common + 0.01, common + 0.02}, load);
 }
 
 static Solved make(int order)
@@ -121,6 +127,25 @@ static void a_slip_in_the_displacement_is_seen(void **state)
             solved.result.displacement[i] *= 1.0 + 1e-6;
         check(&solved);
         assert_true(objects_to(&solved, "true residual"));
+        destroy(&solved);
+    }
+}
+
+/* u + 1e-6 u has 2e-6 more energy, and does 1e-6 more work. */
+static void work_that_the_strains_do_not_have_is_missing_from_the_digits(void **state)
+{
+    (void)state;
+    for (int moved = 0; moved < 2; moved++) {
+        Solved solved = moved ? make(1) : make_held(1, (const double[3]){0.0, 0.0, 0.0}, 1.0);
+        const OstChecks *checks = &solved.result.checks;
+        solved.result.solve.error_estimate = 1e-9;
+        check(&solved);
+        assert_close(checks->displacement_error, 1e-9, 0.0);
+        for (OstLocal i = 0; i < 3 * solved.mesh->node_count; i++)
+            solved.result.displacement[i] *= 1.0 + 1e-6;
+        check(&solved);
+        assert_close(checks->displacement_error, moved ? 1e-9 : checks->energy_imbalance, 0.0);
+        assert_true(moved || (checks->energy_imbalance > 1e-7 && checks->energy_imbalance < 2e-6));
         destroy(&solved);
     }
 }
@@ -363,6 +388,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_largest_of_all_ranks_counts),
     cmocka_unit_test(an_answer_passes),
     cmocka_unit_test(a_slip_in_the_displacement_is_seen),
+    cmocka_unit_test(work_that_the_strains_do_not_have_is_missing_from_the_digits),
     cmocka_unit_test(a_load_that_nothing_carries_is_seen),
     cmocka_unit_test(what_is_no_number_is_seen),
     cmocka_unit_test(a_force_straight_into_a_support_is_no_miss),
