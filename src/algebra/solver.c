@@ -94,13 +94,18 @@ static OstSolverFacts facts_of(const OstSolver *solver)
     return facts;
 }
 
+static void tell_plan(const OstSolver *solver)
+{
+    for (int r = 0; r < solver->plan.reasons; r++)
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
+                r == 0 ? " first: " : "", solver->plan.reason[r]);
+}
+
 static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan(options, &facts, &solver->plan);
-    for (int r = 0; r < solver->plan.reasons; r++)
-        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
-                r == 0 ? " first: " : "", solver->plan.reason[r]);
+    tell_plan(solver);
     return ost_epetra_map_create(solver->ctx, 3 * solver->matrix->rows, &solver->map);
 }
 
@@ -113,6 +118,7 @@ static OstStatus stand_on_first(OstSolver *solver, const OstSolverOptions *optio
         return status;
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan_without_factors(options, &facts, &solver->plan);
+    tell_plan(solver);
     return stand_on(solver, solver->plan.first, solver->step, &solver->steps);
 }
 
