@@ -24,8 +24,9 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought);
 void ost_file_materials_destroy(OstFileMaterials **materials);
 
-/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments) as ascending ranges between which
- * some number is missing. `ranges` in memory from the context, owned by the caller. Read by rank 0, given to all. */
+/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments) as ascending ranges between
+ * which some number is missing. `ranges` in memory from the context, owned by the caller. Read by rank 0, given to all.
+ */
 OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstLabelRange **ranges);
 
 /* Collective. `width` numbers a line for each of `lines` lines (blank lines and # comments skipped), as axes.txt holds;
