@@ -70,7 +70,7 @@ typedef struct OstHardReading {
     int iterations, steps; /* in all, over so many rungs of the ladder */
     double residual;       /* true, relative */
     int rounding_limited;  /* is that what double precision holds, and not 1e-8? */
-    double stated_error;   /* of the displacement, relative, as the program says; NAN if it does not */
+    double stated_error;   /* of the displacement, relative, as the solver says of its equations; NAN if it does not */
     double digits;         /* of the displacement, against the direct solution; NAN if there is none */
     OstHardTruth truth;
     double seconds; /* of the solve, the direct one left out */

@@ -32,7 +32,7 @@ static void take_result(const OstResult *result, OstHardReading *reading)
     reading->steps = result->solve.steps;
     reading->residual = result->solve.relative_residual;
     reading->rounding_limited = result->solve.rounding_limited;
-    reading->stated_error = result->checks.displacement_error;
+    reading->stated_error = result->solve.error_estimate > 0.0 ? result->solve.error_estimate : NAN;
 }
 
 static OstStatus solve(OstScene *scene, OstResult **result, OstHardReading *reading)
