@@ -17,14 +17,14 @@ typedef struct OstSolvedFor {
  * (Clapeyron), a digit left by rounding, and one of the forces.
  *
  * Digits. The solver estimates the error from the preconditioner applied to the true residual and to what rounding
- * leaves of the stiffness: with multigrid in the norm of the energy, by the smallest Ritz value of the solve; with
- * factors the displacement's own (algebra/energy_error.h), or what their steps would still move it, if that is more
- * (algebra/refine.h). It is an estimate, not a bound: the Ritz value comes from above, and a displacement may be less
- * right where little energy is. PLAIN keeps its coefficients to itself, and states no digits. -log10 of it is the
- * digits. Fewer digits than the requested residual leaves are the user's choice; less than one digit left by rounding
- * is objected to. The 2-norm of the
- * residual times the condition, which needs no preconditioner, is of no use where stiffness is uneven: it takes the
- * residual at a stiff inclusion for one at what is soft, and denied digits to answers that held five.
+ * leaves of the stiffness: with multigrid in the norm of the energy or of the displacement, whichever is more, by the
+ * smallest Ritz value of the solve; with factors the displacement's own (algebra/energy_error.h), or what their steps
+ * would still move it, if that is more (algebra/refine.h). It is an estimate, not a bound: the Ritz value comes from
+ * above. PLAIN keeps its coefficients to itself, and states no digits. What the work misses of the energy is an error
+ * too. -log10 of the most is the digits. Fewer digits than the requested residual leaves are the user's choice; less
+ * than one digit left by rounding is objected to. The 2-norm of the residual times the condition, which needs no
+ * preconditioner, is of no use where stiffness is uneven: it takes the residual at a stiff inclusion for one at what is
+ * soft, and denied digits to answers that held five.
  *
  * Forces. A displacement may hold eleven digits beside a support that takes the whole body along, and its strains none:
  * neither residual nor error estimate sees that, both being over what the support does to the unknowns. The forces'
