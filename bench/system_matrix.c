@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/scene.h"
-#include "solve/boundary_conditions.h"
+#include "problem/boundary_conditions.h"
 
 #include <string.h>
 
