@@ -47,26 +47,34 @@ static void find_material_facts(const OstMaterialField *field, OstSolverFacts *f
         ost_plan_add_facts(field->ctx, &field->material[r].constants, &softest, &stiffest, facts);
 }
 
+/* Without supports and facts, with room for loads on `nodes` nodes. */
+static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstLocal nodes, OstProblem **problem)
+{
+    OstContext *ctx = mesh->ctx;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    if (!element)
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes; 4 or 10 are expected",
+                         mesh->nodes_per_tet);
+    OstStatus status = OST_NEW(ctx, problem, 1);
+    if (status == OST_SUCCESS) {
+        **problem = (OstProblem){.ctx = ctx, .mesh = mesh, .field = field, .linear = element->linear};
+        status = OST_NEW(ctx, &(*problem)->force, 3 * (size_t)nodes);
+    }
+    return ost_agree(ctx, status);
+}
+
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
 {
-    OstContext *ctx = parts->mesh->ctx;
-    const size_t numbers = 3 * (size_t)parts->mesh->owned_nodes;
     OstProblem *made = NULL;
-    OstStatus status = OST_NEW(ctx, &made, 1);
+    OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
-        *made = (OstProblem){.ctx = ctx,
-                             .mesh = parts->mesh,
-                             .field = parts->field,
-                             .free_body = parts->free_body,
-                             .with_metric = parts->field->region_axes != NULL};
+        made->free_body = parts->free_body;
+        made->with_metric = parts->field->region_axes != NULL;
         find_material_facts(parts->field, &made->facts);
-        status = OST_NEW(ctx, &made->force, numbers);
-    }
-    if (status == OST_SUCCESS && parts->force)
-        memcpy(made->force, parts->force, numbers * sizeof *made->force);
-    status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
+        if (parts->force)
+            ost_problem_set_load(made, parts->force);
         status = hold_nodes(parts, &made->supports);
+    }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
     *problem = made;
@@ -77,18 +85,13 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
 {
     OstContext *ctx = scene->ctx;
     OstProblem *made = NULL;
-    OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS) {
-        *made = (OstProblem){.ctx = ctx,
-                             .mesh = scene->mesh,
-                             .field = scene->field,
-                             .c = scene->c,
-                             .free_body = scene->c->free_body,
-                             .with_metric = scene->plan.effect[OST_PLAN_ORTHOTROPY].on,
-                             .facts = scene->plan.facts};
-        status = OST_NEW(ctx, &made->force, 3 * (size_t)scene->mesh->node_count);
-    }
-    OST_TRY_DONE(ost_agree(ctx, status));
+    OstStatus status = create(scene->mesh, scene->field, scene->mesh->node_count, &made);
+    if (status != OST_SUCCESS)
+        goto done;
+    made->c = scene->c;
+    made->free_body = scene->c->free_body;
+    made->with_metric = scene->plan.effect[OST_PLAN_ORTHOTROPY].on;
+    made->facts = scene->plan.facts;
     OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, made->force));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
@@ -121,7 +124,7 @@ OstGlobal ost_problem_unknowns(const OstProblem *problem)
 
 int ost_problem_is_linear(const OstProblem *problem)
 {
-    return ost_element_of(problem->mesh->nodes_per_tet)->linear;
+    return problem->linear;
 }
 
 void ost_problem_set_load(OstProblem *problem, const double *force)

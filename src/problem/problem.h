@@ -15,6 +15,7 @@ struct OstProblem {
     double *force;         /* 3 × owned_nodes: the load at t = 1 */
     OstSystem *system;     /* NULL until the stiffness is asked for, and after its release */
     int filled;            /* does the matrix have values? */
+    int linear;            /* is the internal force linear in the displacement? */
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid wants the material's metric? */
     OstSolverFacts facts; /* of the materials */

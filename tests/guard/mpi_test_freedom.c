@@ -4,8 +4,8 @@
 #include "mesh/mesh_support.h"
 
 #include "core/small.h"
-#include "mesh/lattice.h"
 #include "guard/freedom.h"
+#include "mesh/lattice.h"
 
 static OstSupports *new_supports(const OstMesh *mesh)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
 
-#include "orthostat/refine.h"
 #include "guard/rigid_motion.h"
+#include "orthostat/refine.h"
 
 /* Rigid motion is free of force for every kind of tet; what is not so is found and named. */
 
