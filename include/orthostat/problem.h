@@ -76,7 +76,7 @@ typedef struct OstStiffness {
  * below could not number the unknowns. `stiffness` may be NULL. */
 OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
 
-/* Local. Drops the map by which tets are added to the matrix, two thirds as large as the values on linear tets. The
+/* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
  * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
  */
 void ost_problem_release_scatter(OstProblem *problem);

@@ -8,6 +8,7 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "problem/row_geometry.h"
 
 #include <string.h>
 
@@ -107,30 +108,25 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
 {
     OstContext *ctx = scene->ctx;
     const size_t unknowns = 3 * (size_t)system->matrix->rows;
-    double *coordinates = NULL, *modes = NULL, *rhs = NULL, *v = NULL;
+    OstRowGeometry rows = {0};
+    double *rhs = NULL, *v = NULL;
     OstSolver *solver = NULL;
     OstSolveReport report;
     OstSolverOptions options = scene->c->solver;
     options.relative_residual = potential_residual;
-    OstStatus status = OST_NEW(ctx, &coordinates, unknowns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &modes, 6 * unknowns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &rhs, unknowns);
+    OstStatus status = OST_NEW(ctx, &rhs, unknowns);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &v, unknowns);
     if (status == OST_SUCCESS)
         status = ost_system_fill_laplacian(system, rhs);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_system_geometry(system, NULL, coordinates, NULL, modes));
-    const OstSolverGeometry geometry = {.coordinates = coordinates, .modes = modes};
-    OST_TRY_DONE(ost_solver_create(ctx, system->matrix, &geometry, &options, &solver));
+    OST_TRY_DONE(ost_row_geometry_create(system, NULL, 0, &rows));
+    OST_TRY_DONE(ost_solver_create(ctx, system->matrix, &rows.geometry, &options, &solver));
     OST_TRY_DONE(ost_solver_solve(solver, rhs, v, &report));
     OST_TRY_DONE(ost_system_displacement(system, 1.0, v, u));
 done:
     ost_solver_destroy(&solver);
-    OST_FREE(coordinates);
-    OST_FREE(modes);
+    ost_row_geometry_release(&rows);
     OST_FREE(rhs);
     OST_FREE(v);
     return status;
