@@ -51,17 +51,12 @@ static OstStatus count_faces(const OstScene *scene, const OstSelection *selectio
     return OST_MPI(scene->ctx, MPI_Allreduce(&mine, some, 1, MPI_INT, MPI_MAX, ost_comm(scene->ctx)));
 }
 
-static int names_no_region(const OstScene *scene, const char *region)
-{
-    return region && strcmp(region, "all") != 0 && ost_mesh_find_region(scene->mesh, region) < 0;
-}
-
 static OstStatus check_load(const OstScene *scene, const OstLoad *load)
 {
     const int needs_faces = load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
                             (load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_FACES);
     if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
-        return names_no_region(scene, load->region)
+        return load->region && ost_mesh_find_region(scene->mesh, load->region) < 0
                    ? ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region)
                    : OST_SUCCESS;
     OstGlobal nodes;
