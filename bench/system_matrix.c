@@ -55,7 +55,8 @@ static OstStatus allocate_geometry(OstContext *ctx, Writing *w)
     OST_TRY(OST_NEW(ctx, &w->modes, 18 * rows));
     OST_TRY(OST_NEW(ctx, &w->label, rows));
     OST_TRY(OST_NEW(ctx, &w->row_number, (size_t)w->system->matrix->columns));
-    return w->scene->plan.effect[OST_PLAN_ORTHOTROPY].on ? OST_NEW(ctx, &w->metric, 6 * rows) : OST_SUCCESS;
+    return ost_effect_on(&w->scene->plan.effects, OST_EFFECT_ORTHOTROPY) ? OST_NEW(ctx, &w->metric, 6 * rows)
+                                                                         : OST_SUCCESS;
 }
 
 static OstStatus describe_rows(OstContext *ctx, Writing *w)

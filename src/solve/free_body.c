@@ -114,12 +114,17 @@ static OstStatus hold_three(const OstMesh *mesh, OstSupports *supports)
     return ost_supports_complete(supports);
 }
 
-OstStatus ost_free_body_supports(const OstMesh *mesh, OstSupports **supports)
+OstStatus ost_free_body_supports(const OstMesh *mesh, const OstEffects *effects, OstSupports **supports)
 {
-    OST_TRY(ost_agree(mesh->ctx, ost_supports_create(mesh, supports)));
-    const OstStatus status = hold_three(mesh, *supports);
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    OstStatus status = ost_agree(mesh->ctx, ost_supports_create(mesh, supports));
+    if (status == OST_SUCCESS) {
+        (*supports)->effects = effects;
+        status = hold_three(mesh, *supports);
+    }
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
+    ost_ledger_leave(mesh->ctx);
     return status;
 }
 
@@ -147,7 +152,7 @@ static void add_load(const double *x, const double *f, const double centre[3], d
     sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(f);
 }
 
-OstStatus ost_free_body_check_loads(const OstMesh *mesh, const double *force, const char *where)
+static OstStatus check_loads(const OstMesh *mesh, const double *force, const char *where)
 {
     OstContext *ctx = mesh->ctx;
     double low[3], high[3], centre[3], sums[SUM_COUNT] = {0.0};
@@ -169,6 +174,14 @@ OstStatus ost_free_body_check_loads(const OstMesh *mesh, const double *force, co
         "size %g, and a moment (%g, %g, %g) of size %g about (%g, %g, %g); balance them, or hold the body",
         where, f[0], f[1], f[2], sums[SUM_FORCE_SIZE], m[0], m[1], m[2], sums[SUM_MOMENT_SIZE], centre[0], centre[1],
         centre[2]);
+}
+
+OstStatus ost_free_body_check_loads(const OstMesh *mesh, const double *force, const char *where)
+{
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    const OstStatus status = check_loads(mesh, force, where);
+    ost_ledger_leave(mesh->ctx);
+    return status;
 }
 
 /* Integrals over the body: volume, place, displacement, and twice the rotation (the curl). */
@@ -200,7 +213,7 @@ static void add_tet(const OstMesh *mesh, const OstLocal *nodes, const double *u,
     }
 }
 
-OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
+static OstStatus centre_body(const OstMesh *mesh, double *displacement)
 {
     double sums[SUM_BODY] = {0.0};
     double centre[3], mean[3], rotation[3];
@@ -220,4 +233,12 @@ OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
             displacement[3 * (size_t)n + (size_t)i] -= mean[i] + turned[i];
     }
     return OST_SUCCESS;
+}
+
+OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
+{
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    const OstStatus status = centre_body(mesh, displacement);
+    ost_ledger_leave(mesh->ctx);
+    return status;
 }

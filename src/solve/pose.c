@@ -74,8 +74,11 @@ static OstStatus fill_geometry(const OstScene *scene, Work *work)
     OstStatus status = OST_NEW(ctx, &work->coordinates, 3 * rows);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &work->modes, 18 * rows);
-    if (status == OST_SUCCESS && scene->plan.effect[OST_PLAN_ORTHOTROPY].on)
+    if (status == OST_SUCCESS && ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
+        ost_ledger_enter(ctx, OST_EFFECT_ORTHOTROPY);
         status = OST_NEW(ctx, &work->metric, 6 * rows);
+        ost_ledger_leave(ctx);
+    }
     OST_TRY(ost_agree(ctx, status));
     return ost_system_geometry(work->system, scene->field, work->coordinates, work->metric, work->modes);
 }
@@ -132,23 +135,11 @@ static OstStatus find_facts(const OstScene *scene, const Work *work, OstSolverFa
     return ost_memory_free(ctx, &facts->free_memory);
 }
 
-static int is_multigrid(OstRecipe recipe)
-{
-    return recipe != OST_RECIPE_PLAIN && recipe != OST_RECIPE_DIRECT;
-}
-
-/* A factorisation that is bounded may turn out not to fit, and then multigrid takes its place. */
-static int may_be_multigrid(const OstSolverPlan *plan)
-{
-    return is_multigrid(plan->first) || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
-}
-
 static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *work)
 {
     OstContext *ctx = scene->ctx;
     const OstSolverOptions *options = &scene->c->solver;
     OstSolverFacts facts;
-    OstSolverPlan plan;
     ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
     OstStatus status = fill_geometry(scene, work);
     if (status == OST_SUCCESS)
@@ -156,8 +147,7 @@ static OstStatus solve_system(const OstScene *scene, OstResult *result, Work *wo
     ost_ledger_leave(ctx);
     OST_TRY(status);
     OST_TRY(test_rigid_motion(scene, result, work));
-    ost_solver_plan(options, &facts, &plan);
-    if (may_be_multigrid(&plan))
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_LINEAR_SPACE))
         OST_TRY(ost_linear_space_create(work->system, scene->field, work->metric != NULL, &work->linear));
     const OstSolverGeometry geometry = {.coordinates = work->coordinates,
                                         .metric = work->metric,
@@ -219,11 +209,13 @@ static OstStatus find_largest_displacement(OstResult *result)
 /* Checks what the solver reached, finished or not, and adds the fields asked for. */
 static OstStatus examine(const OstScene *scene, OstResult *result, const OstSupports *supports, const OstSolvedFor *rhs)
 {
-    if (scene->c->free_body)
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
         OST_TRY(ost_free_body_centre(scene->mesh, result->displacement));
     OST_TRY(ost_result_check(result, supports, residual_to_hold(scene, result), rhs));
     OST_TRY(find_largest_displacement(result));
-    return ost_agree(result->ctx, ost_result_recover(result, scene->c->output_fields));
+    return ost_effect_on(&scene->plan.effects, OST_EFFECT_RECOVERY)
+               ? ost_agree(result->ctx, ost_result_recover(result, scene->c->output_fields))
+               : OST_SUCCESS;
 }
 
 /* What is held against the result, as a failure. */
@@ -249,7 +241,7 @@ static OstStatus prepare(const OstScene *scene, OstResult *result, Work *work)
     OST_TRY(ost_scene_supports(scene, &work->supports));
     OST_TRY(ost_freedom_check(scene->mesh, work->supports, c->path, c->free_body));
     OST_TRY(ost_scene_loads(scene, result->force));
-    if (c->free_body)
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
         OST_TRY(ost_free_body_check_loads(scene->mesh, result->force, c->path));
     return assemble(scene, result, work);
 }
