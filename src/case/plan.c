@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/plan.h"
 
+#include "algebra/solver_plan.h"
 #include "case/plan_parts.h"
 #include "core/error.h"
 
@@ -39,13 +40,6 @@ static void count_output(const OstCase *c, OstEffectFacts *facts)
     facts->node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
 }
 
-/* A factorisation that is bounded may turn out not to fit, and then multigrid takes its place. */
-static int may_be_multigrid(const OstSolverPlan *plan)
-{
-    const int is_multigrid = plan->first != OST_RECIPE_PLAIN && plan->first != OST_RECIPE_DIRECT;
-    return is_multigrid || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
-}
-
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
     OstEffectFacts facts = {.quadratic = mesh->quadratic,
@@ -59,7 +53,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->facts.unknowns = plan->unknowns;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
-    facts.multigrid = may_be_multigrid(&plan->solver);
+    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
     count_output(c, &facts);

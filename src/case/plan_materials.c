@@ -41,22 +41,19 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     }
 }
 
-/* The softest and the stiffest so far. */
-typedef struct Moduli {
-    double softest, stiffest;
-} Moduli;
-
-/* Ratios of moduli and Poisson's ratio, for the solver's plan. */
-static void add_ratios(const OstOrthotropic *k, const double eigenvalues[3], Moduli *moduli, OstSolverFacts *solver)
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                        OstSolverFacts *facts)
 {
     const double *e = k->youngs_modulus;
     const double least = fmin(e[0], fmin(e[1], e[2]));
     const double most = fmax(e[0], fmax(e[1], e[2]));
-    solver->poisson = fmax(solver->poisson, ost_equivalent_poisson(eigenvalues[0]));
-    moduli->softest = moduli->softest > 0.0 ? fmin(moduli->softest, least) : least;
-    moduli->stiffest = fmax(moduli->stiffest, most);
-    solver->anisotropy = fmax(solver->anisotropy, most / least);
-    solver->contrast = moduli->stiffest / moduli->softest;
+    double eigenvalues[3] = {1.0, 1.0, 1.0};
+    if (ost_orthotropic_eigenvalues(ctx, k, eigenvalues) == OST_SUCCESS)
+        facts->poisson = fmax(facts->poisson, ost_equivalent_poisson(eigenvalues[0]));
+    *softest = *softest > 0.0 ? fmin(*softest, least) : least;
+    *stiffest = fmax(*stiffest, most);
+    facts->anisotropy = fmax(facts->anisotropy, most / least);
+    facts->contrast = *stiffest / *softest;
 }
 
 static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
@@ -72,13 +69,12 @@ static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
 
 /* `stated` is NULL for a material of the mesh file, whose axes are fixed. */
 static void add_material(OstContext *ctx, const char *region, const OstMaterial *material,
-                         const OstCaseMaterial *stated, Moduli *moduli, OstEffectFacts *facts, OstSolverFacts *solver)
+                         const OstCaseMaterial *stated, OstEffectFacts *facts)
 {
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     facts->materials++;
     if (ost_orthotropic_eigenvalues(ctx, &material->constants, eigenvalues) == OST_SUCCESS)
         facts->nearly_incompressible += ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE);
-    add_ratios(&material->constants, eigenvalues, moduli, solver);
     if (material->isotropic)
         return;
     if (facts->orthotropic++ == 0)
@@ -99,12 +95,19 @@ static int is_in_use(const OstCase *c, const OstNames *regions, int entry)
 void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver)
 {
     const OstFileMaterials *file = mesh->regions ? mesh->materials : NULL;
-    Moduli moduli = {0.0, 0.0};
-    for (int i = 0; i < c->material_count; i++)
-        if (is_in_use(c, mesh->regions, i))
-            add_material(c->ctx, c->materials[i].region, &c->materials[i].material, &c->materials[i], &moduli, facts,
-                         solver);
-    for (int r = 0; file && r < file->count; r++)
-        if (!ost_case_material_of(c, mesh->regions->name[r]))
-            add_material(c->ctx, file->material[r].name, &file->material[r], NULL, &moduli, facts, solver);
+    double softest = 0.0, stiffest = 0.0;
+    for (int i = 0; i < c->material_count; i++) {
+        const OstCaseMaterial *stated = &c->materials[i];
+        if (!is_in_use(c, mesh->regions, i))
+            continue;
+        add_material(c->ctx, stated->region, &stated->material, stated, facts);
+        ost_plan_add_facts(c->ctx, &stated->material.constants, &softest, &stiffest, solver);
+    }
+    for (int r = 0; file && r < file->count; r++) {
+        const OstMaterial *material = &file->material[r];
+        if (ost_case_material_of(c, mesh->regions->name[r]))
+            continue;
+        add_material(c->ctx, material->name, material, NULL, facts);
+        ost_plan_add_facts(c->ctx, &material->constants, &softest, &stiffest, solver);
+    }
 }

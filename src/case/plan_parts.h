@@ -10,6 +10,11 @@ void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFact
 /* Local. The effect of a load, or OST_EFFECT_END where only the mesh can tell. */
 OstEffect ost_load_effect(const OstCase *c, const OstLoad *load);
 
+/* Local. Adds a material to what the solver's plan asks of them, ratios of moduli and Poisson's ratio; `softest` and
+ * `stiffest` are the least and largest Young's modulus so far, 0 to begin with. */
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                        OstSolverFacts *facts);
+
 /* Local. Is a field among the output? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 

@@ -8,7 +8,7 @@
 #include "orthostat/plan.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
-#include "solve/scene_mesh.h"
+#include "problem/scene_mesh.h"
 
 #include <jansson.h>
 #include <stdio.h>
