@@ -2,6 +2,7 @@
 #include "guard/number_range.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 
 #include <math.h>
 
@@ -49,7 +50,7 @@ OstStatus ost_number_range_of_stiffness(const OstBlockMatrix *matrix, const char
     double low, largest[2]; /* of the stiffness, and of the inverse of the softest */
     diagonal_range(matrix, &low, &largest[0]);
     largest[1] = 1.0 / low;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max(ctx, 2, largest));
     OST_TRY(check(ctx, where, "stiffest nodes", largest[0]));
     return check(ctx, where, "softest nodes", 1.0 / largest[1]);
 }
@@ -58,6 +59,6 @@ OstStatus ost_number_range_of_load(const OstBlockMatrix *matrix, const double *r
 {
     OstContext *ctx = matrix->ctx;
     double largest = largest_of(3 * (size_t)matrix->rows, rhs);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max(ctx, 1, &largest));
     return largest > 0.0 ? check(ctx, where, "loads", largest) : OST_SUCCESS;
 }

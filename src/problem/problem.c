@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/free_memory.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
 
@@ -150,10 +151,9 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
 
 OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
 {
-    OstContext *ctx = problem->ctx;
     *energy = 0.0;
     ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+    return ost_sum(problem->ctx, 1, energy);
 }
 
 OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force)
@@ -230,6 +230,7 @@ OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts)
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         worst =
             fmin(worst, ost_tet_quality(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)t));
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&worst, &facts->quality, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
+    facts->quality = worst;
+    OST_TRY(ost_min(ctx, 1, &facts->quality));
     return ost_memory_free(ctx, &facts->free_memory);
 }

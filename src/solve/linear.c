@@ -3,6 +3,7 @@
 #include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "problem/coarse_space.h"
 #include "problem/free_body.h"
@@ -93,7 +94,7 @@ static OstStatus describe_rhs(OstContext *ctx, const Linear *linear, size_t unkn
         sums[0] += linear->rhs[i] * linear->rhs[i];
         sums[1] += linear->rhs[i] * linear->v[i];
     }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum(ctx, 2, sums));
     *solved_for = (OstSolvedFor){sqrt(sums[0]), sums[1]};
     return OST_SUCCESS;
 }
