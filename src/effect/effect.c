@@ -120,7 +120,7 @@ static void free_body(const OstEffectFacts *f, OstEffectState *state)
     if (f->free_body)
         on(state, 0.0, "the case says so: the loads balance each other");
     else
-        off(state, "the body has constraints of its own, or none");
+        off(state, f->constraints > 0 ? "the body is constrained" : "the case does not say free_body");
 }
 
 static void loads(const OstEffectFacts *f, OstEffectState *state, int count, const char *where)
