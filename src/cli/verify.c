@@ -4,7 +4,6 @@
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "cli/script.h"
-#include "cli/verify_hard.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -21,7 +20,6 @@ enum { LONGEST_PATH = 4096, MOST_CASES = 256 };
 
 typedef struct Arguments {
     int quick;
-    int hard;
     const char *json;
     const char *picture;
     int name_count;
@@ -30,8 +28,7 @@ typedef struct Arguments {
 
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
-    {"hard", 'H', 0, 0,
-     "The hard grid instead: what breaks solvers, held against direct solutions; names are of its shapes", 0},
+    {"hard", 'H', 0, OPTION_HIDDEN, 0, 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
     {"picture", 'p', "FOLDER", 0, "Draw error against element size here, as verify.png (and write verify.json)", 0},
     {0},
@@ -45,8 +42,8 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         arguments->quick = 1;
         return 0;
     case 'H':
-        arguments->hard = 1;
-        return 0;
+        argp_error(state, "the hard grid is a study of its own, in the source: scripts/hard-grid");
+        return EINVAL;
     case 'j':
         arguments->json = value;
         return 0;
@@ -262,20 +259,12 @@ static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_pa
     return status;
 }
 
-static OstStatus verify_hard(OstContext *ctx, const Arguments *arguments, int *passed)
-{
-    const OstHardArguments hard = {arguments->quick, arguments->json, arguments->picture, arguments->name_count,
-                                   arguments->name};
-    return ost_cli_verify_hard(ctx, &hard, passed);
-}
-
 int ost_cli_verify(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {0};
     int exit_code = 0, all_passed = 0;
     if (!ost_cli_parse(ctx, &verify_argp, argc, argv, &arguments, &exit_code))
         return exit_code;
-    exit_code = ost_cli_finish(ctx, arguments.hard ? verify_hard(ctx, &arguments, &all_passed)
-                                                   : verify(ctx, &arguments, &all_passed));
+    exit_code = ost_cli_finish(ctx, verify(ctx, &arguments, &all_passed));
     return exit_code == 0 && !all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
 }

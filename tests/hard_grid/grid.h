@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_STUDY_HARD_H
-#define ORTHOSTAT_STUDY_HARD_H
+#ifndef HARD_GRID_GRID_H
+#define HARD_GRID_GRID_H
 
 #include "orthostat/scene.h"
 
@@ -8,47 +8,47 @@
  * and held against a direct solution of the same equations, or refused. A point of the grid is one body: */
 
 enum {
-    OST_HARD_SHAPES = 8,
-    OST_HARD_ORDERS = 2,
-    OST_HARD_RATIOS = 3,   /* of Young's moduli: 1, 1e3, 1e6 */
-    OST_HARD_FAMILY = 5,   /* Poisson's ratios of the stable family */
-    OST_HARD_POISSONS = 7, /* those, and nine constants at 0.99 and 0.999 of the border of stability */
-    OST_HARD_AXES = 3,     /* aligned, cylindrical, random smooth */
-    OST_HARD_COLUMNS = OST_HARD_AXES * (1 + 2 * 3)
+    HARD_SHAPES = 8,
+    HARD_ORDERS = 2,
+    HARD_RATIOS = 3,   /* of Young's moduli: 1, 1e3, 1e6 */
+    HARD_FAMILY = 5,   /* Poisson's ratios of the stable family */
+    HARD_POISSONS = 7, /* those, and nine constants at 0.99 and 0.999 of the border of stability */
+    HARD_AXES = 3,     /* aligned, cylindrical, random smooth */
+    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3)
 };
 
 /* What is wrong with a point that has to be refused. */
 typedef enum {
-    OST_HARD_SOUND,
-    OST_HARD_BEYOND_BORDER, /* nine constants at 1.001 of the border of stability */
-    OST_HARD_NU_HALF,       /* nu = 0.5 */
-    OST_HARD_LOOSE,         /* held at one vertex */
-    OST_HARD_INVERTED,      /* slivers with -1/1000 of their neighbours' volume */
-    OST_HARD_NOT_A_NUMBER,  /* for a load */
-    OST_HARD_FLAWS
-} OstHardFlaw;
+    HARD_SOUND,
+    HARD_BEYOND_BORDER, /* nine constants at 1.001 of the border of stability */
+    HARD_NU_HALF,       /* nu = 0.5 */
+    HARD_LOOSE,         /* held at one vertex */
+    HARD_INVERTED,      /* slivers with -1/1000 of their neighbours' volume */
+    HARD_NOT_A_NUMBER,  /* for a load */
+    HARD_FLAWS
+} HardFlaw;
 
-typedef struct OstHardPoint {
+typedef struct HardPoint {
     int shape, order;
-    int poisson;            /* 0 to OST_HARD_POISSONS - 1 */
+    int poisson;            /* 0 to HARD_POISSONS - 1 */
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
-    OstHardFlaw flaw;
-} OstHardPoint;
+    HardFlaw flaw;
+} HardPoint;
 
 typedef enum {
-    OST_HARD_SOLVED,
-    OST_HARD_SOLVED_TO_ROUNDING, /* to what double precision holds, which is less than 1e-8 */
-    OST_HARD_REFUSED,            /* rightly: it is flawed, or double precision holds not one digit of it */
-    OST_HARD_GIVEN_UP,           /* refused, and should have been solved */
-    OST_HARD_FALSE,              /* said to be solved, and is not; or solved where it had to be refused */
-    OST_HARD_OUTCOMES
-} OstHardOutcome;
+    HARD_SOLVED,
+    HARD_SOLVED_TO_ROUNDING, /* to what double precision holds, which is less than 1e-8 */
+    HARD_REFUSED,            /* rightly: it is flawed, or double precision holds not one digit of it */
+    HARD_GIVEN_UP,           /* refused, and should have been solved */
+    HARD_FALSE,              /* said to be solved, and is not; or solved where it had to be refused */
+    HARD_OUTCOMES
+} HardOutcome;
 
 /* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
-extern const double ost_hard_hopeless;
+extern const double hard_hopeless;
 
 /* What is known of the equations without the recipe under test. */
-typedef struct OstHardTruth {
+typedef struct HardTruth {
     int known;            /* is there a direct solution? */
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
@@ -58,11 +58,11 @@ typedef struct OstHardTruth {
     double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
     double rounded; /* how far u* moves when every entry of K does by 2^-53 of itself, root of the mean square over
                        signs at random; NAN where the factors leave five digits, and nobody asked */
-} OstHardTruth;
+} HardTruth;
 
-typedef struct OstHardReading {
-    OstHardPoint point;
-    OstHardOutcome outcome;
+typedef struct HardReading {
+    HardPoint point;
+    HardOutcome outcome;
     OstStatus status;
     char reason[512]; /* of a refusal, or of the verdict */
     OstGlobal unknowns;
@@ -72,75 +72,74 @@ typedef struct OstHardReading {
     int rounding_limited;  /* is that what double precision holds, and not 1e-8? */
     double stated_error;   /* of the displacement, relative, as the solver says of its equations; NAN if it does not */
     double digits;         /* of the displacement, against the direct solution; NAN if there is none */
-    OstHardTruth truth;
+    HardTruth truth;
     double seconds; /* of the solve, the direct one left out */
-} OstHardReading;
+} HardReading;
 
-typedef struct OstHardReport {
+typedef struct HardReport {
     OstContext *ctx;
     int quick;
     int count;
-    OstHardReading *reading;
+    HardReading *reading;
     double seconds;
-} OstHardReport;
+} HardReport;
 
 /* Local. Names, values and words for tables. */
-extern const char *const ost_hard_outcome_name[OST_HARD_OUTCOMES];
-extern const double ost_hard_ratio[OST_HARD_RATIOS];
-extern const double ost_hard_nu[OST_HARD_FAMILY];
-extern const double ost_hard_border[OST_HARD_POISSONS - OST_HARD_FAMILY];
-const char *ost_hard_shape_name(int shape);
-int ost_hard_find_shape(const char *name); /* or -1 */
-void ost_hard_describe_poisson(int poisson, char *text, size_t size);
-void ost_hard_describe_column(int column, char *text, size_t size);
-void ost_hard_describe(const OstHardPoint *point, char *text, size_t size);
+extern const char *const hard_outcome_name[HARD_OUTCOMES];
+extern const double hard_ratio[HARD_RATIOS];
+extern const double hard_nu[HARD_FAMILY];
+extern const double hard_border[HARD_POISSONS - HARD_FAMILY];
+const char *hard_shape_name(int shape);
+int hard_find_shape(const char *name); /* or -1 */
+void hard_describe_poisson(int poisson, char *text, size_t size);
+void hard_describe_column(int column, char *text, size_t size);
+void hard_describe(const HardPoint *point, char *text, size_t size);
 
 /* Local. The column of the printed matrices that a point belongs to: ratio and stiff direction, then axes. */
-int ost_hard_column(const OstHardPoint *point);
+int hard_column(const HardPoint *point);
 
 /* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
  * occurs; the caller's to free. */
-OstStatus ost_hard_points(OstContext *ctx, const int wanted[OST_HARD_SHAPES], int quick, int *count,
-                          OstHardPoint **points);
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points);
 
 /* A point's case, made in memory. It holds pointers into itself: it must not move. */
-typedef struct OstHardCase {
+typedef struct HardCase {
     OstCase c;
     OstCaseMaterial material[2];
     OstConstraint constraint;
     OstLoad load;
     char *held, *pulled; /* names of boundaries */
-} OstHardCase;
+} HardCase;
 
 /* Local. The case of a point: shape, supports, load, materials. */
-OstStatus ost_hard_make_case(OstContext *ctx, const OstHardPoint *point, OstHardCase *hard);
+OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard);
 
 /* Local: its parts. */
-void ost_hard_place(const OstHardPoint *point, OstHardCase *hard);
-OstStatus ost_hard_materials(OstContext *ctx, const OstHardPoint *point, OstHardCase *hard);
+void hard_place(const HardPoint *point, HardCase *hard);
+OstStatus hard_materials(OstContext *ctx, const HardPoint *point, HardCase *hard);
 
 /* Collective. The mesh of a point: slivers and layers moved into place, inclusions marked, smooth axes laid on. */
-OstStatus ost_hard_make_chunk(const OstHardPoint *point, const OstCase *c, OstMeshChunk **chunk);
+OstStatus hard_make_chunk(const HardPoint *point, const OstCase *c, OstMeshChunk **chunk);
 
 /* Local. Contrast of a shape's second region, 1 if it has none; origin and axis of its cylindrical axes. */
-double ost_hard_contrast(int shape);
-void ost_hard_cylinder(int shape, double origin[3], double axis[3]);
+double hard_contrast(int shape);
+void hard_cylinder(int shape, double origin[3], double axis[3]);
 
 /* Collective. Assembles the scene's equations afresh, factors them, iterates with residuals in twofold precision until
  * the solution stands to the last digits of double precision, or is seen not to exist, and holds the result (NULL:
  * there is none) against it. */
-OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth);
+OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
 /* Collective. Solves one point and judges it; fails only where the grid itself cannot go on. */
-OstStatus ost_hard_read(OstContext *ctx, const OstHardPoint *point, OstHardReading *reading);
+OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
 
 /* Collective. All points, with a line of progress. */
-OstStatus ost_hard_run(OstContext *ctx, const int wanted[OST_HARD_SHAPES], int quick, OstHardReport **report);
-void ost_hard_report_destroy(OstHardReport **report);
-int ost_hard_passed(const OstHardReport *report);
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);
+void hard_report_destroy(HardReport **report);
+int hard_passed(const HardReport *report);
 
 /* Local; rank 0 prints and writes. */
-void ost_hard_print(const OstHardReport *report);
-OstStatus ost_hard_write_json(const OstHardReport *report, const char *path);
+void hard_print(const HardReport *report);
+OstStatus hard_write_json(const HardReport *report, const char *path);
 
 #endif

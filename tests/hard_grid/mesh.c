@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "study/hard.h"
+#include "hard_grid/grid.h"
 
 #include <math.h>
 
@@ -54,19 +54,19 @@ static void squeeze(const OstBlockShape *block, const OstLocal index[3], double 
     x[2] = thin_height * thin_below + thick_height * thick_below;
 }
 
-static void move_nodes(const OstHardPoint *point, const OstCase *c, OstMeshChunk *chunk)
+static void move_nodes(const HardPoint *point, const OstCase *c, OstMeshChunk *chunk)
 {
     const OstLocal *n = c->block.divisions;
     const OstLocal nodes[3] = {n[0] + 1, n[1] + 1, n[2] + 1};
-    const int slivers = point->shape == ost_hard_find_shape("slivers");
-    const int layers = point->shape == ost_hard_find_shape("layers");
+    const int slivers = point->shape == hard_find_shape("slivers");
+    const int layers = point->shape == hard_find_shape("layers");
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         OstLocal index[3];
         double *x = chunk->coordinates + 3 * (size_t)i;
         unfold(chunk->first_node + i, nodes, index);
         if (slivers)
-            flatten(&c->block, (OstLocal)(chunk->first_node + i), index,
-                    point->flaw == OST_HARD_INVERTED ? -thin : thin, x);
+            flatten(&c->block, (OstLocal)(chunk->first_node + i), index, point->flaw == HARD_INVERTED ? -thin : thin,
+                    x);
         if (layers)
             squeeze(&c->block, index, x);
     }
@@ -85,9 +85,9 @@ static int is_inclusion(int checker, const OstLocal cell[3])
     return 1;
 }
 
-static OstStatus mark_inclusions(const OstHardPoint *point, const OstLocal cells[3], OstMeshChunk *chunk)
+static OstStatus mark_inclusions(const HardPoint *point, const OstLocal cells[3], OstMeshChunk *chunk)
 {
-    const int checker = point->shape == ost_hard_find_shape("checker");
+    const int checker = point->shape == hard_find_shape("checker");
     OST_TRY(OST_RESIZE(chunk->ctx, &chunk->regions.name, 2));
     OST_TRY(ost_copy_string(chunk->ctx, "inclusion", &chunk->regions.name[1]));
     chunk->regions.count = 2;
@@ -130,7 +130,7 @@ static OstStatus lay_axes(const OstLocal cells[3], OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-OstStatus ost_hard_make_chunk(const OstHardPoint *point, const OstCase *c, OstMeshChunk **chunk)
+OstStatus hard_make_chunk(const HardPoint *point, const OstCase *c, OstMeshChunk **chunk)
 {
     const int tube = c->mesh_kind == OST_MESH_TUBE;
     const OstLocal round[3] = {c->tube.axial, c->tube.around, c->tube.radial};
@@ -138,7 +138,7 @@ OstStatus ost_hard_make_chunk(const OstHardPoint *point, const OstCase *c, OstMe
     OST_TRY(tube ? ost_chunk_create_tube(c->ctx, &c->tube, chunk) : ost_chunk_create_block(c->ctx, &c->block, chunk));
     OstStatus status = OST_SUCCESS;
     move_nodes(point, c, *chunk);
-    if (ost_hard_contrast(point->shape) != 1.0)
+    if (hard_contrast(point->shape) != 1.0)
         status = mark_inclusions(point, cells, *chunk);
     if (status == OST_SUCCESS && point->axes == 2)
         status = lay_axes(cells, *chunk);

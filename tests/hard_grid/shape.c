@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "study/hard.h"
+#include "hard_grid/grid.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,17 +9,17 @@
 typedef struct HardShape {
     const char *name;
     double size[3];
-    OstLocal divisions[OST_HARD_ORDERS][3]; /* of linear and of quadratic tets; the tube's are axial, around, radial */
-    char *held, *pulled;                    /* boundaries */
-    double contrast;                        /* Young's modulus of the inclusions over that of the rest */
-    double cylinder[3];                     /* a point of the line about which cylindrical axes turn */
+    OstLocal divisions[HARD_ORDERS][3]; /* of linear and of quadratic tets; the tube's are axial, around, radial */
+    char *held, *pulled;                /* boundaries */
+    double contrast;                    /* Young's modulus of the inclusions over that of the rest */
+    double cylinder[3];                 /* a point of the line about which cylindrical axes turn */
     int cylinder_axis;
 } HardShape;
 
 static char ends[] = "ends", xmin[] = "xmin", xmax[] = "xmax";
 
 /* Above the size at which a factorisation is planned in any case (3000 unknowns), and little more. */
-static const HardShape shapes[OST_HARD_SHAPES] = {
+static const HardShape shapes[HARD_SHAPES] = {
     {"tube", {0.0}, {{18, 20, 3}, {8, 12, 1}}, ends, NULL, 1.0, {0.0, 0.0, 0.0}, 1},
     {"beam", {100.0, 1.0, 1.0}, {{100, 3, 3}, {70, 1, 1}}, xmin, xmax, 1.0, {50.0, -20.0, 0.5}, 2},
     {"plate", {1000.0, 1000.0, 1.0}, {{22, 22, 2}, {11, 11, 1}}, xmin, xmax, 1.0, {-300.0, 500.0, 0.0}, 2},
@@ -30,25 +30,25 @@ static const HardShape shapes[OST_HARD_SHAPES] = {
     {"checker", {1.0, 1.0, 1.0}, {{12, 10, 10}, {6, 6, 4}}, xmin, xmax, 1e-9, {-0.3, 0.5, 0.0}, 2},
 };
 
-const char *ost_hard_shape_name(int shape)
+const char *hard_shape_name(int shape)
 {
     return shapes[shape].name;
 }
 
-int ost_hard_find_shape(const char *name)
+int hard_find_shape(const char *name)
 {
-    for (int s = 0; s < OST_HARD_SHAPES; s++)
+    for (int s = 0; s < HARD_SHAPES; s++)
         if (strcmp(shapes[s].name, name) == 0)
             return s;
     return -1;
 }
 
-double ost_hard_contrast(int shape)
+double hard_contrast(int shape)
 {
     return shapes[shape].contrast;
 }
 
-void ost_hard_cylinder(int shape, double origin[3], double axis[3])
+void hard_cylinder(int shape, double origin[3], double axis[3])
 {
     memcpy(origin, shapes[shape].cylinder, 3 * sizeof *origin);
     memset(axis, 0, 3 * sizeof *axis);
@@ -56,7 +56,7 @@ void ost_hard_cylinder(int shape, double origin[3], double axis[3])
 }
 
 /* The tube of Li and Barbič's Fig. 6, coarser, pulled as theirs. */
-static void place_tube(const OstLocal *n, OstHardCase *hard)
+static void place_tube(const OstLocal *n, HardCase *hard)
 {
     hard->c.mesh_kind = OST_MESH_TUBE;
     hard->c.tube =
@@ -66,7 +66,7 @@ static void place_tube(const OstLocal *n, OstHardCase *hard)
     hard->load.vector[0] = 1.0;
 }
 
-static void place_block(const HardShape *shape, const OstLocal *n, OstHardCase *hard)
+static void place_block(const HardShape *shape, const OstLocal *n, HardCase *hard)
 {
     hard->c.mesh_kind = OST_MESH_BLOCK;
     for (int d = 0; d < 3; d++) {
@@ -78,7 +78,7 @@ static void place_block(const HardShape *shape, const OstLocal *n, OstHardCase *
     hard->load.on = (OstSelection){.kind = OST_SELECT_BOUNDARY, .boundaries = {1, &hard->pulled}, .tolerance = -1.0};
 }
 
-void ost_hard_place(const OstHardPoint *point, OstHardCase *hard)
+void hard_place(const HardPoint *point, HardCase *hard)
 {
     const HardShape *shape = &shapes[point->shape];
     const OstLocal *n = shape->divisions[point->order - 1];
@@ -91,23 +91,23 @@ void ost_hard_place(const OstHardPoint *point, OstHardCase *hard)
     hard->constraint.kind = OST_CONSTRAIN_DISPLACEMENT;
     hard->constraint.on =
         (OstSelection){.kind = OST_SELECT_BOUNDARY, .boundaries = {1, &hard->held}, .tolerance = -1.0};
-    if (point->flaw == OST_HARD_LOOSE)
+    if (point->flaw == HARD_LOOSE)
         hard->constraint.on.kind = OST_SELECT_NEAREST;
-    if (point->flaw == OST_HARD_NOT_A_NUMBER)
+    if (point->flaw == HARD_NOT_A_NUMBER)
         hard->load.vector[1] = NAN;
     for (int d = 0; d < 3; d++)
         hard->constraint.held[d] = 1;
 }
 
-OstStatus ost_hard_make_case(OstContext *ctx, const OstHardPoint *point, OstHardCase *hard)
+OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard)
 {
     static char path[] = "hard grid";
-    *hard = (OstHardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
+    *hard = (HardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
     hard->c.solver = ost_solver_default_options();
     hard->c.solver.accept_attainable = 1;
     hard->c.constraint_count = hard->c.load_count = 1;
     hard->c.constraints = &hard->constraint;
     hard->c.loads = &hard->load;
-    ost_hard_place(point, hard);
-    return ost_hard_materials(ctx, point, hard);
+    hard_place(point, hard);
+    return hard_materials(ctx, point, hard);
 }

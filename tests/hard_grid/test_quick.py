@@ -6,13 +6,14 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from program import check, new_folder, run  # noqa: E402
 
+GRID = os.path.join(os.environ["ORTHOSTAT_TEST_BIN"], "hard_grid")
 SHAPES = {"tube", "beam", "plate", "slivers", "layers", "soft", "stiff", "checker"}
 SOLVED = {"solved", "solved to rounding"}
 
 
 def grid(folder, ranks, *shapes):
     path = os.path.join(folder, f"hard-{ranks}.json")
-    finished = run("verify", "--hard", "--quick", "--json", path, *shapes, ranks=ranks, timeout=580)
+    finished = run("--quick", "--json", path, *shapes, ranks=ranks, timeout=580, program=GRID)
     with open(path) as stream:
         document = json.load(stream)
     check(document["ranks"] == ranks, f"{document['ranks']} ranks ran, not {ranks}")
@@ -57,9 +58,14 @@ def main():
     for name in two:
         check_ranks(name, one[name], two[name])
 
-    check(run("verify", "--hard", "cube").exit_code == 2, "a shape that is not there")
-    check(run("verify", "--hard", "--json", os.path.join(folder, "no", "such.json"), "tube").exit_code == 2,
+    unknown = run("cube", program=GRID)
+    check(unknown.exit_code == 2 and "slivers" in unknown.errors, "a shape that does not exist")
+    check(run("--json", os.path.join(folder, "no", "such.json"), "tube", program=GRID).exit_code == 2,
           "a report that cannot be written is found before the grid runs")
+    check(run("--json", "-", "--json", "-", "tube", program=GRID).exit_code == 2, "two reports to standard output")
+
+    moved = run("verify", "--hard")
+    check(moved.exit_code == 2 and "scripts/hard-grid" in moved.errors, "verify --hard says where the grid has gone")
 
 
 main()

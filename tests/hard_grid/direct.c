@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "study/hard_direct.h"
+#include "hard_grid/direct.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -12,15 +12,15 @@
 enum { STEPS = 200 };
 
 /* a + b, and a - b c; every error of rounding is caught (Dekker, Knuth) but the last ones, of 1e-32. */
-static OstTwofold plus(OstTwofold a, double b)
+static Twofold plus(Twofold a, double b)
 {
     const double sum = a.high + b, part = sum - a.high;
     const double low = (a.high - (sum - part)) + (b - part) + a.low;
     const double high = sum + low;
-    return (OstTwofold){high, low - (high - sum)};
+    return (Twofold){high, low - (high - sum)};
 }
 
-static OstTwofold minus_product(OstTwofold a, double b, OstTwofold c)
+static Twofold minus_product(Twofold a, double b, Twofold c)
 {
     const double product = -b * c.high;
     a = plus(a, product);
@@ -28,7 +28,7 @@ static OstTwofold minus_product(OstTwofold a, double b, OstTwofold c)
     return a;
 }
 
-void ost_hard_direct_clear(OstHardDirect *direct)
+void hard_direct_clear(HardDirect *direct)
 {
     ost_mumps_destroy(&direct->factors);
     ost_scaling_destroy(&direct->scaling);
@@ -43,7 +43,7 @@ void ost_hard_direct_clear(OstHardDirect *direct)
     OST_FREE(direct->q);
 }
 
-static OstStatus assemble(const OstScene *scene, OstHardDirect *direct)
+static OstStatus assemble(const OstScene *scene, HardDirect *direct)
 {
     OstContext *ctx = scene->ctx;
     OST_TRY(ost_scene_supports(scene, &direct->supports));
@@ -71,7 +71,7 @@ static OstStatus assemble(const OstScene *scene, OstHardDirect *direct)
 }
 
 /* Conjugate gradients make up for a shift, or find that K itself is not definite. */
-static OstStatus factor(OstHardDirect *direct)
+static OstStatus factor(HardDirect *direct)
 {
     double shift;
     const OstBlockMatrix *matrix = direct->system->matrix;
@@ -79,14 +79,14 @@ static OstStatus factor(OstHardDirect *direct)
     return ost_mumps_create_of_rows(matrix, direct->scaling, 0.0, &shift, &direct->factors);
 }
 
-OstStatus ost_hard_direct_create(const OstScene *scene, OstHardDirect *direct)
+OstStatus hard_direct_create(const OstScene *scene, HardDirect *direct)
 {
-    *direct = (OstHardDirect){.ctx = scene->ctx};
+    *direct = (HardDirect){.ctx = scene->ctx};
     OST_TRY(assemble(scene, direct));
     return factor(direct);
 }
 
-static OstStatus sum_products(const OstHardDirect *direct, const double *a, const double *b, double *sum)
+static OstStatus sum_products(const HardDirect *direct, const double *a, const double *b, double *sum)
 {
     *sum = 0.0;
     for (size_t i = 0; i < direct->n; i++)
@@ -94,7 +94,7 @@ static OstStatus sum_products(const OstHardDirect *direct, const double *a, cons
     return OST_MPI(direct->ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(direct->ctx)));
 }
 
-OstStatus ost_hard_direct_norm(const OstHardDirect *direct, const double *v, double *norm)
+OstStatus hard_direct_norm(const HardDirect *direct, const double *v, double *norm)
 {
     double square;
     OST_TRY(sum_products(direct, v, v, &square));
@@ -102,7 +102,7 @@ OstStatus ost_hard_direct_norm(const OstHardDirect *direct, const double *v, dou
     return OST_SUCCESS;
 }
 
-OstStatus ost_hard_direct_size(OstHardDirect *direct, double *norm)
+OstStatus hard_direct_size(HardDirect *direct, double *norm)
 {
     double square = 0.0;
     for (size_t i = 0; i < direct->n; i++)
@@ -112,7 +112,7 @@ OstStatus ost_hard_direct_size(OstHardDirect *direct, double *norm)
     return OST_SUCCESS;
 }
 
-OstStatus ost_hard_direct_apply(OstHardDirect *direct)
+OstStatus hard_direct_apply(HardDirect *direct)
 {
     ost_scaling_to_scaled(direct->scaling, direct->r, direct->d);
     OST_TRY(ost_mumps_solve(direct->factors, direct->d, direct->d));
@@ -121,13 +121,13 @@ OstStatus ost_hard_direct_apply(OstHardDirect *direct)
 }
 
 /* base - K v, a base of NULL being 0, summed in twofold precision. */
-static OstStatus subtract_product(const OstHardDirect *direct, const double *base, OstTwofold *v, double *difference)
+static OstStatus subtract_product(const HardDirect *direct, const double *base, Twofold *v, double *difference)
 {
     const OstBlockMatrix *k = direct->system->matrix;
     OST_TRY(ost_halo_import(k->halo, 3 * sizeof *v, v));
     for (OstLocal i = 0; i < k->rows; i++)
         for (int c = 0; c < 3; c++) {
-            OstTwofold sum = {base ? base[3 * (size_t)i + (size_t)c] : 0.0, 0.0};
+            Twofold sum = {base ? base[3 * (size_t)i + (size_t)c] : 0.0, 0.0};
             for (OstLocal b = k->row_start[i]; b < k->row_start[i + 1]; b++) {
                 const double *value = k->value + 9 * (size_t)b + 3 * (size_t)c;
                 for (int e = 0; e < 3; e++)
@@ -139,13 +139,13 @@ static OstStatus subtract_product(const OstHardDirect *direct, const double *bas
 }
 
 /* p = d, made conjugate to the last p where there is one; q = K p. `energy` is p·q, of the last and of the next. */
-static OstStatus turn(OstHardDirect *direct, int first, double *energy)
+static OstStatus turn(HardDirect *direct, int first, double *energy)
 {
     double overlap = 0.0;
     if (!first)
         OST_TRY(sum_products(direct, direct->d, direct->q, &overlap));
     for (size_t i = 0; i < direct->n; i++) {
-        direct->p[i] = (OstTwofold){direct->d[i] - (first ? 0.0 : overlap / *energy * direct->p[i].high), 0.0};
+        direct->p[i] = (Twofold){direct->d[i] - (first ? 0.0 : overlap / *energy * direct->p[i].high), 0.0};
         direct->d[i] = direct->p[i].high;
     }
     OST_TRY(subtract_product(direct, NULL, direct->p, direct->q));
@@ -154,17 +154,17 @@ static OstStatus turn(OstHardDirect *direct, int first, double *energy)
     return sum_products(direct, direct->d, direct->q, energy);
 }
 
-OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double enough, double *first, int *known)
+OstStatus hard_direct_solve(HardDirect *direct, const double *f, double enough, double *first, int *known)
 {
     double energy = 0.0, gain, correction, size;
     *known = 0;
     memset(direct->u, 0, direct->n * sizeof *direct->u);
     for (int k = 0; k < STEPS && !*known; k++) {
         OST_TRY(subtract_product(direct, f, direct->u, direct->r));
-        OST_TRY(ost_hard_direct_apply(direct));
+        OST_TRY(hard_direct_apply(direct));
         if (k == 0 && first)
             memcpy(first, direct->d, direct->n * sizeof(double));
-        OST_TRY(ost_hard_direct_norm(direct, direct->d, &correction));
+        OST_TRY(hard_direct_norm(direct, direct->d, &correction));
         OST_TRY(turn(direct, k == 0, &energy));
         direct->indefinite |= energy <= 0.0 && correction > 0.0;
         if (!(energy > 0.0 && isfinite(energy)))
@@ -172,7 +172,7 @@ OstStatus ost_hard_direct_solve(OstHardDirect *direct, const double *f, double e
         OST_TRY(sum_products(direct, direct->d, direct->r, &gain));
         for (size_t i = 0; i < direct->n; i++)
             direct->u[i] = plus(direct->u[i], gain / energy * direct->d[i]);
-        OST_TRY(ost_hard_direct_size(direct, &size));
+        OST_TRY(hard_direct_size(direct, &size));
         *known = correction <= enough * size;
     }
     return OST_SUCCESS;

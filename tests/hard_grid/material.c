@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "study/hard.h"
+#include "hard_grid/grid.h"
 
 #include <math.h>
 
@@ -21,33 +21,33 @@ static OstStatus border_constants(OstContext *ctx, const double youngs[3], doubl
     return OST_SUCCESS;
 }
 
-static OstStatus constants_of(OstContext *ctx, const OstHardPoint *point, double modulus, OstOrthotropic *constants)
+static OstStatus constants_of(OstContext *ctx, const HardPoint *point, double modulus, OstOrthotropic *constants)
 {
     double youngs[3] = {modulus, modulus, modulus};
-    youngs[point->stiff] *= ost_hard_ratio[point->ratio];
-    if (point->flaw == OST_HARD_BEYOND_BORDER)
+    youngs[point->stiff] *= hard_ratio[point->ratio];
+    if (point->flaw == HARD_BEYOND_BORDER)
         return border_constants(ctx, youngs, 1.001, constants);
-    if (point->poisson >= OST_HARD_FAMILY)
-        return border_constants(ctx, youngs, ost_hard_border[point->poisson - OST_HARD_FAMILY], constants);
-    const double nu = point->flaw == OST_HARD_NU_HALF ? 0.5 : ost_hard_nu[point->poisson];
+    if (point->poisson >= HARD_FAMILY)
+        return border_constants(ctx, youngs, hard_border[point->poisson - HARD_FAMILY], constants);
+    const double nu = point->flaw == HARD_NU_HALF ? 0.5 : hard_nu[point->poisson];
     *constants = ost_orthotropic_family(youngs, nu, OST_SHEAR_GEOMETRIC);
     return OST_SUCCESS;
 }
 
-static void set_axes(const OstHardPoint *point, OstAxesSpec *axes)
+static void set_axes(const HardPoint *point, OstAxesSpec *axes)
 {
     static const OstCylindricalDirection order[3] = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL};
-    static const OstAxesKind kind[OST_HARD_AXES] = {OST_AXES_NONE, OST_AXES_CYLINDRICAL, OST_AXES_CELLS};
+    static const OstAxesKind kind[HARD_AXES] = {OST_AXES_NONE, OST_AXES_CYLINDRICAL, OST_AXES_CELLS};
     axes->kind = kind[point->axes];
     for (int i = 0; i < 3; i++)
         axes->order[i] = order[i];
-    ost_hard_cylinder(point->shape, axes->origin, axes->axis);
+    hard_cylinder(point->shape, axes->origin, axes->axis);
 }
 
-OstStatus ost_hard_materials(OstContext *ctx, const OstHardPoint *point, OstHardCase *hard)
+OstStatus hard_materials(OstContext *ctx, const HardPoint *point, HardCase *hard)
 {
     static char all[] = "all", inclusion[] = "inclusion";
-    const double contrast = ost_hard_contrast(point->shape);
+    const double contrast = hard_contrast(point->shape);
     hard->c.materials = hard->material;
     hard->c.material_count = contrast == 1.0 ? 1 : 2;
     for (int m = 0; m < hard->c.material_count; m++) {

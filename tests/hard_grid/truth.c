@@ -2,8 +2,8 @@
 #include "algebra/matrix/rounded_stiffness.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "study/hard.h"
-#include "study/hard_direct.h"
+#include "hard_grid/direct.h"
+#include "hard_grid/grid.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,7 +25,7 @@ static const double five_digits = 1e-5;
 /* --- the solution --- */
 
 /* How well u*, rounded to double precision, solves the equations in double precision. */
-static OstStatus find_floor(OstHardDirect *direct, double f_norm, OstHardTruth *truth)
+static OstStatus find_floor(HardDirect *direct, double f_norm, HardTruth *truth)
 {
     double norm;
     for (size_t i = 0; i < direct->n; i++)
@@ -33,40 +33,40 @@ static OstStatus find_floor(OstHardDirect *direct, double f_norm, OstHardTruth *
     OST_TRY(ost_block_matrix_apply(direct->system->matrix, direct->d, direct->r));
     for (size_t i = 0; i < direct->n; i++)
         direct->r[i] = direct->f[i] - direct->r[i];
-    OST_TRY(ost_hard_direct_norm(direct, direct->r, &norm));
+    OST_TRY(hard_direct_norm(direct, direct->r, &norm));
     truth->floor = norm / f_norm;
     return OST_SUCCESS;
 }
 
 /* ||K^-1|| by inverse iteration from a vector that has something of every mode, the same on any ranks. */
-static OstStatus find_amplification(OstHardDirect *direct, double f_norm, OstHardTruth *truth)
+static OstStatus find_amplification(HardDirect *direct, double f_norm, HardTruth *truth)
 {
     const OstGlobal *label = direct->system->matrix->label;
     double norm, inverse = 0.0;
     for (size_t i = 0; i < direct->n; i++)
         direct->d[i] = 1.0 + sin(3.7 * (double)(3 * label[i / 3]) + (double)(i % 3));
     for (int k = 0; k < INVERSE_STEPS; k++) {
-        OST_TRY(ost_hard_direct_norm(direct, direct->d, &norm));
+        OST_TRY(hard_direct_norm(direct, direct->d, &norm));
         for (size_t i = 0; i < direct->n; i++)
             direct->r[i] = direct->d[i] / norm;
-        OST_TRY(ost_hard_direct_apply(direct));
-        OST_TRY(ost_hard_direct_norm(direct, direct->d, &inverse));
+        OST_TRY(hard_direct_apply(direct));
+        OST_TRY(hard_direct_norm(direct, direct->d, &inverse));
     }
     truth->amplification = inverse * f_norm / truth->size;
     return OST_SUCCESS;
 }
 
 /* ||v - u*|| / ||u*||, v being in `r`. */
-static OstStatus distance(OstHardDirect *direct, double size, double *error)
+static OstStatus distance(HardDirect *direct, double size, double *error)
 {
     for (size_t i = 0; i < direct->n; i++)
         direct->r[i] = (direct->r[i] - direct->u[i].high) - direct->u[i].low;
-    OST_TRY(ost_hard_direct_norm(direct, direct->r, error));
+    OST_TRY(hard_direct_norm(direct, direct->r, error));
     *error /= size;
     return OST_SUCCESS;
 }
 
-static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, const double *plain, OstHardTruth *truth)
+static OstStatus find_errors(HardDirect *direct, const OstResult *result, const double *plain, HardTruth *truth)
 {
     memcpy(direct->r, plain, direct->n * sizeof(double));
     OST_TRY(distance(direct, truth->size, &truth->plain));
@@ -81,22 +81,22 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
 
 /* Throws as the program's own, tested against other roundings (tests/algebra/mpi_test_energy_error.c), of other signs
  * and with a factorisation led to 32 digits. u is u* with its ghosts; that of `direct` becomes the last throw's. */
-static OstStatus try_roundings(OstHardDirect *direct, const double *u, double *force, OstHardTruth *truth)
+static OstStatus try_roundings(HardDirect *direct, const double *u, double *force, HardTruth *truth)
 {
     OstThrows throws = {0, 0.0};
     int known = 1;
-    while (known && ost_throws_undecided(&throws, ost_hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
+    while (known && ost_throws_undecided(&throws, hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
         double moved;
         ost_rounded_stiffness_force(direct->system->matrix, u, FIRST_ROUNDING + throws.count, force);
-        OST_TRY(ost_hard_direct_solve(direct, force, roughly, NULL, &known));
-        OST_TRY(ost_hard_direct_size(direct, &moved));
+        OST_TRY(hard_direct_solve(direct, force, roughly, NULL, &known));
+        OST_TRY(hard_direct_size(direct, &moved));
         ost_throws_add(&throws, moved / truth->size);
     }
     truth->rounded = known ? ost_throws_size(&throws) : NAN;
     return OST_SUCCESS;
 }
 
-static OstStatus find_rounded(OstHardDirect *direct, OstHardTruth *truth)
+static OstStatus find_rounded(HardDirect *direct, HardTruth *truth)
 {
     const OstBlockMatrix *matrix = direct->system->matrix;
     double *u = NULL, *force = NULL;
@@ -114,27 +114,27 @@ done:
     return status;
 }
 
-static OstStatus find_all(OstHardDirect *direct, const OstResult *result, double *plain, OstHardTruth *truth)
+static OstStatus find_all(HardDirect *direct, const OstResult *result, double *plain, HardTruth *truth)
 {
     double f_norm;
-    OST_TRY(ost_hard_direct_norm(direct, direct->f, &f_norm));
-    OST_TRY(ost_hard_direct_solve(direct, direct->f, settled, plain, &truth->known));
+    OST_TRY(hard_direct_norm(direct, direct->f, &f_norm));
+    OST_TRY(hard_direct_solve(direct, direct->f, settled, plain, &truth->known));
     if (!truth->known)
         return OST_SUCCESS;
-    OST_TRY(ost_hard_direct_size(direct, &truth->size));
+    OST_TRY(hard_direct_size(direct, &truth->size));
     OST_TRY(find_errors(direct, result, plain, truth));
     OST_TRY(find_floor(direct, f_norm, truth));
     OST_TRY(find_amplification(direct, f_norm, truth));
     return truth->plain > five_digits ? find_rounded(direct, truth) : OST_SUCCESS;
 }
 
-OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, OstHardTruth *truth)
+OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth)
 {
-    OstHardDirect direct;
+    HardDirect direct;
     double *plain = NULL;
-    *truth = (OstHardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
+    *truth = (HardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
     OstStatus status;
-    status = ost_hard_direct_create(scene, &direct);
+    status = hard_direct_create(scene, &direct);
     truth->indefinite = status == OST_NOT_CONVERGED; /* even with a little on its diagonal */
     OST_TRY_DONE(status);
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
@@ -142,6 +142,6 @@ OstStatus ost_hard_find_truth(const OstScene *scene, const OstResult *result, Os
     truth->indefinite = direct.indefinite;
 done:
     OST_FREE(plain);
-    ost_hard_direct_clear(&direct);
+    hard_direct_clear(&direct);
     return status;
 }
