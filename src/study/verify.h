@@ -4,7 +4,7 @@
 
 #include "orthostat/scene.h"
 #include "orthostat/verify.h"
-#include "study/formula.h"
+#include "study/formula/formula.h"
 
 /* Runs a case up the ladder of its verify section and holds what is measured against its formula. */
 

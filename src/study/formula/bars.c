@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "study/formula.h"
+#include "study/formula/formula.h"
 
 #include "core/error.h"
 

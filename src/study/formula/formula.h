@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_STUDY_FORMULA_H
-#define ORTHOSTAT_STUDY_FORMULA_H
+#ifndef ORTHOSTAT_STUDY_FORMULA_FORMULA_H
+#define ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 
 #include "orthostat/exact.h"
 #include "orthostat/verify.h"
