@@ -2,12 +2,10 @@
 #include "output/summary.h"
 
 #include "core/error.h"
+#include "core/json_file.h"
 
-#include <errno.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* JSON has no word for what is no number. */
 static json_t *number_json(double number)
@@ -146,21 +144,6 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                      ledger_json(summary), "output", file);
 }
 
-static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
-{
-    char partial[4096];
-    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
-    if (length < 0 || (size_t)length >= sizeof partial)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
-    if (json_dump_file(document, partial, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
-        rename(partial, path) != 0) {
-        const char *reason = strerror(errno);
-        remove(partial);
-        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
-    }
-    return OST_SUCCESS;
-}
-
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
                                  const OstWatchedValue *watched, const char *file, const char *path)
 {
@@ -170,11 +153,5 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
     json_t *document = run_json(scene, result, summary, watched, file);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds a number that JSON cannot: not finite");
-    OstStatus status = OST_SUCCESS;
-    if (strcmp(path, "-") != 0)
-        status = write_file(ctx, document, path);
-    else if (json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 || puts("") < 0)
-        status = OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
-    json_decref(document);
-    return status;
+    return ost_json_write(ctx, document, path);
 }

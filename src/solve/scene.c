@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/scene.h"
 
+#include "case/regions.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -25,23 +26,13 @@ static int any_wants(const OstMesh *mesh, const OstSceneMaterials *materials, Os
     return 0;
 }
 
-/* Where the case gives this region its axes: the last entry that concerns it counts. */
-static OstPlace place_of_axes(const OstCase *c, const char *region)
-{
-    OstPlace place = {0};
-    for (int i = 0; i < c->material_count; i++)
-        if (strcmp(c->materials[i].region, "all") == 0 || strcmp(c->materials[i].region, region) == 0)
-            place = c->materials[i].axes_place;
-    return place;
-}
-
 static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
 {
     const char *brings = c->mesh_kind == OST_MESH_FILE
                              ? "the mesh file has no cell field 'axes' of nine components"
                              : "the program's own shapes bring none, as a mesh file with a cell field 'axes' does";
     return ost_case_located(
-        c, place_of_axes(c, region),
+        c, ost_case_material_of(c, region)->axes_place,
         OST_RAISE(c->ctx, OST_INVALID_INPUT,
                   "region '%.80s' takes its axes from the mesh, but %s; give a table instead (axes: "
                   "{cells: file.txt}), or a formula",

@@ -97,7 +97,7 @@ static OstStatus run(OstContext *ctx, const Arguments *arguments, int *passed)
     const OstCase nothing = {.ctx = ctx, .path = name};
     HardReport *report = NULL;
     *passed = 0;
-    OST_TRY(ost_check_reports(&nothing, arguments->report_count, arguments->report));
+    OST_TRY(ost_check_outputs(&nothing, arguments->report_count, arguments->report));
     OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, &report));
     *passed = hard_passed(report);
     const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
