@@ -16,7 +16,7 @@ static json_t *index_json(int index)
     return index >= 0 ? json_integer(index) : json_null();
 }
 
-/* A formula has no order and no refinement; only a formula has a source. */
+/* A formula's value has a source, but no order and no refinement. */
 static json_t *reference_json(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
@@ -28,18 +28,17 @@ static json_t *reference_json(const OstCostQuantity *quantity)
                      is_formula ? quantity->watch->source : NULL);
 }
 
-/* Runs are named by their number in the list. */
-static json_t *prices_json(const OstCost *cost, int quantity)
+/* Runs are given by their index. */
+static json_t *cheapest_json(const OstCost *cost, int quantity)
 {
-    json_t *prices = json_array();
+    json_t *list = json_array();
     for (int t = 0; t < OST_COST_TARGETS; t++) {
         const double target = ost_cost_target(t);
-        json_array_append_new(prices,
-                              json_pack("{s:f, s:o, s:o}", "error", target, "run",
-                                        index_json(ost_cost_cheapest(cost, quantity, target)), "run_one_digit_more",
-                                        index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
+        json_array_append_new(list, json_pack("{s:f, s:o, s:o}", "error", target, "run",
+                                              index_json(ost_cost_cheapest(cost, quantity, target)), "run_for_a_tenth",
+                                              index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
     }
-    return prices;
+    return list;
 }
 
 static json_t *frontier_json(const OstCost *cost, int quantity)
@@ -58,7 +57,7 @@ static json_t *quantities_json(const OstCost *cost)
     for (int q = 0; q < cost->quantity_count; q++)
         json_array_append_new(quantities, json_pack("{s:s, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
                                                     reference_json(&cost->quantity[q]), "cheapest",
-                                                    prices_json(cost, q), "frontier", frontier_json(cost, q)));
+                                                    cheapest_json(cost, q), "frontier", frontier_json(cost, q)));
     return quantities;
 }
 
@@ -76,7 +75,7 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 {
     json_t *item = json_pack("{s:i, s:i, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
                              "tolerance", run->tolerance, "state", ost_cost_state_word(run->state), "reason",
-                             run->reason, "foreseen_seconds", run->foreseen_seconds);
+                             run->reason, "predicted_seconds", run->predicted_seconds);
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
@@ -97,7 +96,7 @@ static json_t *study_json(const OstCost *cost)
     for (int i = 0; i < cost->run_count; i++)
         json_array_append_new(runs, run_json(cost, &cost->run[i]));
     return json_pack("{s:s, s:s, s:i, s:f, s:f, s:o, s:o}", "case", cost->c->path, "title", cost->c->title, "ranks",
-                     ost_size(cost->ctx), "max_seconds", cost->ladder.max_seconds, "seconds", cost->seconds,
+                     ost_size(cost->ctx), "max_seconds", cost->variants.max_seconds, "seconds", cost->seconds,
                      "quantities", quantities_json(cost), "runs", runs);
 }
 
@@ -108,6 +107,7 @@ OstStatus ost_cost_write_json(const OstCost *cost, const char *path)
     json_t *document = study_json(cost);
     if (!document)
         return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
-                         "%s: the prices cannot be written as JSON (are its title and names UTF-8?)", cost->c->path);
+                         "%s: the cost study cannot be written as JSON (are its title and names UTF-8?)",
+                         cost->c->path);
     return ost_json_write(cost->ctx, document, path);
 }

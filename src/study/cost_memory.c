@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* A container may be given less than its machine has. */
+/* A container's limit, which may be less than the machine has; 1e300 if there is none. */
 static double container_limit(void)
 {
     static const char *const files[] = {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"};

@@ -106,7 +106,7 @@ const OstFormula ost_formula_waves = {
     .gradient = waves_gradient,
 };
 
-/* --- polynomials, which elements of that order hold exactly: patch tests (Irons and Razzaque 1972) --- */
+/* --- polynomials, which elements of that order represent exactly: patch tests (Irons and Razzaque 1972) --- */
 
 enum { QUADRATIC };
 static const double first[3][3] = {{0.010, -0.004, 0.007}, {0.006, -0.008, 0.003}, {-0.005, 0.009, 0.004}};

@@ -58,7 +58,7 @@ int ost_formula_is_aligned(const OstCase *c)
     return c->materials[0].axes.kind == OST_AXES_NONE;
 }
 
-/* --- the field --- */
+/* --- the closed-form field --- */
 
 static OstStatus exact_displacement(const void *data, const double point[3], double u[3])
 {
@@ -143,7 +143,7 @@ static OstStatus exact_body_force(const void *data, const double point[3], doubl
     return OST_SUCCESS;
 }
 
-/* --- the case's --- */
+/* --- that of a case --- */
 
 static OstStatus take_parameters(const OstCase *c, const OstFormula *formula, double *parameter)
 {
@@ -174,7 +174,7 @@ static OstStatus find_formula(const OstCase *c, const OstFormula **formula)
     char names[512];
     if (!c->verify)
         return OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                         "%s: the case has no verify section, so there is no formula to hold it against", c->path);
+                         "%s: the case has no verify section, so there is no formula to compare it with", c->path);
     *formula = ost_formula_find(c->verify->formula);
     if (*formula)
         return OST_SUCCESS;

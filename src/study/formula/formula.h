@@ -5,16 +5,16 @@
 #include "orthostat/exact.h"
 #include "orthostat/verify.h"
 
-/* Closed forms against which answers are measured. A formula reads the case's shape and material, so that nothing is
- * said twice, and gives a displacement field and numbers ("values") by name. */
+/* Closed-form solutions with which answers are compared. A formula takes shape and material from the case, and gives a
+ * displacement field and named numbers ("values"). */
 
 enum { OST_FORMULA_CONSTANTS = 40, OST_MOST_FORMULA_VALUES = 5 };
 
-/* A formula made ready for a case. */
+/* A formula's numbers for one case. */
 typedef struct OstFormulaData {
     double constant[OST_FORMULA_CONSTANTS]; /* the formula's own */
     double value[OST_MOST_FORMULA_VALUES];  /* as the formula's value_name */
-    double length; /* over which the field varies: derivatives by differences take steps of 1/100 of it */
+    double length; /* over which the field varies; finite differences take steps of 1/100 of it */
 } OstFormulaData;
 
 typedef struct OstFormula {
@@ -22,12 +22,12 @@ typedef struct OstFormula {
     const char *parameter_name[OST_MOST_FORMULA_PARAMETERS]; /* the rest NULL */
     const char *value_name[OST_MOST_FORMULA_VALUES];         /* the rest NULL */
 
-    /* Local. Fills `data`; `parameter` as parameter_name. Raises OST_INVALID_INPUT if the case is not one the formula
-     * is for. */
+    /* Local. Fills `data`; `parameter` is in the order of parameter_name. Raises OST_INVALID_INPUT if the formula does
+     * not hold for the case. */
     OstStatus (*prepare)(const OstCase *c, const double *parameter, OstFormulaData *data);
 
     void (*displacement)(const double *constant, const double x[3], double u[3]);
-    void (*gradient)(const double *constant, const double x[3], double gradient[9]); /* NULL: by differences of u */
+    void (*gradient)(const double *constant, const double x[3], double gradient[9]); /* NULL: by finite differences */
 } OstFormula;
 
 extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_uniform_load, ost_formula_torsion,
@@ -41,8 +41,8 @@ void ost_formula_list(char *text, size_t size);
 /* Local. Number of a value by name, or -1. */
 int ost_formula_find_value(const OstFormula *formula, const char *name);
 
-/* A case's formula as a field in the case's material: strains from the displacement, stress by the material in its axes
- * at the place, force per volume as minus the divergence of that stress, by differences of eighth order. */
+/* The closed-form solution of a case: strain from the formula's displacement, stress by the material in its axes at the
+ * point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
 typedef struct OstExact {
     OstExactField field; /* field.data is this object */
     OstContext *ctx;
@@ -52,15 +52,15 @@ typedef struct OstExact {
     OstAxesSpec axes; /* borrowed from the case */
 } OstExact;
 
-/* Local. Makes the field of the case's verify section; the case and the object outlive its use, and the object must not
- * move. Raises OST_INVALID_INPUT with the case's line for an unknown formula, parameters that do not fit it, more than
- * one material, or a shape that the formula is not for. */
+/* Local. Makes the closed-form solution of the case's verify section. It refers to the case and to itself: the case
+ * must outlive it, and it must not move. Raises OST_INVALID_INPUT with the case's line for an unknown formula,
+ * parameters that do not fit it, more than one material, or a shape that it does not hold for. */
 OstStatus ost_exact_create(const OstCase *c, OstExact *exact);
 
-/* Local. For formulas: refuse a case they are not for. */
+/* Local. For formulas: raises OST_INVALID_INPUT unless the condition `holds`; `wanted` names it. */
 OstStatus ost_formula_wants(const OstCase *c, int holds, const char *wanted);
 
-/* Local. Are the case's (first) material's axes the world's, or does it have none? */
+/* Local. Are the axes of the case's (first) material the world's? */
 int ost_formula_is_aligned(const OstCase *c);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/script.h"
+#include "cli/installed.h"
 
 #include "core/error.h"
 

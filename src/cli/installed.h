@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_CLI_SCRIPT_H
-#define ORTHOSTAT_CLI_SCRIPT_H
+#ifndef ORTHOSTAT_CLI_INSTALLED_H
+#define ORTHOSTAT_CLI_INSTALLED_H
 
 #include "orthostat/context.h"
 
-/* What belongs to the program and lies beside it: in ../share/orthostat where it is installed, in the source where it
- * was built. */
+/* Scripts and cases that come with the program: in ../share/orthostat beside an installed one, else in the source from
+ * which it was built. */
 
-/* Local. Runs a script of that name with two arguments and waits for it. Raises OST_FILE_FAILED if it is not there or
- * fails; it says why itself. */
+/* Local. Runs a script with two arguments and waits for it. Raises OST_FILE_FAILED if it does not exist or fails; the
+ * script itself prints why. */
 OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *first, const char *second);
 
 /* Local. The folder of the program's cases: ORTHOSTAT_CASES of the environment, else the installed one, else ./cases,
