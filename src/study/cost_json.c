@@ -3,14 +3,6 @@
 #include "core/json_file.h"
 #include "study/cost.h"
 
-#include <math.h>
-
-/* null where there is no number. */
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
-
 static json_t *index_json(int index)
 {
     return index >= 0 ? json_integer(index) : json_null();
@@ -22,7 +14,7 @@ static json_t *reference_json(const OstCostQuantity *quantity)
     const OstCostReference *reference = &quantity->reference;
     const int is_formula = reference->kind == OST_REFERENCE_FORMULA;
     return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word(reference->kind),
-                     "value", reference->value, "uncertainty", number_json(reference->uncertainty), "rate",
+                     "value", reference->value, "uncertainty", ost_json_number(reference->uncertainty), "rate",
                      reference->rate, "order", index_json(is_formula ? -1 : reference->order), "finest_refinement",
                      index_json(is_formula ? -1 : reference->finest), "note", reference->note, "source",
                      is_formula ? quantity->watch->source : NULL);
@@ -66,8 +58,9 @@ static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
     json_t *answers = json_object();
     for (int q = 0; q < cost->quantity_count; q++)
         json_object_set_new(answers, cost->quantity[q].name,
-                            json_pack("{s:o, s:o, s:o}", "value", number_json(run->watched[q].value), "error",
-                                      number_json(run->error[q]), "claim", number_json(ost_cost_claim(cost, run, q))));
+                            json_pack("{s:o, s:o, s:o}", "value", ost_json_number(run->watched[q].value), "error",
+                                      ost_json_number(run->error[q]), "claim",
+                                      ost_json_number(ost_cost_claim(cost, run, q))));
     return answers;
 }
 

@@ -8,10 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps at most. */
 enum { STEPS = 200 };
 
-/* a + b, and a - b c; every error of rounding is caught (Dekker, Knuth) but the last ones, of 1e-32. */
+/* a + b, and a - b c, to a relative 1e-32 (Dekker, Knuth). */
 static Twofold plus(Twofold a, double b)
 {
     const double sum = a.high + b, part = sum - a.high;
@@ -70,7 +69,7 @@ static OstStatus assemble(const OstScene *scene, HardDirect *direct)
     return ost_agree(ctx, status);
 }
 
-/* Conjugate gradients make up for a shift, or find that K itself is not definite. */
+/* Conjugate gradients remove the effect of a shift, or find that K is indefinite. */
 static OstStatus factor(HardDirect *direct)
 {
     double shift;
@@ -120,7 +119,7 @@ OstStatus hard_direct_apply(HardDirect *direct)
     return OST_SUCCESS;
 }
 
-/* base - K v, a base of NULL being 0, summed in twofold precision. */
+/* base - K v (NULL: 0), with compensated sums. */
 static OstStatus subtract_product(const HardDirect *direct, const double *base, Twofold *v, double *difference)
 {
     const OstBlockMatrix *k = direct->system->matrix;
@@ -138,8 +137,8 @@ static OstStatus subtract_product(const HardDirect *direct, const double *base, 
     return OST_SUCCESS;
 }
 
-/* p = d, made conjugate to the last p where there is one; q = K p. `energy` is p·q, of the last and of the next. */
-static OstStatus turn(HardDirect *direct, int first, double *energy)
+/* p = d, made conjugate to the last p (if not the first); q = K p. `energy`: the last p·q, and then the new one. */
+static OstStatus next_direction(HardDirect *direct, int first, double *energy)
 {
     double overlap = 0.0;
     if (!first)
@@ -165,7 +164,7 @@ OstStatus hard_direct_solve(HardDirect *direct, const double *f, double enough, 
         if (k == 0 && first)
             memcpy(first, direct->d, direct->n * sizeof(double));
         OST_TRY(hard_direct_norm(direct, direct->d, &correction));
-        OST_TRY(turn(direct, k == 0, &energy));
+        OST_TRY(next_direction(direct, k == 0, &energy));
         direct->indefinite |= energy <= 0.0 && correction > 0.0;
         if (!(energy > 0.0 && isfinite(energy)))
             break;

@@ -7,12 +7,12 @@
 #include "assembly/system.h"
 #include "orthostat/scene.h"
 
-/* An unevaluated sum of two doubles: some 32 digits, of which ill-conditioned equations leave enough. */
+/* An unevaluated sum of two doubles, some 32 digits (double-double). */
 typedef struct Twofold {
     double high, low;
 } Twofold;
 
-/* A scene's equations, assembled afresh, and their factors; vectors of 3 × rows, with ghosts 3 × columns. */
+/* A scene's equations, assembled again, and their factors. Vectors have 3 × rows numbers, with ghosts 3 × columns. */
 typedef struct HardDirect {
     OstContext *ctx;
     size_t n; /* 3 × rows */
@@ -23,20 +23,20 @@ typedef struct HardDirect {
     double *force, *f;
     Twofold *u, *p;    /* with ghosts: solution; direction of search, its lower halves 0 */
     double *r, *q, *d; /* residual; K p; correction, with ghosts */
-    int indefinite;    /* was a p met with p·K p <= 0? Then K, as it is rounded, has no solution of least energy */
+    int indefinite;    /* was p·K p <= 0 for some p? Then the rounded K has no minimum of energy */
 } HardDirect;
 
-/* Collective. Where rounding has made K indefinite, or its factors, those of K and a little on its diagonal serve.
- * Fails where the equations cannot be factored even so; to be cleared also then. */
+/* Collective. If rounding makes the factorisation fail, a little is added to the diagonal that is factored. Fails if
+ * that does not help; must be cleared also then. */
 OstStatus hard_direct_create(const OstScene *scene, HardDirect *direct);
 void hard_direct_clear(HardDirect *direct);
 
-/* Collective. u = K^-1 f by conjugate gradients on the factors, residuals and products summed in twofold precision,
- * from 0 until a correction is no more than `enough` of u: then `known`, or until K is found indefinite. `first` (or
- * NULL) takes what the factors by themselves made of f. */
+/* Collective. u = K^-1 f by conjugate gradients preconditioned by the factors, with compensated residuals and products,
+ * until a correction is at most `enough` of u (then `known`) or K is found to be indefinite. `first`, or NULL: receives
+ * the factors' own solution. */
 OstStatus hard_direct_solve(HardDirect *direct, const double *f, double enough, double *first, int *known);
 
-/* Collective. d = K^-1 r by the factors, which may be of K and a little on its diagonal. */
+/* Collective. d = K^-1 r by the factors. */
 OstStatus hard_direct_apply(HardDirect *direct);
 
 /* Collective. ||v||, and the norm of u. */

@@ -5,7 +5,7 @@
 #include "orthostat/scene.h"
 
 /* The hard grid: small bodies of every kind that solvers are known to fail on, each solved as a user's case would be
- * and held against a direct solution of the same equations, or refused. A point of the grid is one body: */
+ * and compared with a direct solution of the same equations. A point of the grid is one body: */
 
 enum {
     HARD_SHAPES = 8,
@@ -17,12 +17,12 @@ enum {
     HARD_COLUMNS = HARD_AXES * (1 + 2 * 3)
 };
 
-/* What is wrong with a point that has to be refused. */
+/* What is wrong with a point that must be refused. */
 typedef enum {
     HARD_SOUND,
     HARD_BEYOND_BORDER, /* nine constants at 1.001 of the border of stability */
     HARD_NU_HALF,       /* nu = 0.5 */
-    HARD_LOOSE,         /* held at one vertex */
+    HARD_LOOSE,         /* constrained at one vertex */
     HARD_INVERTED,      /* slivers with -1/1000 of their neighbours' volume */
     HARD_NOT_A_NUMBER,  /* for a load */
     HARD_FLAWS
@@ -37,27 +37,27 @@ typedef struct HardPoint {
 
 typedef enum {
     HARD_SOLVED,
-    HARD_SOLVED_TO_ROUNDING, /* to what double precision holds, which is less than 1e-8 */
-    HARD_REFUSED,            /* rightly: it is flawed, or double precision holds not one digit of it */
+    HARD_SOLVED_TO_ROUNDING, /* as far as double precision allows: the residual stays above 1e-8 */
+    HARD_REFUSED,            /* rightly: it is flawed, or rounding the stiffness moves the solution by 10 % or more */
     HARD_GIVEN_UP,           /* refused, and should have been solved */
-    HARD_FALSE,              /* said to be solved, and is not; or solved where it had to be refused */
+    HARD_FALSE,              /* reported as solved with a wrong answer, or solved where it had to be refused */
     HARD_OUTCOMES
 } HardOutcome;
 
-/* The move that rounding the stiffness makes, from which on double precision is said to hold no answer. */
+/* If rounding the stiffness moves the solution by more than this, double precision has no answer. */
 extern const double hard_hopeless;
 
-/* What is known of the equations without the recipe under test. */
+/* What is known of the equations without the solver under test. */
 typedef struct HardTruth {
     int known;            /* is there a direct solution? */
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
     double size;          /* ||u*|| */
-    double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: error allowed by a residual, over that residual */
+    double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
-    double plain;   /* error of a factorisation's solution as it comes, unrefined: about what conditioning costs */
-    double rounded; /* how far u* moves when every entry of K does by 2^-53 of itself, root of the mean square over
-                       signs at random; NAN where the factors leave five digits, and nobody asked */
+    double plain;         /* error of the factorisation's solution before any refinement */
+    double rounded; /* root mean square change of u*, relative, when every entry of K changes by 2^-53 of itself with
+                       random sign; NAN where `plain` is small enough not to ask */
 } HardTruth;
 
 typedef struct HardReading {
@@ -67,13 +67,13 @@ typedef struct HardReading {
     char reason[512]; /* of a refusal, or of the verdict */
     OstGlobal unknowns;
     OstRecipe recipe;
-    int iterations, steps; /* in all, over so many rungs of the ladder */
+    int iterations, steps; /* in all, by so many solver strategies */
     double residual;       /* true, relative */
-    int rounding_limited;  /* is that what double precision holds, and not 1e-8? */
-    double stated_error;   /* of the displacement, relative, as the solver says of its equations; NAN if it does not */
-    double digits;         /* of the displacement, against the direct solution; NAN if there is none */
+    int rounding_limited;  /* did rounding keep the residual above 1e-8? */
+    double stated_error;   /* relative error of the displacement as the solver reports it; NAN if it does not */
+    double digits;         /* correct digits of the displacement, by the direct solution; NAN if there is none */
     HardTruth truth;
-    double seconds; /* of the solve, the direct one left out */
+    double seconds; /* of the solve, without the direct one */
 } HardReading;
 
 typedef struct HardReport {
@@ -99,7 +99,7 @@ void hard_describe(const HardPoint *point, char *text, size_t size);
 int hard_column(const HardPoint *point);
 
 /* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
- * occurs; the caller's to free. */
+ * occurs. The caller frees them. */
 OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points);
 
 /* A point's case, made in memory. It holds pointers into itself: it must not move. */
@@ -108,7 +108,7 @@ typedef struct HardCase {
     OstCaseMaterial material[2];
     OstConstraint constraint;
     OstLoad load;
-    char *held, *pulled; /* names of boundaries */
+    char *constrained, *pulled; /* names of boundaries */
 } HardCase;
 
 /* Local. The case of a point: shape, supports, load, materials. */
@@ -125,15 +125,15 @@ OstStatus hard_make_chunk(const HardPoint *point, const OstCase *c, OstMeshChunk
 double hard_contrast(int shape);
 void hard_cylinder(int shape, double origin[3], double axis[3]);
 
-/* Collective. Assembles the scene's equations afresh, factors them, iterates with residuals in twofold precision until
- * the solution stands to the last digits of double precision, or is seen not to exist, and holds the result (NULL:
- * there is none) against it. */
+/* Collective. Assembles the scene's equations again, factors them, iterates with compensated residuals until the
+ * solution is known to the last digits of double precision, or K turns out to be indefinite; then compares the result
+ * (NULL: there is none) with it. */
 OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
-/* Collective. Solves one point and judges it; fails only where the grid itself cannot go on. */
+/* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
 OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
 
-/* Collective. All points, with a line of progress. */
+/* Collective. All points, with a progress line. */
 OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);
 void hard_report_destroy(HardReport **report);
 int hard_passed(const HardReport *report);

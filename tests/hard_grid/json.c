@@ -6,12 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Numbers that JSON cannot write are null. */
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
-
 static json_t *reading_json(const HardReading *reading)
 {
     const HardPoint *point = &reading->point;
@@ -28,13 +22,13 @@ static json_t *reading_json(const HardReading *reading)
         return json;
     json_t *numbers = json_pack(
         "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:f}", "unknowns",
-        (json_int_t)reading->unknowns, "recipe", ost_recipe_name(reading->recipe), "iterations", reading->iterations,
-        "rungs", reading->steps, "relative_residual", number_json(reading->residual), "rounding_limited",
-        reading->rounding_limited, "stated_error", number_json(reading->stated_error), "digits",
-        number_json(reading->digits), "size", number_json(reading->truth.size), "amplification",
-        number_json(reading->truth.amplification), "floor", number_json(reading->truth.floor), "plain_factors_error",
-        number_json(reading->truth.plain), "moved_by_rounding", number_json(reading->truth.rounded), "indefinite",
-        reading->truth.indefinite, "seconds", reading->seconds);
+        (json_int_t)reading->unknowns, "method", ost_recipe_name(reading->recipe), "iterations", reading->iterations,
+        "strategies", reading->steps, "relative_residual", ost_json_number(reading->residual), "rounding_limited",
+        reading->rounding_limited, "stated_error", ost_json_number(reading->stated_error), "digits",
+        ost_json_number(reading->digits), "size", ost_json_number(reading->truth.size), "amplification",
+        ost_json_number(reading->truth.amplification), "floor", ost_json_number(reading->truth.floor),
+        "plain_factors_error", ost_json_number(reading->truth.plain), "moved_by_rounding",
+        ost_json_number(reading->truth.rounded), "indefinite", reading->truth.indefinite, "seconds", reading->seconds);
     json_object_update(json, numbers);
     json_decref(numbers);
     return json;

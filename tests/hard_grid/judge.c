@@ -56,14 +56,14 @@ static void judge_flawed(HardReading *reading)
         reading->outcome = reading->status == OST_INVALID_INPUT && named ? HARD_REFUSED : HARD_GIVEN_UP;
 }
 
-static void condemn(HardReading *reading, HardOutcome outcome, const char *why)
+static void fail(HardReading *reading, HardOutcome outcome, const char *why)
 {
     reading->outcome = outcome;
     if (!reading->reason[0])
         snprintf(reading->reason, sizeof reading->reason, "%s", why);
 }
 
-/* Is the answer as near to the direct solution as the program says? Where it says nothing, as the residual allows. */
+/* Is the answer as near to the direct solution as the program states? If it states nothing, as the residual allows. */
 static int is_true(const HardReading *reading)
 {
     const HardTruth *truth = &reading->truth;
@@ -80,9 +80,9 @@ static void judge(HardReading *reading)
     if (reading->status != OST_SUCCESS)
         reading->outcome = hopeless_case ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)
-        condemn(reading, HARD_FALSE, "solved, where a direct solution cannot be had");
+        fail(reading, HARD_FALSE, "solved, but there is no direct solution");
     else if (!is_true(reading))
-        condemn(reading, HARD_FALSE, "further from the direct solution than stated");
+        fail(reading, HARD_FALSE, "further from the direct solution than stated");
     else
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
@@ -93,7 +93,7 @@ static OstStatus solve_sound(OstScene *scene, HardReading *reading)
     solve(scene, &result, reading);
     OstStatus status = hard_find_truth(scene, result, &reading->truth);
     ost_result_destroy(&result);
-    if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: no truth */
+    if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
         status = OST_SUCCESS;
     if (status == OST_SUCCESS)
         judge(reading);

@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-/* Nine constants at a share of the border of stability: ratios that differ by pair, and that stay near one border
- * whatever the moduli, because they are those of the moduli's geometric means (-0.4, -0.3, -0.2 off the diagonal of the
- * normalised normal block), blown up until the smallest eigenvalue is all but gone. */
+/* Nine constants at a share of the border of stability. The three normalised Poisson's ratios are -0.4, -0.3, -0.2 (off
+ * the diagonal of the normalised normal block), whatever the moduli; they are scaled up until the smallest eigenvalue
+ * is almost zero. */
 static OstStatus border_constants(OstContext *ctx, const double youngs[3], double share, OstOrthotropic *constants)
 {
     static const double normalised[3] = {0.4, 0.3, 0.2};

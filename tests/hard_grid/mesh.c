@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Nodes and cells of the shapes are numbered with the last index fastest, six tets a cell: what is done to a node or a
- * tet follows from its number, on whatever rank it is. */
+/* Nodes and cells are numbered with the last index fastest, six tets a cell. So the position of a node or a tet follows
+ * from its number, on any rank. */
 
 static const double thin = 1e-3; /* volume of slivers and thickness of layers, over their neighbours' */
 
@@ -101,8 +101,8 @@ static OstStatus mark_inclusions(const HardPoint *point, const OstLocal cells[3]
 
 /* --- axes --- */
 
-/* Turns that vary smoothly through the body, by a few sines with phases picked once; whole waves, so that they close
- * around a tube. `s` runs from 0 to 1 in each direction. */
+/* Rotations that vary smoothly through the body: sines with fixed phases, and whole waves, so that they close around a
+ * tube. `s` runs from 0 to 1 in each direction. */
 static OstStatus smooth_axes(OstContext *ctx, const double s[3], double axes[9])
 {
     static const double phase[3][2] = {{0.7, 4.1}, {5.3, 1.1}, {2.2, 0.4}};

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* --quick takes every so manyth point: prime, and no divisor of any count of values, so that all occur. */
+/* --quick takes every 47th point: a prime that divides no count of values, so that every value occurs. */
 enum { QUICK_STRIDE = 47 };
 
 const char *const hard_outcome_name[HARD_OUTCOMES] = {"solved", "solved to rounding", "refused rightly", "given up",
@@ -61,7 +61,7 @@ typedef struct PointList {
     int seen;
 } PointList;
 
-/* Flawed points cost next to nothing, so that none is left out. */
+/* Flawed points cost almost nothing: --quick takes them all. */
 static void add(PointList *list, HardPoint point)
 {
     const int taken = point.flaw != HARD_SOUND || list->seen++ % list->stride == 0;
@@ -72,7 +72,7 @@ static void add(PointList *list, HardPoint point)
     list->count++;
 }
 
-/* Axes are nothing to an isotropic body; beyond the family, constants differ even where Young's moduli do not. */
+/* Axes do not matter to an isotropic body; beyond the family, constants differ even if Young's moduli do not. */
 static void add_stiffnesses(PointList *list, HardPoint point)
 {
     for (point.ratio = 0; point.ratio < HARD_RATIOS; point.ratio++)

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a matrix shows in place of a number. */
+/* Printed in place of a number. */
 static const char *mark_of(const HardReading *reading)
 {
     switch (reading->outcome) {
@@ -68,7 +68,8 @@ static void print_matrices(const HardReport *report, int shape, int order)
     static const char *const heads[] = {"E alike",  "E1 x 1e3", "E2 x 1e3", "E3 x 1e3",
                                         "E1 x 1e6", "E2 x 1e6", "E3 x 1e6"};
     for (int digits = 0; digits < 2; digits++) {
-        printf("%s, order %d: %s\n  %-15s", hard_shape_name(shape), order, digits ? "digits" : "iterations", "");
+        printf("%s, order %d: %s\n  %-15s", hard_shape_name(shape), order,
+               digits ? "correct digits of the displacement" : "iterations", "");
         for (size_t h = 0; h < sizeof heads / sizeof *heads; h++)
             printf("%s%15s", h > 0 ? " |" : "", heads[h]);
         puts("");
@@ -142,7 +143,8 @@ void hard_print(const HardReport *report)
     if (ost_rank(report->ctx) != 0)
         return;
     if (!report->quick || ost_log_level(report->ctx) == OST_LOG_VERBOSE) {
-        puts("Columns of three: axes aligned, cylindrical, smooth. *: to what double precision holds; no: given up.\n");
+        puts("Columns of three: axes aligned, cylindrical, smooth. *: as far as double precision allows; no: given "
+             "up.\n");
         for (int shape = 0; shape < HARD_SHAPES; shape++)
             for (int order = 1; order <= HARD_ORDERS; order++)
                 if (has_points(report, shape, order))

@@ -10,7 +10,7 @@ typedef struct HardShape {
     const char *name;
     double size[3];
     OstLocal divisions[HARD_ORDERS][3]; /* of linear and of quadratic tets; the tube's are axial, around, radial */
-    char *held, *pulled;                /* boundaries */
+    char *constrained, *pulled;         /* boundaries */
     double contrast;                    /* Young's modulus of the inclusions over that of the rest */
     double cylinder[3];                 /* a point of the line about which cylindrical axes turn */
     int cylinder_axis;
@@ -18,7 +18,7 @@ typedef struct HardShape {
 
 static char ends[] = "ends", xmin[] = "xmin", xmax[] = "xmax";
 
-/* Above the size at which a factorisation is planned in any case (3000 unknowns), and little more. */
+/* Little more than the size up to which every case is factored (3000 unknowns). */
 static const HardShape shapes[HARD_SHAPES] = {
     {"tube", {0.0}, {{18, 20, 3}, {8, 12, 1}}, ends, NULL, 1.0, {0.0, 0.0, 0.0}, 1},
     {"beam", {100.0, 1.0, 1.0}, {{100, 3, 3}, {70, 1, 1}}, xmin, xmax, 1.0, {50.0, -20.0, 0.5}, 2},
@@ -87,10 +87,10 @@ void hard_place(const HardPoint *point, HardCase *hard)
         place_tube(n, hard);
     else
         place_block(shape, n, hard);
-    hard->held = shape->held;
+    hard->constrained = shape->constrained;
     hard->constraint.kind = OST_CONSTRAIN_DISPLACEMENT;
     hard->constraint.on =
-        (OstSelection){.kind = OST_SELECT_BOUNDARY, .boundaries = {1, &hard->held}, .tolerance = -1.0};
+        (OstSelection){.kind = OST_SELECT_BOUNDARY, .boundaries = {1, &hard->constrained}, .tolerance = -1.0};
     if (point->flaw == HARD_LOOSE)
         hard->constraint.on.kind = OST_SELECT_NEAREST;
     if (point->flaw == HARD_NOT_A_NUMBER)

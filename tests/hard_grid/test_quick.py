@@ -64,6 +64,10 @@ def main():
           "a report that cannot be written is found before the grid runs")
     check(run("--json", "-", "--json", "-", "tube", program=GRID).exit_code == 2, "two reports to standard output")
 
+    script = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "hard-grid")
+    check(run("--help", program=script).exit_code == 0, "scripts/hard-grid --help")
+    check("number of ranks" in run("-n", "0", program=script).errors, "no ranks")
+    check(run("--json", program=script).exit_code == 2, "an option without its value")
     moved = run("verify", "--hard")
     check(moved.exit_code == 2 and "scripts/hard-grid" in moved.errors, "verify --hard says where the grid has gone")
 

@@ -8,18 +8,18 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps of inverse iteration for ||K^-1||; roundings of K tried, as many as it takes to say on which side of hopeless
- * they are. */
+/* Steps of inverse iteration for ||K^-1||; random samples of rounding errors, as many as are needed to decide whether
+ * double precision has an answer. */
 enum { INVERSE_STEPS = 6, FEWEST_ROUNDINGS = 8, MOST_ROUNDINGS = 256 };
 
-/* Before it are those that the program itself throws. */
+/* Samples with lower numbers are those of the program itself. */
 enum { FIRST_ROUNDING = 1000 };
 
-/* The solution stands when a correction is no more than this of it; what a rounding moves is wanted less closely. */
+/* Relative size of the last correction: of the solution, and of its change by rounding errors. */
 static const double settled = 1e-15, roughly = 1e-2;
 
-/* What rounding K does is worth looking at where the factors leave less than five digits: what they leave is one
- * rounding more, not the same from run to run on several ranks, and may fall short. */
+/* The effect of rounding K is sampled if the factors' own error is above this. That error is one more sample of
+ * rounding errors; it differs from run to run on several ranks, and may be small by chance. */
 static const double five_digits = 1e-5;
 
 /* --- the solution --- */
@@ -38,7 +38,7 @@ static OstStatus find_floor(HardDirect *direct, double f_norm, HardTruth *truth)
     return OST_SUCCESS;
 }
 
-/* ||K^-1|| by inverse iteration from a vector that has something of every mode, the same on any ranks. */
+/* ||K^-1|| by inverse iteration, from a vector that holds every mode and is the same on any number of ranks. */
 static OstStatus find_amplification(HardDirect *direct, double f_norm, HardTruth *truth)
 {
     const OstGlobal *label = direct->system->matrix->label;
@@ -77,10 +77,10 @@ static OstStatus find_errors(HardDirect *direct, const OstResult *result, const 
     return distance(direct, truth->size, &truth->error);
 }
 
-/* --- what rounding the stiffness does to it --- */
+/* --- the effect of rounding the stiffness --- */
 
-/* Throws as the program's own, tested against other roundings (tests/algebra/mpi_test_energy_error.c), of other signs
- * and with a factorisation led to 32 digits. u is u* with its ghosts; that of `direct` becomes the last throw's. */
+/* Random samples as the program makes them (tested in tests/algebra/mpi_test_energy_error.c), with other signs, each
+ * solved in double-double precision. u is u* with its ghosts; `direct->u` becomes the change by the last sample. */
 static OstStatus try_roundings(HardDirect *direct, const double *u, double *force, HardTruth *truth)
 {
     OstThrows throws = {0, 0.0};
