@@ -85,9 +85,6 @@ struct OstCost {
 /* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8. */
 OstCostLadder ost_cost_default_ladder(void);
 
-/* Collective. Memory of the machines the ranks are on, in bytes. */
-OstStatus ost_cost_machine_bytes(OstContext *ctx, double *bytes);
-
 /* Collective. Lists the runs; the case outlives the study. Raises OST_INVALID_INPUT for a rung that is out of range. */
 OstStatus ost_cost_create(const OstCase *c, const OstCostLadder *ladder, OstCost **cost);
 void ost_cost_destroy(OstCost **cost);
