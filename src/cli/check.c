@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "orthostat/scene.h"
 #include "study/watch.h"
 
@@ -32,11 +33,11 @@ static OstStatus count_nodes(const OstScene *scene, const OstSelection *selectio
     OstLocal count = 0;
     OstLocal *nodes = NULL;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, selection, &count, &nodes));
-    OstGlobal mine = 0;
+    *total = 0;
     for (OstLocal i = 0; i < count; i++)
-        mine += nodes[i] < scene->mesh->owned_nodes;
+        *total += nodes[i] < scene->mesh->owned_nodes;
     OST_FREE(nodes);
-    return OST_MPI(scene->ctx, MPI_Allreduce(&mine, total, 1, MPI_INT64_T, MPI_SUM, ost_comm(scene->ctx)));
+    return ost_sum_numbers(scene->ctx, 1, total);
 }
 
 static OstStatus count_faces(const OstScene *scene, const OstSelection *selection, int *some)
@@ -45,9 +46,9 @@ static OstStatus count_faces(const OstScene *scene, const OstSelection *selectio
     int nodes_per_face = 0;
     OstLocal *faces = NULL;
     OST_TRY(ost_select_faces(scene->c, scene->mesh, selection, &count, &nodes_per_face, &faces));
-    const int mine = count > 0;
     OST_FREE(faces);
-    return OST_MPI(scene->ctx, MPI_Allreduce(&mine, some, 1, MPI_INT, MPI_MAX, ost_comm(scene->ctx)));
+    *some = count > 0;
+    return ost_max_ints(scene->ctx, 1, some);
 }
 
 static OstStatus check_load(const OstScene *scene, const OstLoad *load)

@@ -4,6 +4,7 @@
 #include "cli/cost_picture.h"
 #include "cli/destination.h"
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "study/cost.h"
 
 #include <argp.h>
@@ -169,7 +170,7 @@ static OstStatus run_study(OstContext *ctx, Arguments *arguments)
 {
     OstCase *c = NULL;
     OstCost *cost = NULL;
-    OstStatus status = ost_cost_machine_bytes(ctx, &arguments->variants.max_bytes);
+    OstStatus status = ost_memory_installed(ctx, &arguments->variants.max_bytes);
     if (status == OST_SUCCESS)
         status = ost_case_read(ctx, arguments->case_path, &c);
     if (status == OST_SUCCESS)

@@ -15,4 +15,8 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
 /* Collective. What all machines of the ranks have free, each counted once. */
 OstStatus ost_memory_free(OstContext *ctx, double *bytes);
 
+/* Collective. What all machines of the ranks have, or their containers allow, each counted once; INFINITY where nothing
+ * tells. */
+OstStatus ost_memory_installed(OstContext *ctx, double *bytes);
+
 #endif

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "formats/vtkhdf_match.h"
 
 static const char region_names[] = "/Orthostat/RegionNames";
@@ -252,7 +253,7 @@ OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
     OstLocal count = 0;
     int width = 0;
     int found = ost_hdf5_has(h5, boundary_names);
-    OST_TRY(OST_MPI(h5->ctx, MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, ost_comm(h5->ctx))));
+    OST_TRY(ost_max_ints(h5->ctx, 1, &found));
     if (!found)
         return OST_SUCCESS;
     OstStatus status = read_kinds(h5, chunk);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "formats/vtkhdf_groups.h"
 #include "formats/vtkhdf_points.h"
 #include "formats/vtkhdf_rehearsal.h"
@@ -143,7 +144,7 @@ static OstStatus agree_on_kind(Reader *reader)
 {
     OstMeshChunk *chunk = reader->chunk;
     int range[2] = {chunk->tet_count > 0 ? -chunk->nodes_per_tet : -INT32_MAX, chunk->nodes_per_tet};
-    OST_TRY(OST_MPI(chunk->ctx, MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_INT, MPI_MAX, ost_comm(chunk->ctx))));
+    OST_TRY(ost_max_ints(chunk->ctx, 2, range));
     chunk->nodes_per_tet = range[1];
     if (-range[0] != range[1])
         return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: tets of %d and of %d nodes are mixed; expected one kind",

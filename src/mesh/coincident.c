@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "mesh/route.h"
 #include "mesh/tet.h"
@@ -54,7 +55,7 @@ static OstStatus find_corner(const OstPoints *points, double corner[3])
         for (OstLocal i = 0; i < points->count; i++)
             corner[d] = fmin(corner[d], points->coordinates[3 * (size_t)i + (size_t)d]);
     }
-    return OST_MPI(points->ctx, MPI_Allreduce(MPI_IN_PLACE, corner, 3, MPI_DOUBLE, MPI_MIN, ost_comm(points->ctx)));
+    return ost_min(points->ctx, 3, corner);
 }
 
 static int rank_of_cube(const int64_t cube[3], int size)
@@ -221,7 +222,7 @@ static OstStatus find_shortest_edge(const OstMesh *mesh, double *shortest)
             *shortest = fmin(*shortest, ost_norm3(d));
         }
     }
-    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(mesh->ctx)));
+    return ost_min(mesh->ctx, 1, shortest);
 }
 
 OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance)
@@ -241,5 +242,5 @@ OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, doubl
         *count += lowest[i] != mesh->first_node + i;
     OST_FREE(lowest);
     OST_TRY(status);
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+    return ost_sum_numbers(ctx, 1, count);
 }

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "core/sort.h"
 #include "mesh/check.h"
@@ -27,7 +28,7 @@ typedef struct Merge {
     OstGlobal *end;    /* per rank: where its vertices end */
     OstGlobal *lowest; /* of this rank's vertices */
     OstGlobal *number; /* new numbers, of the slab's nodes and ghosts */
-    OstGlobal new_first, new_count;
+    OstGlobal new_first, new_total;
 } Merge;
 
 /* The shortest edge, and the lowest label of a tet with it. */
@@ -57,10 +58,10 @@ static OstStatus find_shortest_edge(const Merge *merge, double *shortest, OstGlo
             at = chunk->tet_label ? chunk->tet_label[t] : chunk->first_tet + t + 1;
         }
     }
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&mine, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
-    if (mine > *shortest)
-        at = INT64_MAX;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&at, label, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    *shortest = mine;
+    OST_TRY_DONE(ost_min(ctx, 1, shortest));
+    *label = mine > *shortest ? INT64_MAX : at;
+    OST_TRY_DONE(ost_min_numbers(ctx, 1, label));
 done:
     OST_FREE(x);
     return status;
@@ -83,11 +84,10 @@ static OstStatus check_tolerance(const Merge *merge, double tolerance)
 static OstStatus number_kept(Merge *merge)
 {
     OstContext *ctx = merge->chunk->ctx;
-    OstGlobal before = 0;
+    OstGlobal kept = 0;
     for (OstLocal i = 0; i < merge->points.count; i++)
-        merge->new_count += merge->lowest[i] == merge->points.first + i;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&merge->new_count, &before, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    merge->new_first = ost_rank(ctx) == 0 ? 0 : before;
+        kept += merge->lowest[i] == merge->points.first + i;
+    OST_TRY(ost_number_from(ctx, kept, &merge->new_first, &merge->new_total));
     OstGlobal next = merge->new_first;
     for (OstLocal i = 0; i < merge->points.count; i++)
         merge->number[i] = merge->lowest[i] == merge->points.first + i ? next++ : -1;
@@ -231,10 +231,8 @@ static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merge
     OST_TRY(number_merged(merge, tolerance));
     renumber_all(merge);
     drop_merged(merge);
-    OstGlobal total = chunk->node_count;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    *merged = chunk->global_nodes - total;
-    chunk->global_nodes = total;
+    *merged = chunk->global_nodes - merge->new_total;
+    chunk->global_nodes = merge->new_total;
     return OST_SUCCESS;
 }
 

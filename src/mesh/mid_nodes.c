@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/redistribute.h"
 #include "mesh/route.h"
 
@@ -40,12 +41,7 @@ static OstStatus number_owned(MidNodes *mid)
 {
     const OstMesh *mesh = mid->mesh;
     mid->owned_nodes = mesh->owned_nodes + mid->edges.start[mesh->owned_nodes];
-    const OstGlobal owned = mid->owned_nodes;
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Exscan(&owned, &mid->first_node, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
-    OST_TRY(
-        OST_MPI(mesh->ctx, MPI_Allreduce(&owned, &mid->global_nodes, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
-    if (ost_rank(mesh->ctx) == 0)
-        mid->first_node = 0;
+    OST_TRY(ost_number_from(mesh->ctx, mid->owned_nodes, &mid->first_node, &mid->global_nodes));
     OstGlobal next = mid->first_node;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         mid->number[n] = next++;
@@ -160,7 +156,7 @@ static OstStatus find_highest_label(const OstMesh *mesh, OstGlobal *highest)
         most[1] = label > most[1] ? label : most[1];
         most[2] = label < 1 ? 0 : most[2];
     }
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_INT64_T, MPI_MAX, ost_comm(mesh->ctx))));
+    OST_TRY(ost_max_numbers(mesh->ctx, 3, most));
     if (most[2] == 0)
         return OST_RAISE(
             mesh->ctx, OST_INVALID_INPUT,

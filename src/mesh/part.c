@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/part_faces.h"
 #include "mesh/part_ranks.h"
 
@@ -24,11 +25,11 @@ void ost_parts_destroy(OstParts **parts)
 static OstStatus check_overlap(OstContext *ctx, const OstOverlap *mine)
 {
     OstGlobal low = mine->found ? mine->low : INT64_MAX;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &low, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    OST_TRY(ost_min_numbers(ctx, 1, &low));
     if (low == INT64_MAX)
         return OST_SUCCESS;
     OstGlobal high = mine->found && mine->low == low ? mine->high : INT64_MAX;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &high, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    OST_TRY(ost_min_numbers(ctx, 1, &high));
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "tets %lld and %lld lie on the same side of a face that they share; remove the doubled or "
                      "overlapping tet",
@@ -86,11 +87,9 @@ static OstStatus reduce(OstContext *ctx, OstParts *parts)
             box[MINIMA * p + 3 + (size_t)d] = -parts->part[p].high[d];
         }
     }
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, tets, (int)count, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, tets + count, (int)count, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
-    OST_TRY_DONE(
-        OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, box, MINIMA * (int)count, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
+    OST_TRY_DONE(ost_sum_numbers(ctx, (int)count, tets));
+    OST_TRY_DONE(ost_min_numbers(ctx, (int)count, tets + count));
+    OST_TRY_DONE(ost_min(ctx, MINIMA * (int)count, box));
     for (size_t p = 0; p < count; p++) {
         parts->part[p].tets = tets[p];
         parts->part[p].first_tet = tets[count + p];

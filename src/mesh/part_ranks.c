@@ -5,6 +5,7 @@
 #include "core/gather.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/route.h"
 #include "mesh/union_find.h"
 
@@ -184,16 +185,14 @@ static OstStatus join_everywhere(OstContext *ctx, const Links *mine, OstLocal *p
 static OstStatus shift_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *total)
 {
     OstContext *ctx = mesh->ctx;
-    const OstGlobal mine = set_count;
     OstGlobal before = 0;
     OstGlobal sum = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_number_from(ctx, set_count, &before, &sum));
     if (sum > INT32_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
                          "the mesh falls into %lld parts, more than the %d that can be told apart", (long long)sum,
                          INT32_MAX);
-    for (OstLocal t = 0; ost_rank(ctx) > 0 && t < mesh->tet_count; t++)
+    for (OstLocal t = 0; t < mesh->tet_count; t++)
         set[t] += (OstLocal)before;
     *total = (OstLocal)sum;
     return OST_SUCCESS;

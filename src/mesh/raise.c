@@ -2,6 +2,7 @@
 #include "mesh/raise.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "mesh/divide.h"
 #include "mesh/tet.h"
@@ -59,7 +60,7 @@ OstStatus ost_check_folds(const OstMesh *mesh)
                 at = v;
             }
     const OstGlobal mine = lowest;
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT64_T, MPI_MIN, ost_comm(mesh->ctx))));
+    OST_TRY(ost_min_numbers(mesh->ctx, 1, &lowest));
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && mine == lowest)
         status = OST_RAISE(mesh->ctx, OST_INVALID_INPUT,

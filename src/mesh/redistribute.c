@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/number_set.h"
 #include "mesh/route.h"
 
@@ -59,7 +60,7 @@ done:
 static OstStatus has_axes(const OstMeshChunk *chunk, int *axes)
 {
     *axes = chunk->tet_axes != NULL;
-    OST_TRY(OST_MPI(chunk->ctx, MPI_Allreduce(MPI_IN_PLACE, axes, 1, MPI_INT, MPI_MAX, ost_comm(chunk->ctx))));
+    OST_TRY(ost_max_ints(chunk->ctx, 1, axes));
     OstStatus status = OST_SUCCESS;
     if (*axes && !chunk->tet_axes && chunk->tet_count > 0)
         status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "tets %lld and on come without axes, but others have them",

@@ -85,9 +85,6 @@ struct OstCost {
 /* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8. */
 OstCostVariants ost_cost_default_variants(void);
 
-/* Collective. Memory of the machines that the ranks run on, in bytes. */
-OstStatus ost_cost_machine_bytes(OstContext *ctx, double *bytes);
-
 /* Collective. Lists the runs; the case must outlive the study. Raises OST_INVALID_INPUT for a value out of range. */
 OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, OstCost **cost);
 void ost_cost_destroy(OstCost **cost);

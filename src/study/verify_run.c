@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 
 #include <stdio.h>
@@ -29,7 +30,7 @@ static OstStatus body_volume(const OstMesh *mesh, double *volume)
     *volume = 0.0;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
         *volume += ost_tet_volume(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet);
-    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, volume, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx)));
+    return ost_sum(mesh->ctx, 1, volume);
 }
 
 static OstStatus measure_all(const OstScene *scene, const OstResult *result, const OstExact *exact, OstVerifyRun *run)

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "mesh/nearest.h"
 #include "orthostat/verify.h"
@@ -62,7 +63,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
         for (int i = 0; i < 3 && nodes[n] < scene->mesh->owned_nodes; i++)
             sum[i] += result->reaction[3 * (size_t)nodes[n] + (size_t)i];
     OST_FREE(nodes);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum(ctx, 3, sum));
     take(sum, watch->component, watched);
     watched->scale = ost_norm3(sum);
     return OST_SUCCESS;
@@ -91,11 +92,10 @@ static OstStatus check_selection(const OstScene *scene, const char *what, const 
     OstContext *ctx = scene->ctx;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
-    int some = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, on, &count, &nodes));
     OST_FREE(nodes);
-    const int mine = count > 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &some, 1, MPI_INT, MPI_MAX, ost_comm(ctx))));
+    int some = count > 0;
+    OST_TRY(ost_max_ints(ctx, 1, &some));
     return some ? OST_SUCCESS
                 : OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: %s '%s' selects no vertex", scene->c->path, line, what,
                             name);

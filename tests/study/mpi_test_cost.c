@@ -378,14 +378,6 @@ static void the_ledgers_peak_can_start_again(void **state)
     assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_OTHER).peak_bytes, ost_ledger_entry(ctx, OST_LEDGER_OTHER).bytes);
 }
 
-static void the_machine_has_memory(void **state)
-{
-    (void)state;
-    double bytes = 0.0;
-    assert_success(ost_cost_machine_bytes(ctx, &bytes));
-    assert_true(bytes > 1e8 && bytes < 1e15);
-}
-
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_variants_are_listed_once_and_in_order),
     cmocka_unit_test(values_out_of_range_are_refused),
@@ -401,7 +393,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_cantilever_has_its_price_list),
     cmocka_unit_test(a_place_is_a_vertex_and_stays_there),
     cmocka_unit_test(the_ledgers_peak_can_start_again),
-    cmocka_unit_test(the_machine_has_memory),
 };
 
 OST_TEST_MAIN(tests)
