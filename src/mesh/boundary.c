@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "mesh/numbering.h"
 #include "mesh/redistribute.h"
 #include "mesh/route.h"
 

@@ -6,7 +6,6 @@
 #include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/incidence.h"
-#include "mesh/raise.h"
 #include "mesh/tet.h"
 
 #include <float.h>

@@ -5,7 +5,7 @@
 #include "core/halo.h"
 #include "core/memory.h"
 #include "core/reduce.h"
-#include "mesh/redistribute.h"
+#include "mesh/numbering.h"
 #include "mesh/route.h"
 
 #include <string.h>

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/reduce.h"
 #include "mesh/number_set.h"
+#include "mesh/numbering.h"
 #include "mesh/route.h"
 
 #include <string.h>
@@ -182,15 +183,6 @@ static OstStatus number_ghosts(OstMesh *mesh, const OstGlobal *nodes)
 done:
     ost_number_set_clear(&ghosts);
     return status;
-}
-
-OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number)
-{
-    if (is_owned_number(mesh, number))
-        return (OstLocal)(number - mesh->first_node);
-    const OstLocal ghost =
-        ost_number_find(mesh->node_number + mesh->owned_nodes, mesh->node_count - mesh->owned_nodes, number);
-    return ghost < 0 ? -1 : mesh->owned_nodes + ghost;
 }
 
 static OstStatus number_locally(OstMesh *mesh, OstGlobal **nodes)
