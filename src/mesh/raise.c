@@ -2,11 +2,8 @@
 #include "mesh/raise.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
-#include "core/small.h"
 #include "mesh/check.h"
 #include "mesh/divide.h"
-#include "mesh/tet.h"
 
 static const int quadratic_item[10] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
 static const Division raising = {{1, 10, quadratic_item},
