@@ -7,6 +7,8 @@
 #include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
+OST_API_BEGIN
+
 /* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case.
  * Files that a case reads (mesh, axes, .bou lists) are named relative to the case file's folder; the file it writes,
  * relative to the directory the program is called in. */
@@ -170,5 +172,7 @@ OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelec
  */
 OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces);
+
+OST_API_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* Tets have 4 or 10 nodes. Vertices 0-3 are positively oriented: (x1-x0)·((x2-x0)×(x3-x0)) > 0. The six mid-edge nodes
  * follow in VTK's order: 01 12 02 03 13 23. Faces have 3 or 6 nodes (vertices, then mid-edges 01 12 20), curves 2 or 3,
  * points 1. */
@@ -171,5 +173,7 @@ OstStatus ost_mesh_tet_centroids(const OstMesh *mesh, double *centroids);
 
 /* Collective. The smallest box around all nodes of the body. */
 OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3]);
+
+OST_API_END
 
 #endif
