@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/chunk_share.h"
+#include "mesh/share.h"
 
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <string.h>
 
-/* What every rank must know of the mesh that rank 0 has read. */
+/* What every rank must know of the mesh that rank 0 brings. */
 typedef struct Outline {
     OstGlobal nodes, tets;
     int nodes_per_tet;
@@ -110,6 +109,32 @@ done:
     return status;
 }
 
+/* A rank's own share must name what rank 0's does, in its order, for these are known by their numbers from here on. */
+static OstStatus compare_names(const OstMeshChunk *chunk, const Outline *outline, const char *text, const int *kind)
+{
+    OstContext *ctx = chunk->ctx;
+    if (chunk->regions.count != outline->region_count || chunk->boundary_count != outline->boundary_count)
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "rank %d brings %d regions and %d boundaries, rank 0 %d and %d; every rank must list the same",
+                         ost_rank(ctx), chunk->regions.count, chunk->boundary_count, outline->region_count,
+                         outline->boundary_count);
+    for (int i = 0; i < outline->region_count; i++, text += strlen(text) + 1)
+        if (strcmp(chunk->regions.name[i], text) != 0)
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "region %d is '%.80s' on rank %d and '%.80s' on rank 0; every rank must list the same", i,
+                             chunk->regions.name[i], ost_rank(ctx), text);
+    for (int b = 0; b < outline->boundary_count; b++, text += strlen(text) + 1) {
+        const OstBoundary *mine = &chunk->boundaries[b];
+        if (strcmp(mine->name, text) != 0 || mine->dimension != kind[2 * b])
+            return OST_RAISE(
+                ctx, OST_INVALID_INPUT,
+                "boundary %d is '%.80s' of dimension %d on rank %d, and '%.80s' of dimension %d on rank 0; "
+                "every rank must list the same",
+                b, mine->name, mine->dimension, ost_rank(ctx), text, kind[2 * b]);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
 {
     Outline outline = {0};
@@ -122,11 +147,13 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count);
     OST_TRY_DONE(ost_agree(ctx, status));
-    if (*chunk)
+    if (ost_rank(ctx) == 0)
         pack_names(*chunk, text, kind);
     OST_TRY_DONE(broadcast(ctx, text, (size_t)outline.text_bytes));
     OST_TRY_DONE(broadcast(ctx, kind, 2 * (size_t)outline.boundary_count * sizeof *kind));
-    if (!*chunk)
+    if (*chunk)
+        status = compare_names(*chunk, &outline, text, kind);
+    else
         status = create_empty(ctx, &outline, text, kind, chunk);
     status = ost_agree(ctx, status);
 done:
@@ -135,58 +162,4 @@ done:
     if (status != OST_SUCCESS)
         ost_chunk_destroy(chunk);
     return status;
-}
-
-static OstStatus create_materials(OstContext *ctx, int count, OstFileMaterials **materials)
-{
-    OST_TRY(OST_NEW(ctx, materials, 1));
-    OST_TRY(OST_NEW(ctx, &(*materials)->material, count));
-    OST_TRY(OST_NEW(ctx, &(*materials)->axes, 9 * (size_t)count));
-    (*materials)->count = count;
-    return OST_SUCCESS;
-}
-
-OstStatus ost_file_materials_share(OstContext *ctx, OstFileMaterials **materials)
-{
-    OstStatus status = OST_SUCCESS;
-    int count = *materials ? (*materials)->count : 0;
-    OST_TRY_DONE(broadcast(ctx, &count, sizeof count));
-    if ((size_t)count > INT_MAX / sizeof(OstMaterial))
-        status = OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%d materials in a mesh file, at most %zu can be sent", count,
-                           INT_MAX / sizeof(OstMaterial));
-    else if (!*materials)
-        status = create_materials(ctx, count, materials);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(broadcast(ctx, (*materials)->material, (size_t)count * sizeof(OstMaterial)));
-    OST_TRY_DONE(broadcast(ctx, (*materials)->axes, 9 * (size_t)count * sizeof(double)));
-done:
-    if (status != OST_SUCCESS)
-        ost_file_materials_destroy(materials);
-    return status;
-}
-
-void ost_file_materials_destroy(OstFileMaterials **materials)
-{
-    if (!*materials)
-        return;
-    OST_FREE((*materials)->material);
-    OST_FREE((*materials)->axes);
-    OST_FREE(*materials);
-}
-
-OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text)
-{
-    OST_TRY(OST_RESIZE(ctx, &names->name, names->count + 1));
-    OST_TRY(ost_copy_string(ctx, text, &names->name[names->count]));
-    names->count++;
-    return OST_SUCCESS;
-}
-
-OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text)
-{
-    char numbered[64];
-    snprintf(numbered, sizeof numbered, "%s", text);
-    for (int number = 2; ost_names_find(names, numbered) >= 0; number++)
-        snprintf(numbered, sizeof numbered, "%.40s-%d", text, number);
-    return ost_names_add(ctx, names, numbered);
 }
