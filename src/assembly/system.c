@@ -5,7 +5,7 @@
 #include "assembly/pattern.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/numbering.h"
 #include "core/small.h"
 #include "element/element.h"
 

@@ -214,10 +214,10 @@ static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t
     OST_TRY_DONE(ost_agree(h5->ctx, status));
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         value[i] = chunk->first_node + i;
-        pool[i].word[0] = (uint64_t)(chunk->node_label ? chunk->node_label[i] : value[i] + 1);
+        pool[i].word[0] = chunk->node_label ? chunk->node_label[i] : value[i] + 1;
     }
     for (size_t i = 0; i < count; i++)
-        query[i].word[0] = (uint64_t)items[i];
+        query[i].word[0] = items[i];
     OST_TRY_DONE(ost_match_keys(h5->ctx, chunk->node_count, pool, value, (OstLocal)count, query, number));
 done:
     OST_FREE(pool);

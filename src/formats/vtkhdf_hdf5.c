@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 #include "core/reduce.h"
 
 #include <errno.h>

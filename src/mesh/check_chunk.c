@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/numbering.h"
 #include "core/reduce.h"
 #include "mesh/check.h"
 

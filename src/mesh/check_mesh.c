@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/reduce.h"
 #include "core/small.h"
-#include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/incidence.h"
 #include "mesh/tet.h"
@@ -92,7 +92,7 @@ static OstStatus raise_unused(const OstMesh *mesh, OstGlobal count, OstGlobal *l
 {
     OST_TRY(OST_MPI(mesh->ctx, MPI_Allgather(lowest, LABELS_SHOWN, MPI_INT64_T, all, LABELS_SHOWN, MPI_INT64_T,
                                              ost_comm(mesh->ctx))));
-    ost_sort_numbers((size_t)ost_size(mesh->ctx) * LABELS_SHOWN, all);
+    ost_numbers_sort(ost_size(mesh->ctx) * LABELS_SHOWN, all);
     char text[32 * (LABELS_SHOWN + 1)] = "";
     list_labels(all, count, text, sizeof text);
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "%lld %s used by no tet: %s; remove %s", (long long)count,

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/numbering.h"
 
 enum {
     CLUSTERS_PER_RANK = 64,  /* fine enough to balance parts to a few percent */

@@ -3,9 +3,10 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 #include "core/reduce.h"
+#include "core/route.h"
 #include "core/small.h"
-#include "mesh/route.h"
 #include "mesh/tet.h"
 
 #include <float.h>
@@ -27,26 +28,6 @@ typedef struct Visitor {
 typedef struct Answer {
     OstGlobal number, lowest;
 } Answer;
-
-int ost_coincident_holder(const OstGlobal *end, int size, OstGlobal number)
-{
-    int low = 0;
-    int high = size - 1;
-    while (low < high) {
-        const int middle = (low + high) / 2;
-        if (number < end[middle])
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
-
-OstStatus ost_coincident_ends(const OstPoints *points, OstGlobal *end)
-{
-    const OstGlobal my_end = points->first + points->count;
-    return OST_MPI(points->ctx, MPI_Allgather(&my_end, 1, MPI_INT64_T, end, 1, MPI_INT64_T, ost_comm(points->ctx)));
-}
 
 static OstStatus find_corner(const OstPoints *points, double corner[3])
 {
@@ -159,15 +140,15 @@ static OstStatus take_answers(const OstPoints *points, OstLocal answers, const A
     OstContext *ctx = points->ctx;
     OstGlobal *end = NULL;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     Answer *arrived = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &to, answers);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_coincident_ends(points, end));
+    OST_TRY_DONE(ost_number_ends(ctx, points->first + points->count, end));
     for (OstLocal i = 0; i < answers; i++)
-        to[i] = ost_coincident_holder(end, ost_size(ctx), answer[i].number);
+        to[i] = ost_number_holder(end, ost_size(ctx), answer[i].number);
     OST_TRY_DONE(ost_route_create(ctx, answers, 1, to, &route));
     OST_TRY_DONE(ost_route_carry(route, sizeof *answer, answer, (void **)&arrived));
     for (OstLocal i = 0; i < route->receives; i++) {
@@ -190,7 +171,7 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     Visitor *visitor = NULL, *arrived = NULL;
     Answer *answer = NULL;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < points->count; i++)
         lowest[i] = points->first + i;

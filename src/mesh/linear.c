@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/numbering.h"
 #include "mesh/inherit.h"
 #include "mesh/tet.h"
 #include "orthostat/refine.h"

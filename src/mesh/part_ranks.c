@@ -5,8 +5,8 @@
 #include "core/gather.h"
 #include "core/halo.h"
 #include "core/memory.h"
-#include "core/reduce.h"
-#include "mesh/route.h"
+#include "core/numbering.h"
+#include "core/route.h"
 #include "mesh/union_find.h"
 
 #include <stdlib.h>
@@ -91,7 +91,7 @@ static OstStatus send_visitors(const OstMesh *mesh, const OstLocal *set, SharedT
     const OstLocal visitors = mesh->tet_count - mesh->owned_tets;
     int *to = NULL;
     SharedTet *visitor = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &to, visitors);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &visitor, visitors);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/route.h"
+#include "core/route.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <string.h>
 
-void ost_route_destroy(Route **route)
+void ost_route_destroy(OstRoute **route)
 {
     if (!*route)
         return;
@@ -45,7 +45,7 @@ static OstStatus sum_up(OstContext *ctx, const int *count, int *start, OstLocal 
     return OST_SUCCESS;
 }
 
-static OstStatus sort_items(Route *route, OstLocal count, int width, const int *to)
+static OstStatus sort_items(OstRoute *route, OstLocal count, int width, const int *to)
 {
     OstContext *ctx = route->ctx;
     OST_TRY(OST_NEW(ctx, &route->send_count, ost_size(ctx)));
@@ -67,10 +67,10 @@ static OstStatus sort_items(Route *route, OstLocal count, int width, const int *
     return OST_SUCCESS;
 }
 
-OstStatus ost_route_create(OstContext *ctx, OstLocal count, int width, const int *to, Route **route)
+OstStatus ost_route_create(OstContext *ctx, OstLocal count, int width, const int *to, OstRoute **route)
 {
     *route = NULL;
-    Route *made = NULL;
+    OstRoute *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {
         made->ctx = ctx;
@@ -87,20 +87,24 @@ done:
     return status;
 }
 
-static OstStatus exchange(const Route *route, size_t size, const void *outgoing, void *arrived)
+/* From the sending to the receiving ranks, or back. */
+static OstStatus exchange(const OstRoute *route, int back, size_t size, const void *outgoing, void *arrived)
 {
     OstContext *ctx = route->ctx;
     MPI_Datatype item;
     OST_TRY(OST_MPI(ctx, MPI_Type_contiguous((int)size, MPI_BYTE, &item)));
     OstStatus status = OST_MPI(ctx, MPI_Type_commit(&item));
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS && !back)
         status = OST_MPI(ctx, MPI_Alltoallv(outgoing, route->send_count, route->send_start, item, arrived,
                                             route->receive_count, route->receive_start, item, ost_comm(ctx)));
+    else if (status == OST_SUCCESS)
+        status = OST_MPI(ctx, MPI_Alltoallv(outgoing, route->receive_count, route->receive_start, item, arrived,
+                                            route->send_count, route->send_start, item, ost_comm(ctx)));
     MPI_Type_free(&item);
     return status;
 }
 
-OstStatus ost_route_carry(const Route *route, size_t size, const void *values, void **arrived)
+OstStatus ost_route_carry(const OstRoute *route, size_t size, const void *values, void **arrived)
 {
     OstContext *ctx = route->ctx;
     char *outgoing = NULL;
@@ -111,10 +115,23 @@ OstStatus ost_route_carry(const Route *route, size_t size, const void *values, v
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal s = 0; s < route->sends; s++)
         memcpy(outgoing + (size_t)s * size, (const char *)values + (size_t)route->item[s] * size, size);
-    OST_TRY_DONE(ost_agree(ctx, exchange(route, size, outgoing, *arrived)));
+    OST_TRY_DONE(ost_agree(ctx, exchange(route, 0, size, outgoing, *arrived)));
 done:
     OST_FREE(outgoing);
     if (status != OST_SUCCESS)
         OST_FREE(*arrived);
+    return status;
+}
+
+OstStatus ost_route_answer(const OstRoute *route, size_t size, const void *answers, void *mine)
+{
+    OstContext *ctx = route->ctx;
+    char *arrived = NULL;
+    OstStatus status = ost_agree(ctx, ost_allocate(ctx, (size_t)route->sends, size, (void **)&arrived));
+    if (status == OST_SUCCESS)
+        status = ost_agree(ctx, exchange(route, 1, size, answers, arrived));
+    for (OstLocal s = 0; status == OST_SUCCESS && s < route->sends; s++)
+        memcpy((char *)mine + (size_t)route->item[s] * size, arrived + (size_t)s * size, size);
+    OST_FREE(arrived);
     return status;
 }

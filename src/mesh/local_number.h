@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_MESH_NUMBERING_H
-#define ORTHOSTAT_MESH_NUMBERING_H
+#ifndef ORTHOSTAT_MESH_LOCAL_NUMBER_H
+#define ORTHOSTAT_MESH_LOCAL_NUMBER_H
 
 #include "orthostat/mesh.h"
 
