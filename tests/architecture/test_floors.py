@@ -52,9 +52,10 @@ def resolve_uses(rooms, failures):
     above = []
     for room in rooms.values():
         for word in room.words:
-            floors = re.fullmatch(r"(\d)\.\.(\d)", word)
+            floors = re.fullmatch(r"(\d)(?:\.\.(\d))?", word)
             if floors:
-                room.uses |= {other.name for other in above if int(floors[1]) <= other.floor <= int(floors[2])}
+                highest = floors[2] or floors[1]
+                room.uses |= {other.name for other in above if int(floors[1]) <= other.floor <= int(highest)}
             elif word in {other.name for other in above}:
                 room.uses.add(word)
             else:
