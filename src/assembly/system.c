@@ -2,7 +2,6 @@
 #include "assembly/system.h"
 
 #include "assembly/limits.h"
-#include "assembly/pattern.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/numbering.h"
@@ -87,7 +86,7 @@ OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, Os
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, number_globally(made)));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_subset(mesh->halo, made->row_of_node, &made->matrix->halo)));
-    OST_TRY_DONE(ost_agree(ctx, ost_pattern_create(made)));
+    OST_TRY_DONE(ost_agree(ctx, ost_system_make_pattern(made)));
     *system = made;
 done:
     ost_ledger_leave(ctx);

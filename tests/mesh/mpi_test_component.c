@@ -3,22 +3,22 @@
 
 #include "mesh/mesh_support.h"
 
+#include "mesh/component.h"
 #include "mesh/lattice.h"
-#include "mesh/part.h"
 #include "orthostat/refine.h"
 
 static void check_parts(OstMesh *mesh, int expected)
 {
-    OstParts *parts = NULL;
+    OstComponents *components = NULL;
     OstGlobal tets = 0;
-    assert_success(ost_parts_create(mesh, &parts));
-    assert_int_equal(parts->count, expected);
-    for (OstLocal p = 0; p < parts->count; p++) {
-        tets += parts->part[p].tets;
-        assert_true(p == 0 || parts->part[p].first_tet > parts->part[p - 1].first_tet);
+    assert_success(ost_components_create(mesh, &components));
+    assert_int_equal(components->count, expected);
+    for (OstLocal p = 0; p < components->count; p++) {
+        tets += components->component[p].tets;
+        assert_true(p == 0 || components->component[p].first_tet > components->component[p - 1].first_tet);
     }
     assert_int_equal(tets, mesh->global_tets);
-    ost_parts_destroy(&parts);
+    ost_components_destroy(&components);
 }
 
 static void a_tube_is_one_part(void **state)
@@ -27,17 +27,17 @@ static void a_tube_is_one_part(void **state)
     const OstTubeShape tube = {1, {0.0, 0.0, 0.0}, 4.0, {0.9, 1.5}, 12, 2, 8};
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
-    OstParts *parts = NULL;
+    OstComponents *components = NULL;
     assert_success(ost_chunk_create_tube(ctx, &tube, &chunk));
     assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
-    assert_success(ost_parts_create(mesh, &parts));
-    assert_int_equal(parts->count, 1);
-    assert_int_equal(parts->part[0].tets, 6 * 12 * 2 * 8);
-    assert_int_equal(parts->part[0].first_tet, 1);
-    assert_close(parts->part[0].low[1], 0.0, 0.0);
-    assert_close(parts->part[0].high[1], 4.0, 0.0);
-    assert_close(parts->part[0].high[0], 1.5, 1e-15);
-    ost_parts_destroy(&parts);
+    assert_success(ost_components_create(mesh, &components));
+    assert_int_equal(components->count, 1);
+    assert_int_equal(components->component[0].tets, 6 * 12 * 2 * 8);
+    assert_int_equal(components->component[0].first_tet, 1);
+    assert_close(components->component[0].low[1], 0.0, 0.0);
+    assert_close(components->component[0].high[1], 4.0, 0.0);
+    assert_close(components->component[0].high[0], 1.5, 1e-15);
+    ost_components_destroy(&components);
     ost_mesh_destroy(&mesh);
 }
 
@@ -47,21 +47,21 @@ static void cells_that_touch_in_an_edge_or_a_vertex_are_parts_of_their_own(void 
     /* The first and the third share a face, the second touches the first along an edge, the fourth is apart. */
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 0, 1}, 0}, {{5, 5, 5}, 0}};
     OstMesh *mesh = lattice_mesh(4, cell, 1.0);
-    OstParts *parts = NULL;
-    assert_success(ost_parts_create(mesh, &parts));
-    assert_int_equal(parts->count, 3);
-    assert_int_equal(parts->part[0].tets, 12);
-    assert_int_equal(parts->part[1].tets, 6);
-    assert_int_equal(parts->part[2].tets, 6);
-    assert_int_equal(parts->part[1].first_tet, 7);
-    assert_int_equal(parts->part[2].first_tet, 19);
-    assert_close(parts->part[0].high[2], 2.0, 0.0);
-    assert_close(parts->part[1].low[0], 1.0, 0.0);
+    OstComponents *components = NULL;
+    assert_success(ost_components_create(mesh, &components));
+    assert_int_equal(components->count, 3);
+    assert_int_equal(components->component[0].tets, 12);
+    assert_int_equal(components->component[1].tets, 6);
+    assert_int_equal(components->component[2].tets, 6);
+    assert_int_equal(components->component[1].first_tet, 7);
+    assert_int_equal(components->component[2].first_tet, 19);
+    assert_close(components->component[0].high[2], 2.0, 0.0);
+    assert_close(components->component[1].low[0], 1.0, 0.0);
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         static const int part_of_cell[] = {0, 1, 0, 2};
-        assert_int_equal(parts->of_tet[t], part_of_cell[(mesh->tet_label[t] - 1) / 6]);
+        assert_int_equal(components->of_tet[t], part_of_cell[(mesh->tet_label[t] - 1) / 6]);
     }
-    ost_parts_destroy(&parts);
+    ost_components_destroy(&components);
     ost_mesh_destroy(&mesh);
 }
 
@@ -111,10 +111,10 @@ static void doubled_and_overlapping_tets_are_refused_by_label(void **state)
     for (int i = 0; i < 2; i++) {
         OstMeshChunk *chunk = hand_chunk(4, 5, x, bad[i].tets, bad[i].nodes);
         OstMesh *mesh = NULL;
-        OstParts *parts = NULL;
+        OstComponents *components = NULL;
         assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
-        assert_failure(ost_parts_create(mesh, &parts), OST_INVALID_INPUT, bad[i].message);
-        assert_null(parts);
+        assert_failure(ost_components_create(mesh, &components), OST_INVALID_INPUT, bad[i].message);
+        assert_null(components);
         ost_mesh_destroy(&mesh);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_MESH_PART_FACES_H
-#define ORTHOSTAT_MESH_PART_FACES_H
+#ifndef ORTHOSTAT_MESH_COMPONENT_FACES_H
+#define ORTHOSTAT_MESH_COMPONENT_FACES_H
 
 #include "orthostat/mesh.h"
 
@@ -12,6 +12,6 @@ typedef struct OstOverlap {
 
 /* Local. Joins the tets held here through those faces that touch an owned node (the tets on both sides of these are
  * here), and numbers the sets: set[t] in 0 .. *set_count - 1. */
-OstStatus ost_part_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap);
+OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap);
 
 #endif

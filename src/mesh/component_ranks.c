@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/part_ranks.h"
+#include "mesh/component_ranks.h"
 
 #include "core/error.h"
 #include "core/gather.h"
@@ -173,8 +173,8 @@ static OstStatus join_everywhere(OstContext *ctx, const Links *mine, OstLocal *p
 {
     Link *all = NULL;
     OstLocal total = 0;
-    OST_TRY(ost_gather_items(ctx, sizeof *all, mine->link, mine->count, "the mesh falls into too many parts to count",
-                             (void **)&all, &total));
+    OST_TRY(ost_gather_items(ctx, sizeof *all, mine->link, mine->count,
+                             "the mesh falls into too many components to count", (void **)&all, &total));
     for (OstLocal i = 0; i < total; i++)
         ost_set_join(parent, all[i].a, all[i].b);
     OST_FREE(all);
@@ -190,7 +190,7 @@ static OstStatus shift_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *s
     OST_TRY(ost_number_from(ctx, set_count, &before, &sum));
     if (sum > INT32_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "the mesh falls into %lld parts, more than the %d that can be told apart", (long long)sum,
+                         "the mesh falls into %lld components, more than the %d that can be told apart", (long long)sum,
                          INT32_MAX);
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         set[t] += (OstLocal)before;
@@ -198,7 +198,7 @@ static OstStatus shift_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *s
     return OST_SUCCESS;
 }
 
-OstStatus ost_part_ranks_merge(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *count)
+OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *count)
 {
     OstContext *ctx = mesh->ctx;
     SharedTet *arrived = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/part_faces.h"
+#include "mesh/component_faces.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -103,7 +103,7 @@ static OstStatus file_all(const OstMesh *mesh, FaceChains *chains, OstLocal *par
     return OST_SUCCESS;
 }
 
-OstStatus ost_part_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap)
+OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap)
 {
     FaceChains chains = {0};
     OstStatus status = OST_SUCCESS;
