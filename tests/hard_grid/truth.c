@@ -83,16 +83,16 @@ static OstStatus find_errors(HardDirect *direct, const OstResult *result, const 
  * solved in double-double precision. u is u* with its ghosts; `direct->u` becomes the change by the last sample. */
 static OstStatus try_roundings(HardDirect *direct, const double *u, double *force, HardTruth *truth)
 {
-    OstThrows throws = {0, 0.0};
+    OstSamples samples = {0, 0.0};
     int known = 1;
-    while (known && ost_throws_undecided(&throws, hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
+    while (known && ost_samples_undecided(&samples, hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
         double moved;
-        ost_rounded_stiffness_force(direct->system->matrix, u, FIRST_ROUNDING + throws.count, force);
+        ost_rounded_stiffness_force(direct->system->matrix, u, FIRST_ROUNDING + samples.count, force);
         OST_TRY(hard_direct_solve(direct, force, roughly, NULL, &known));
         OST_TRY(hard_direct_size(direct, &moved));
-        ost_throws_add(&throws, moved / truth->size);
+        ost_samples_add(&samples, moved / truth->size);
     }
-    truth->rounded = known ? ost_throws_size(&throws) : NAN;
+    truth->rounded = known ? ost_samples_size(&samples) : NAN;
     return OST_SUCCESS;
 }
 
