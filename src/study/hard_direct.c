@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
 #include "solve/boundary_conditions.h"
 
 #include <math.h>
@@ -92,7 +91,7 @@ static OstStatus sum_products(const OstHardDirect *direct, const double *a, cons
     *sum = 0.0;
     for (size_t i = 0; i < direct->n; i++)
         *sum += a[i] * b[i];
-    return ost_sum(direct->ctx, 1, sum);
+    return OST_MPI(direct->ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(direct->ctx)));
 }
 
 OstStatus ost_hard_direct_norm(const OstHardDirect *direct, const double *v, double *norm)
@@ -108,7 +107,7 @@ OstStatus ost_hard_direct_size(OstHardDirect *direct, double *norm)
     double square = 0.0;
     for (size_t i = 0; i < direct->n; i++)
         square += direct->u[i].high * direct->u[i].high;
-    OST_TRY(ost_sum(direct->ctx, 1, &square));
+    OST_TRY(OST_MPI(direct->ctx, MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, ost_comm(direct->ctx))));
     *norm = sqrt(square);
     return OST_SUCCESS;
 }
