@@ -2,7 +2,6 @@
 #include "solve/free_body.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
 #include "core/small.h"
 
 #include <string.h>
@@ -42,7 +41,7 @@ static OstStatus find_farthest(const OstMesh *mesh, const Reach *reach, OstLocal
     double farthest = 0.0;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         farthest = fmax(farthest, distance(reach, mesh->coordinates + 3 * (size_t)n));
-    OST_TRY(ost_max(ctx, 1, &farthest));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
     OstGlobal lowest = INT64_MAX;
     *node = -1;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
@@ -53,7 +52,7 @@ static OstStatus find_farthest(const OstMesh *mesh, const Reach *reach, OstLocal
         *node = n;
     }
     OstGlobal first = lowest;
-    OST_TRY(ost_min_numbers(ctx, 1, &first));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&lowest, &first, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
     int owner = lowest == first && *node >= 0 ? ost_rank(ctx) : ost_size(ctx);
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, ost_comm(ctx))));
     if (owner == ost_rank(ctx))
@@ -157,7 +156,7 @@ OstStatus ost_free_body_check_loads(const OstMesh *mesh, const double *force, co
         centre[i] = 0.5 * (low[i] + high[i]);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_load(mesh->coordinates + 3 * (size_t)n, force + 3 * (size_t)n, centre, sums);
-    OST_TRY(ost_sum(ctx, SUM_COUNT, sums));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
     double *f = sums + SUM_FORCE;
     double *m = sums + SUM_MOMENT;
     if (ost_norm3(f) <= balance * sums[SUM_FORCE_SIZE] && ost_norm3(m) <= balance * sums[SUM_MOMENT_SIZE])
@@ -207,7 +206,7 @@ OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
     double centre[3], mean[3], rotation[3];
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         add_tet(mesh, mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet, displacement, sums);
-    OST_TRY(ost_sum(mesh->ctx, SUM_BODY, sums));
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_BODY, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
     for (int i = 0; i < 3; i++) {
         centre[i] = sums[SUM_PLACE + i] / sums[SUM_VOLUME];
         mean[i] = sums[SUM_MOVE + i] / sums[SUM_VOLUME];

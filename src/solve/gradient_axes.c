@@ -9,7 +9,6 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
 
 #include <string.h>
 
@@ -61,7 +60,7 @@ static OstStatus find_shared(const OstScene *scene, OstPlace place, const OstAxe
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         if (flags[0][n] && flags[1][n] && mesh->node_label[n] < *shared)
             *shared = mesh->node_label[n];
-    status = ost_min_numbers(scene->ctx, 1, shared);
+    status = OST_MPI(scene->ctx, MPI_Allreduce(MPI_IN_PLACE, shared, 1, MPI_INT64_T, MPI_MIN, ost_comm(scene->ctx)));
 done:
     OST_FREE(flags[0]);
     OST_FREE(flags[1]);

@@ -2,7 +2,6 @@
 #include "solve/number_range.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
 
 #include <math.h>
 
@@ -53,7 +52,7 @@ OstStatus ost_number_range_check(const OstSystem *system, const double *rhs, con
     largest[0] = largest_of(3 * (size_t)matrix->rows, rhs);
     diagonal_range(matrix, &low, &largest[1]);
     largest[2] = 1.0 / low;
-    OST_TRY(ost_max(ctx, 3, largest));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
     if (matrix->global_rows == 0)
         return OST_SUCCESS;
     OST_TRY(check(ctx, where, "stiffest nodes", largest[1]));

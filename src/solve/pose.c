@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/free_memory.h"
 #include "core/memory.h"
-#include "core/reduce.h"
 #include "core/small.h"
 #include "orthostat/scene.h"
 #include "solve/boundary_conditions.h"
@@ -129,8 +128,7 @@ static OstStatus find_facts(const OstScene *scene, const Work *work, OstSolverFa
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         worst =
             fmin(worst, ost_tet_quality(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)t));
-    facts->quality = worst;
-    OST_TRY(ost_min(ctx, 1, &facts->quality));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&worst, &facts->quality, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
     return ost_memory_free(ctx, &facts->free_memory);
 }
 
@@ -190,7 +188,7 @@ static OstStatus describe_rhs(const Work *work, OstSolvedFor *rhs)
         sums[1] += work->rhs[i] * work->v[i];
     }
     OstContext *ctx = work->system->ctx;
-    OST_TRY(ost_sum(ctx, 2, sums));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
     *rhs = (OstSolvedFor){sqrt(sums[0]), sums[1]};
     return OST_SUCCESS;
 }

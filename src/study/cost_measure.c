@@ -2,7 +2,6 @@
 #include "study/cost.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
 
 #include <string.h>
 
@@ -56,9 +55,10 @@ static OstStatus read_meter(OstContext *ctx, const Meter *meter, OstCostRun *run
     memset(run->phase, 0, sizeof run->phase);
     for (int a = 0; a < OST_LEDGER_COUNT; a++)
         run->phase[phase_of[a]] += ost_ledger_entry(ctx, (OstAccount)a).seconds - meter->seconds[a];
-    OST_TRY(ost_max(ctx, 1, &run->seconds));
-    OST_TRY(ost_max(ctx, OST_COST_PHASES, run->phase));
-    return ost_sum(ctx, 1, &run->bytes);
+    MPI_Comm comm = ost_comm(ctx);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->seconds, 1, MPI_DOUBLE, MPI_MAX, comm)));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, run->phase, OST_COST_PHASES, MPI_DOUBLE, MPI_MAX, comm)));
+    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
 }
 
 static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)

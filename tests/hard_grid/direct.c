@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
 #include "solve/boundary_conditions.h"
 
 #include <math.h>
@@ -91,7 +90,7 @@ static OstStatus sum_products(const HardDirect *direct, const double *a, const d
     *sum = 0.0;
     for (size_t i = 0; i < direct->n; i++)
         *sum += a[i] * b[i];
-    return ost_sum(direct->ctx, 1, sum);
+    return OST_MPI(direct->ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(direct->ctx)));
 }
 
 OstStatus hard_direct_norm(const HardDirect *direct, const double *v, double *norm)
@@ -107,7 +106,7 @@ OstStatus hard_direct_size(HardDirect *direct, double *norm)
     double square = 0.0;
     for (size_t i = 0; i < direct->n; i++)
         square += direct->u[i].high * direct->u[i].high;
-    OST_TRY(ost_sum(direct->ctx, 1, &square));
+    OST_TRY(OST_MPI(direct->ctx, MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, ost_comm(direct->ctx))));
     *norm = sqrt(square);
     return OST_SUCCESS;
 }
