@@ -101,7 +101,7 @@ static int says_exact(const OstCase *c)
 static OstStatus dry_run(const OstScene *scene)
 {
     const OstCase *c = scene->c;
-    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_rehearse(scene);
+    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_dry_run(scene);
 }
 
 static void look_for_oddities(const OstScene *scene, const Findings *findings)
