@@ -12,6 +12,7 @@ LIBRARIES = {
     "Orthostat::Trilinos": (r"(ml_|az_|Epetra|Amesos|Aztec|Teuchos|Ifpack|Tpetra|MueLu|Belos)", "algebra/trilinos"),
     "Orthostat::HDF5": (r"(hdf5|H5)", "formats"),
     "Orthostat::GmshHeader": (r"gmsh", "formats"),
+    "Orthostat::ZLIB": (r"zlib\.h", "formats"),
     "Orthostat::METIS": (r"(par)?metis\.h", "mesh"),
     "Orthostat::YAML": (r"yaml\.h", "case"),
     "Orthostat::MUMPS": (r".mumps", "algebra/direct"),
