@@ -44,10 +44,7 @@ orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
 orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
 
 # Parallel HDF5 goes by its own names, beside a serial one.
-pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi)
-if(NOT ORTHOSTAT_HDF5_FOUND)
-  pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-mpi)
-endif()
+pkg_search_module(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi hdf5-mpich hdf5-mpi)
 if(NOT ORTHOSTAT_HDF5_FOUND)
   orthostat_missing("parallel HDF5" libhdf5-openmpi-dev)
 endif()

@@ -6,6 +6,8 @@
 #include "orthostat/effect.h"
 #include "orthostat/material.h"
 
+OST_API_BEGIN
+
 /* Elasticity and axes of every tet of a rank's piece, holding no more than the scene calls for: an isotropic body
  * carries no axes; a region with fixed axes one rotated tensor; only regions whose axes vary keep axes by tet. */
 typedef struct OstMaterialField {
@@ -87,5 +89,7 @@ const double *ost_field_stiff_mode(const OstMaterialField *field, int32_t region
 const double *ost_field_rest(const OstMaterialField *field, int32_t region);
 
 void ost_field_destroy(OstMaterialField **field);
+
+OST_API_END
 
 #endif

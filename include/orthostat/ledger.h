@@ -6,6 +6,8 @@
 
 #include <stddef.h>
 
+OST_API_BEGIN
+
 /* The ledger books every second and every byte of a run to an account: a phase of the work, or an effect of the scene
  * (orthostat/effect.h). Seconds are exclusive: entering an account stops the clock of the one around it, so the
  * accounts add up to the whole run. Bytes are booked to the account that is open when they are allocated. What is done
@@ -63,5 +65,7 @@ size_t ost_ledger_peak_bytes(const struct OstContext *ctx);
 /* Local. Forgets the peaks so far, of all accounts: what is held now is the peak until more is. For measuring one of
  * several runs in one context. */
 void ost_ledger_restart_peak(struct OstContext *ctx);
+
+OST_API_END
 
 #endif

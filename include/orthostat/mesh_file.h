@@ -5,6 +5,8 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 
+OST_API_BEGIN
+
 /* Materials that came with a mesh (.veg): for each region its material and axes; the same on every rank. count is 0
  * where the format has none. */
 typedef struct OstFileMaterials {
@@ -33,5 +35,7 @@ OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *cou
  * rank 0 reads and hands each rank the lines of the given labels (1-based line numbers). */
 OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal lines, OstLocal count,
                          const OstGlobal *labels, double *values);
+
+OST_API_END
 
 #endif

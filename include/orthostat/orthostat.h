@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_H
-#define ORTHOSTAT_H
+#ifndef ORTHOSTAT_ORTHOSTAT_H
+#define ORTHOSTAT_ORTHOSTAT_H
 
 #include "orthostat/analysis.h"
 #include "orthostat/axes.h"

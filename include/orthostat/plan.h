@@ -6,6 +6,8 @@
 #include "orthostat/effect.h"
 #include "orthostat/mesh_file.h"
 
+OST_API_BEGIN
+
 /* The work a case calls for: every effect, on or off with the reason, and the size of the job, foreseen before anything
  * large is allocated. */
 
@@ -53,11 +55,13 @@ int ost_plan_acts(const OstCase *c, const OstPlan *plan);
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 
 /* Local. Raises OST_LIMIT_EXCEEDED with the limit where the libraries below cannot number the unknowns of a mesh of so
- * many nodes, on however many ranks. */
+ * many nodes, on however many ranks; OST_INVALID_INPUT where the case leaves its mesh to a program. */
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
 
 /* Local. Turns the counts of a mesh file into those of the mesh that the case makes of it, refined and in its order:
  * the tets exactly, the nodes about. */
 void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets);
+
+OST_API_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "orthostat/problem.h"
 #include "orthostat/result.h"
 
+OST_API_BEGIN
+
 /* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
 typedef struct OstScene {
     OstContext *ctx;
@@ -46,5 +48,7 @@ const char *ost_result_status(const OstResult *result);
  * attribute Status of /VTKHDF (as ost_result_status gives it), field data `refused`, the reasons in
  * /Orthostat/Objections. */
 OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path);
+
+OST_API_END
 
 #endif

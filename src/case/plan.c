@@ -98,6 +98,11 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
 {
     const OstGlobal most = INT32_MAX / 3;
+    if (c->mesh_kind == OST_MESH_FROM_PROGRAM)
+        return ost_case_located(c, c->mesh_place,
+                                OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                                          "the case leaves its mesh to a program (ost_scene_create_on), and there is "
+                                          "none here; name a shape or a file"));
     if (nodes <= most)
         return OST_SUCCESS;
     return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,

@@ -91,7 +91,7 @@ static int is_list_of(const OstSelection *on, const char *path)
     return is_same_existing_file(path, on->vertices_file);
 }
 
-/* What the case reads that lies here, in words; or NULL. */
+/* Names the file that the case reads at this path; NULL if it reads none there. */
 static const char *input_at(const OstCase *c, const char *path)
 {
     if (is_same_existing_file(path, c->path))

@@ -4,13 +4,12 @@
 #include "core/error.h"
 #include "core/json_file.h"
 
-#include <math.h>
 #include <stdio.h>
 
 /* An object or array that could not be made becomes NULL, which jansson's setters pass on as failure. */
 static int add_number(json_t *object, const char *key, double value)
 {
-    return json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+    return json_object_set_new(object, key, ost_json_number(value));
 }
 
 static json_t *numbers(int count, const double *values)

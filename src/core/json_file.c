@@ -4,6 +4,13 @@
 #include "core/error.h"
 #include "core/write_aside.h"
 
+#include <math.h>
+
+json_t *ost_json_number(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
 typedef struct Document {
     OstContext *ctx;
     const json_t *root;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/chunk_share.h"
 #include "formats/gmsh_mesh.h"
 #include "formats/tet_list.h"
+#include "mesh/names.h"
 
 #include <inttypes.h>
 #include <limits.h>

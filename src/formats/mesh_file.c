@@ -3,9 +3,10 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/chunk_share.h"
+#include "formats/file_materials.h"
 #include "formats/serial.h"
 #include "formats/vtkhdf.h"
+#include "mesh/share.h"
 
 #include <string.h>
 #include <strings.h>

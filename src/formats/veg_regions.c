@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/chunk_share.h"
 #include "formats/veg.h"
+#include "mesh/names.h"
 
 #include <inttypes.h>
 #include <limits.h>

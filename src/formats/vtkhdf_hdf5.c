@@ -3,6 +3,8 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,12 +18,9 @@ static const size_t default_block_bytes = (size_t)1 << 30;
 OstStatus ost_rows_create(OstContext *ctx, OstGlobal count, OstRows *rows)
 {
     *rows = (OstRows){.count = count};
-    MPI_Comm comm = ost_comm(ctx);
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&count, &rows->first, 1, MPI_INT64_T, MPI_SUM, comm)));
-    if (ost_rank(ctx) == 0) /* MPI leaves it undefined there */
-        rows->first = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&count, &rows->total, 1, MPI_INT64_T, MPI_SUM, comm)));
-    return OST_MPI(ctx, MPI_Allreduce(&count, &rows->most, 1, MPI_INT64_T, MPI_MAX, comm));
+    rows->most = count;
+    OST_TRY(ost_number_from(ctx, count, &rows->first, &rows->total));
+    return ost_max_numbers(ctx, 1, &rows->most);
 }
 
 /* The first entry of a walk upward is the innermost function's. */

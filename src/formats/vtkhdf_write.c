@@ -2,6 +2,7 @@
 #include "formats/vtkhdf.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 #include "core/write_aside.h"
 #include "formats/disk_space.h"
 #include "formats/vtkhdf_groups.h"
@@ -164,7 +165,7 @@ static OstStatus find_bytes(const OstMesh *mesh, int count, const OstOutputArray
 {
     static const double for_hdf5 = 1 << 18; /* measured: 30 kB */
     double sum = piece_bytes(mesh, count, arrays);
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
+    OST_TRY(ost_sum(mesh->ctx, 1, &sum));
     *bytes = (OstGlobal)(sum + for_hdf5);
     return OST_SUCCESS;
 }

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "orthostat/refine.h"
 #include "problem/coarse_parents.h"
 
@@ -29,7 +30,7 @@ static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
         const OstLocal index = space->supports->index[vertex];
         *has = index < 0 || space->supports->support[index].held < 3;
     }
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, has, 1, MPI_INT, MPI_MAX, ost_comm(ctx)));
+    return ost_max_ints(ctx, 1, has);
 }
 
 static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, const OstMaterialField *field,

@@ -43,6 +43,8 @@ static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMater
         return ost_chunk_create_octant(c->ctx, &c->octant, chunk);
     case OST_MESH_FILE:
         return ost_case_located(c, c->mesh_place, ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials));
+    case OST_MESH_FROM_PROGRAM: /* refused by ost_plan_check_size */
+        break;
     }
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
 }

@@ -204,7 +204,7 @@ def a_place_between_vertices_is_pointed_out(folder):
     write(folder, "watch.yaml", CASE + "watch: {tip: {displacement: {nearest: [2, 0.5, 0.5]}, component: z}}\n")
     for command in "solve", "check":
         finished = run(command, "watch.yaml", ranks=2, folder=folder)
-        check(finished.exit_code == 0 and finished.errors.count("'tip' is watched at (2, ") == 1,
+        check(finished.exit_code == 0 and finished.errors.count("'tip' is taken at (2, ") == 1,
               f"{command}: {finished.errors}")
     write(folder, "watch.yaml", CASE + "watch: {tip: {displacement: {nearest: [2, 1, 1]}, component: z}}\n")
     check(not run("solve", "watch.yaml", folder=folder).errors, "a vertex is watched where it lies")
