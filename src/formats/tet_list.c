@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/small.h"
 #include "formats/label_index.h"
 
 #include <inttypes.h>
@@ -37,6 +38,50 @@ OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path)
 done:
     ost_label_index_clear(&index);
     return status;
+}
+
+static double volume(const OstMeshChunk *chunk, const OstGlobal *nodes)
+{
+    double edge[9];
+    const double *x = chunk->coordinates;
+    for (int e = 0; e < 3; e++)
+        for (int d = 0; d < 3; d++)
+            edge[3 * e + d] = x[3 * nodes[e + 1] + d] - x[3 * nodes[0] + d];
+    return ost_determinant3(edge);
+}
+
+static void swap(OstGlobal *a, OstGlobal *b)
+{
+    const OstGlobal kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Exchanges vertices 1 and 2, and so the mid-edge nodes 01 with 02 and 13 with 23. */
+static void turn(OstGlobal *nodes, int nodes_per_tet)
+{
+    swap(&nodes[1], &nodes[2]);
+    if (nodes_per_tet == 10) {
+        swap(&nodes[4], &nodes[6]);
+        swap(&nodes[8], &nodes[9]);
+    }
+}
+
+void ost_tets_turn(OstMeshChunk *chunk, const char *path)
+{
+    const size_t width = (size_t)chunk->nodes_per_tet, count = (size_t)chunk->tet_count;
+    int inverted = 0;
+    for (size_t t = 0; t < count; t++) {
+        const double signed_volume = volume(chunk, chunk->tet_nodes + t * width);
+        if (!(signed_volume <= 0.0))
+            return;
+        inverted |= signed_volume < 0.0;
+    }
+    if (!inverted)
+        return;
+    for (size_t t = 0; t < count; t++)
+        turn(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
+    ost_warn(chunk->ctx, "%s: all its tets are numbered the other way round; they were turned", path);
 }
 
 /* A tet's vertices in ascending order, and which tet it is. */
