@@ -23,12 +23,13 @@ typedef struct OstMshType {
     int dimension, nodes;
     const char *shape;
 } OstMshType;
+extern const OstMshType ost_msh_types[OST_MSH_TYPES];
 
 /* A line of $PhysicalNames. */
 typedef struct OstMshName {
     int dimension; /* -1: any; version 2.0 does not say */
     int tag;
-    char *text;
+    OstMshText text;
 } OstMshName;
 
 /* Elements of one dimension and physical tag: a region, or a boundary with its nodes. */
@@ -44,9 +45,10 @@ typedef struct OstMshGroup {
 typedef struct OstMsh {
     OstMshCursor cursor;
     int version; /* 10, 20, 21, 22, 40 or 41 */
+    int stage;   /* how far the sections are read */
     OstMeshChunk *chunk;
     OstLabelIndex nodes;           /* tag to position, once all are read */
-    OstGlobal elements;            /* that the file states; -1 before it does */
+    OstGlobal elements;            /* that the file states */
     OstLocal room;                 /* tets that have room */
     OstGlobal read[OST_MSH_TYPES]; /* elements of each type */
     int tet_type;                  /* of the first tet */
@@ -55,6 +57,7 @@ typedef struct OstMsh {
     OstMshName *name;
     int group_count;
     OstMshGroup *group; /* volumes first, points last; by tag */
+    OstGlobal ghosts;   /* elements that other partitions have too, and are left out */
     OstGlobal items;    /* in groups of dimension 0 to 2 */
     /* Entities of version 4, and the physical groups they belong to. */
     OstGlobal entity_count;
@@ -65,17 +68,22 @@ typedef struct OstMsh {
 } OstMsh;
 
 /* Local. The sections of versions 1 and 2 (4), behind the line that names them. */
-OstStatus ost_msh2_nodes(OstMsh *msh, int parametric);
+OstStatus ost_msh2_nodes(OstMsh *msh);
+OstStatus ost_msh2_parametric_nodes(OstMsh *msh);
 OstStatus ost_msh2_elements(OstMsh *msh);
-OstStatus ost_msh4_entities(OstMsh *msh, int partitioned);
+OstStatus ost_msh4_entities(OstMsh *msh);
+OstStatus ost_msh4_partitioned_entities(OstMsh *msh);
 OstStatus ost_msh4_nodes(OstMsh *msh);
 OstStatus ost_msh4_elements(OstMsh *msh);
 
-/* Local. One of Gmsh's element types, or a failure that names it. */
-OstStatus ost_msh_type(const OstMsh *msh, int type, const OstMshType **facts);
+/* Local. Raises if it is none of those types. */
+OstStatus ost_msh_check_type(const OstMsh *msh, int type);
 
 /* Local. Makes room for the nodes that a section states. */
 OstStatus ost_msh_reserve_nodes(OstMsh *msh, OstGlobal count);
+
+/* Local. Makes nodes known by their tags, once all are read; raises if two share one. */
+OstStatus ost_msh_index_nodes(OstMsh *msh);
 
 /* Local. Takes a node, or an element with its physical tags (of either sign, 0 for none). */
 OstStatus ost_msh_add_node(OstMsh *msh, OstGlobal tag, const double x[3]);

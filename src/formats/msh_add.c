@@ -13,22 +13,23 @@
 /* An element may be in many groups, but not so often that its share of the file is less than some bytes. */
 enum { FIRST_ROOM = 64, SMALLEST_SHARE = 4 };
 
-OstStatus ost_msh_type(const OstMsh *msh, int type, const OstMshType **facts)
+static const char point[] = "Point", line[] = "Line", triangle[] = "Triangle", quad[] = "Quadrilateral",
+                  tet[] = "Tetrahedron", hex[] = "Hexahedron", prism[] = "Prism", pyramid[] = "Pyramid";
+
+const OstMshType ost_msh_types[OST_MSH_TYPES] = {
+    {0, 0, ""},        {1, 2, line},      {2, 3, triangle}, {2, 4, quad},      {3, 4, tet},       {3, 8, hex},
+    {3, 6, prism},     {3, 5, pyramid},   {1, 3, line},     {2, 6, triangle},  {2, 9, quad},      {3, 10, tet},
+    {3, 27, hex},      {3, 18, prism},    {3, 14, pyramid}, {0, 1, point},     {2, 8, quad},      {3, 20, hex},
+    {3, 15, prism},    {3, 13, pyramid},  {2, 9, triangle}, {2, 10, triangle}, {2, 12, triangle}, {2, 15, triangle},
+    {2, 15, triangle}, {2, 21, triangle}, {1, 4, line},     {1, 5, line},      {1, 6, line},      {3, 20, tet},
+    {3, 35, tet},      {3, 56, tet}};
+
+OstStatus ost_msh_check_type(const OstMsh *msh, int type)
 {
-    static const char line[] = "Line", triangle[] = "Triangle", quad[] = "Quadrilateral", tet[] = "Tetrahedron",
-                      hex[] = "Hexahedron", prism[] = "Prism", pyramid[] = "Pyramid", point[] = "Point";
-    static const OstMshType types[OST_MSH_TYPES] = {
-        {0, 0, ""},        {1, 2, line},      {2, 3, triangle}, {2, 4, quad},      {3, 4, tet},       {3, 8, hex},
-        {3, 6, prism},     {3, 5, pyramid},   {1, 3, line},     {2, 6, triangle},  {2, 9, quad},      {3, 10, tet},
-        {3, 27, hex},      {3, 18, prism},    {3, 14, pyramid}, {0, 1, point},     {2, 8, quad},      {3, 20, hex},
-        {3, 15, prism},    {3, 13, pyramid},  {2, 9, triangle}, {2, 10, triangle}, {2, 12, triangle}, {2, 15, triangle},
-        {2, 15, triangle}, {2, 21, triangle}, {1, 4, line},     {1, 5, line},      {1, 6, line},      {3, 20, tet},
-        {3, 35, tet},      {3, 56, tet}};
-    if (type < 1 || type >= OST_MSH_TYPES)
-        return OST_RAISE_MSH(&msh->cursor,
-                             "element of type %d found, expected tets (types 4 and 11) and what bounds them", type);
-    *facts = &types[type];
-    return OST_SUCCESS;
+    if (type >= 1 && type < OST_MSH_TYPES)
+        return OST_SUCCESS;
+    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected tets (types 4 and 11) and what bounds them",
+                         type);
 }
 
 OstStatus ost_msh_reserve_nodes(OstMsh *msh, OstGlobal count)
@@ -50,6 +51,16 @@ OstStatus ost_msh_add_node(OstMsh *msh, OstGlobal tag, const double x[3])
     chunk->node_label[chunk->node_count] = tag;
     memcpy(chunk->coordinates + 3 * (size_t)chunk->node_count++, x, 3 * sizeof *x);
     return OST_SUCCESS;
+}
+
+OstStatus ost_msh_index_nodes(OstMsh *msh)
+{
+    const OstMeshChunk *chunk = msh->chunk;
+    OST_TRY(ost_label_index_create(chunk->ctx, chunk->node_count, chunk->node_label, &msh->nodes));
+    if (!msh->nodes.repeated)
+        return OST_SUCCESS;
+    return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: node tag %" PRId64 " is given to two nodes", msh->cursor.path,
+                     msh->nodes.repeated_label);
 }
 
 /* Half as many again. */
@@ -130,8 +141,9 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal 
 }
 
 /* Of elements of several types in a group the first, and then one that differs, is remembered. */
-static OstStatus add_item(OstMsh *msh, const OstMshType *facts, int type, const OstGlobal *nodes, int tag)
+static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag)
 {
+    const OstMshType *facts = &ost_msh_types[type];
     OstMshGroup *group = NULL;
     if (++msh->items > (msh->cursor.end - msh->cursor.bytes) / SMALLEST_SHARE)
         return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
@@ -154,8 +166,7 @@ static OstStatus add_item(OstMsh *msh, const OstMshType *facts, int type, const 
 OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
                               const int *groups)
 {
-    const OstMshType *facts = NULL;
-    OST_TRY(ost_msh_type(msh, type, &facts));
+    const OstMshType *facts = &ost_msh_types[type];
     if (tag < 0)
         return OST_RAISE_MSH(&msh->cursor, "element tag %" PRId64 " found, expected 0 or more", tag);
     msh->read[type]++;
@@ -167,6 +178,6 @@ OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlo
     }
     for (OstGlobal i = 0; i < group_count && facts->dimension < 3; i++)
         if (groups[i] != 0)
-            OST_TRY(add_item(msh, facts, type, nodes, abs(groups[i])));
+            OST_TRY(add_item(msh, type, nodes, abs(groups[i])));
     return OST_SUCCESS;
 }

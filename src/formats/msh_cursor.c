@@ -156,10 +156,13 @@ static OstStatus read_bytes(OstMshCursor *cursor, const char *what, size_t size,
 OstStatus ost_msh_int(OstMshCursor *cursor, const char *what, int *value)
 {
     OstGlobal number = 0;
-    if (cursor->binary)
-        return read_bytes(cursor, what, sizeof *value, value);
-    OST_TRY(read_text_integer(cursor, what, INT_MIN, INT_MAX, &number));
+    if (!cursor->binary)
+        OST_TRY(read_text_integer(cursor, what, -INT_MAX, INT_MAX, &number));
     *value = (int)number;
+    if (cursor->binary)
+        OST_TRY(read_bytes(cursor, what, sizeof *value, value));
+    if (*value == INT_MIN)
+        return OST_RAISE_MSH(cursor, "%d found, expected %s", *value, what);
     return OST_SUCCESS;
 }
 

@@ -20,8 +20,8 @@ typedef struct OstMshCursor {
 OstStatus ost_msh_open(OstContext *ctx, const char *path, OstMshCursor *cursor);
 void ost_msh_close(OstMshCursor *cursor);
 
-/* Local. The next number, of the type that the format names int, size_t and double; `what` names it in messages. A
- * size_t is at most OST_LARGEST_LABEL. */
+/* Local. The next number, of the type that the format names int, size_t and double; `what` names it in messages. An
+ * int is more than INT_MIN, a size_t at most OST_LARGEST_LABEL. */
 OstStatus ost_msh_int(OstMshCursor *cursor, const char *what, int *value);
 OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value);
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value);

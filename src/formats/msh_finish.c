@@ -15,28 +15,15 @@
 
 static const char *const kind[] = {"points", "curves", "faces"};
 
-/* Gmsh's name of an element type, such as "Hexahedron 8". */
-static const char *type_name(const OstMsh *msh, int type, char text[32])
-{
-    const OstMshType *facts = NULL;
-    if (ost_msh_type(msh, type, &facts) == OST_SUCCESS)
-        snprintf(text, 32, facts->dimension > 0 ? "%s %d" : "%s", facts->shape, facts->nodes);
-    return text;
-}
-
 static OstStatus check_volume_elements(const OstMsh *msh)
 {
     OstContext *ctx = msh->cursor.ctx;
-    const OstMshType *facts = NULL;
-    char name[32] = "";
-    for (int type = 1; type < OST_MSH_TYPES; type++) {
-        OST_TRY(ost_msh_type(msh, type, &facts));
-        if (msh->read[type] > 0 && facts->dimension == 3 && type != OST_MSH_TET4 && type != OST_MSH_TET10)
+    for (int type = 1; type < OST_MSH_TYPES; type++)
+        if (msh->read[type] > 0 && ost_msh_types[type].dimension == 3 && type != OST_MSH_TET4 && type != OST_MSH_TET10)
             return OST_RAISE(ctx, OST_INVALID_INPUT,
-                             "%s: holds %" PRId64 " elements of Gmsh's type '%s', expected tets of 4 or of 10 nodes "
+                             "%s: holds %" PRId64 " elements of Gmsh's type '%s %d', expected tets of 4 or of 10 nodes "
                              "only; split or remesh the body with tets",
-                             msh->cursor.path, msh->read[type], type_name(msh, type, name));
-    }
+                             msh->cursor.path, msh->read[type], ost_msh_types[type].shape, ost_msh_types[type].nodes);
     if (msh->read[OST_MSH_TET4] > 0 && msh->read[OST_MSH_TET10] > 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
@@ -65,13 +52,12 @@ static OstStatus size_tets(OstMsh *msh)
 static OstStatus copy_group_name(const OstMsh *msh, int dimension, int tag, char **name)
 {
     static const char *const entity[] = {"point", "curve", "surface", "volume"};
-    char made[32];
-    snprintf(made, sizeof made, "%s-%d", entity[dimension], tag);
-    const char *text = made;
-    for (int i = 0; i < msh->name_count; i++)
-        if (msh->name[i].tag == tag && (msh->name[i].dimension == dimension || msh->name[i].dimension < 0) &&
-            msh->name[i].text[0] != '\0')
-            text = msh->name[i].text;
+    char text[256] = "";
+    for (const OstMshName *n = msh->name; n < msh->name + msh->name_count; n++)
+        if (n->tag == tag && (n->dimension == dimension || n->dimension < 0))
+            snprintf(text, sizeof text, "%.*s", n->text.length, n->text.start);
+    if (text[0] == '\0')
+        snprintf(text, sizeof text, "%s-%d", entity[dimension], tag);
     return ost_copy_string(msh->cursor.ctx, text, name);
 }
 
@@ -127,13 +113,12 @@ static OstStatus check_group(const OstMsh *msh, const OstMshGroup *group, const 
                                     {OST_MSH_POINT, OST_MSH_LINE3, OST_MSH_TRIANGLE6}};
     const int expected = types[msh->tet_type == OST_MSH_TET10][group->dimension];
     const int found = group->type != expected ? group->type : group->other_type;
-    char found_name[32] = "", expected_name[32] = "";
     if (found == 0)
         return OST_SUCCESS;
     return OST_RAISE(msh->cursor.ctx, OST_INVALID_INPUT,
-                     "%s: boundary '%s' holds elements of Gmsh's type '%s', expected '%s' as on tets of %d nodes",
-                     msh->cursor.path, name, type_name(msh, found, found_name), type_name(msh, expected, expected_name),
-                     msh->chunk->nodes_per_tet);
+                     "%s: boundary '%s' holds elements of Gmsh's type '%s %d', expected '%s %d' as on tets of %d nodes",
+                     msh->cursor.path, name, ost_msh_types[found].shape, ost_msh_types[found].nodes,
+                     ost_msh_types[expected].shape, ost_msh_types[expected].nodes, msh->chunk->nodes_per_tet);
 }
 
 static OstStatus merge_group(const OstMsh *msh, const OstMshGroup *group, OstBoundary *boundary)
@@ -158,15 +143,13 @@ static OstStatus merge_group(const OstMsh *msh, const OstMshGroup *group, OstBou
 static OstStatus add_boundary(const OstMsh *msh, OstMshGroup *group, char **name)
 {
     OstMeshChunk *chunk = msh->chunk;
-    const OstMshType *facts = NULL;
     OST_TRY(check_group(msh, group, *name));
     for (int b = 0; b < chunk->boundary_count; b++)
         if (strcmp(chunk->boundaries[b].name, *name) == 0)
             return merge_group(msh, group, &chunk->boundaries[b]);
-    OST_TRY(ost_msh_type(msh, group->type, &facts));
     OST_TRY(OST_RESIZE(chunk->ctx, &chunk->boundaries, chunk->boundary_count + 1));
     chunk->boundaries[chunk->boundary_count++] =
-        (OstBoundary){*name, group->dimension, facts->nodes, group->count, group->nodes};
+        (OstBoundary){*name, group->dimension, ost_msh_types[group->type].nodes, group->count, group->nodes};
     *name = NULL;
     group->nodes = NULL;
     return OST_SUCCESS;
@@ -202,6 +185,9 @@ OstStatus ost_msh_finish(OstMsh *msh)
                  "%s: its tets are not in the order of their tags; they are counted in that order, also in a file of "
                  "axes",
                  path);
+    if (msh->ghosts > 0)
+        ost_warn(msh->cursor.ctx, "%s: ghost elements, which other partitions have too, are left out: %" PRId64, path,
+                 msh->ghosts);
     ost_tets_turn(msh->chunk, path);
     OST_TRY(ost_nodes_leave_out(msh->chunk, path));
     return ost_tets_refuse_same(msh->chunk, path);

@@ -14,6 +14,12 @@
 
 enum { NAME_SIZE = 64, SMALLEST_NAME = 4 };
 
+/* How much of a line messages quote. */
+static int shown(OstMshText line)
+{
+    return line.length < NAME_SIZE ? line.length : NAME_SIZE;
+}
+
 /* Takes the version from a number such as 2.2. */
 static OstStatus read_format(OstMsh *msh)
 {
@@ -42,27 +48,20 @@ static OstStatus read_format(OstMsh *msh)
     return OST_SUCCESS;
 }
 
-/* A name stands in quotes; without them, as nobody should write it, it is one word. */
-static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText line)
+/* A name stands in quotes; without them, as nobody should write it, it is what the line holds. */
+static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText text)
 {
-    OstMshCursor *cursor = &msh->cursor;
-    const char *start = line.start, *end = start + line.length;
-    const char *quote = memchr(start, '"', (size_t)line.length);
-    const char *other = quote ? memchr(quote + 1, '"', (size_t)(end - quote - 1)) : NULL;
-    if (quote && !other)
-        return OST_RAISE_MSH(cursor, "'%.*s' found, expected a physical name in double quotes",
-                             line.length < NAME_SIZE ? line.length : NAME_SIZE, start);
+    const char *quote = memchr(text.start, '"', (size_t)text.length);
     if (quote) {
-        start = quote + 1;
-        end = other;
+        const char *start = quote + 1, *end = text.start + text.length;
+        const char *other = memchr(start, '"', (size_t)(end - start));
+        if (!other)
+            return OST_RAISE_MSH(&msh->cursor, "'%.*s' found, expected a physical name in double quotes", shown(text),
+                                 text.start);
+        text = (OstMshText){start, (int)(other - start)};
     }
-    if (memchr(start, '\0', (size_t)(end - start)))
-        return OST_RAISE_MSH(cursor, "a zero byte found in a physical name");
-    OST_TRY(OST_RESIZE(cursor->ctx, &msh->name, msh->name_count + 1));
-    OstMshName *name = &msh->name[msh->name_count++];
-    *name = (OstMshName){dimension, tag, NULL};
-    OST_TRY(OST_NEW(cursor->ctx, &name->text, end - start + 1));
-    memcpy(name->text, start, (size_t)(end - start));
+    OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->name, msh->name_count + 1));
+    msh->name[msh->name_count++] = (OstMshName){dimension, tag, text};
     return OST_SUCCESS;
 }
 
@@ -70,7 +69,9 @@ static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText line)
 static OstStatus read_names(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
+    const int binary = cursor->binary;
     OstGlobal count = 0;
+    cursor->binary = 0;
     OST_TRY(ost_msh_count_line(cursor, "the number of physical names", &count));
     OST_TRY(ost_msh_check_count(cursor, "physical names", count, SMALLEST_NAME));
     for (OstGlobal i = 0; i < count; i++) {
@@ -82,46 +83,25 @@ static OstStatus read_names(OstMsh *msh)
             return OST_RAISE_MSH(cursor, "a physical name of dimension %d found, expected 0 to 3", dimension);
         OST_TRY(add_name(msh, dimension, abs(tag), ost_msh_rest_of_line(cursor)));
     }
+    cursor->binary = binary;
     return OST_SUCCESS;
 }
 
-static OstStatus read_names_as_text(OstMsh *msh)
-{
-    const int binary = msh->cursor.binary;
-    msh->cursor.binary = 0;
-    const OstStatus status = read_names(msh);
-    msh->cursor.binary = binary;
-    return status;
-}
-
-static OstStatus read_entities(OstMsh *msh, int partitioned)
-{
-    if (msh->elements >= 0)
-        return OST_RAISE_MSH(&msh->cursor, "entities found behind $Elements, expected them before");
-    return ost_msh4_entities(msh, partitioned);
-}
-
-static OstStatus read_nodes(OstMsh *msh, int parametric)
-{
-    OstContext *ctx = msh->cursor.ctx;
-    if (msh->chunk->node_label)
-        return OST_RAISE_MSH(&msh->cursor, "a second section $Nodes");
-    OST_TRY(msh->version < 40 ? ost_msh2_nodes(msh, parametric) : ost_msh4_nodes(msh));
-    OST_TRY(ost_label_index_create(ctx, msh->chunk->node_count, msh->chunk->node_label, &msh->nodes));
-    if (msh->nodes.repeated)
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: node tag %lld is given to two nodes", msh->cursor.path,
-                         (long long)msh->nodes.repeated_label);
-    return OST_SUCCESS;
-}
-
-static OstStatus read_elements(OstMsh *msh)
-{
-    if (!msh->chunk->node_label)
-        return OST_RAISE_MSH(&msh->cursor, "$Elements found before $Nodes, expected them behind");
-    if (msh->elements >= 0)
-        return OST_RAISE_MSH(&msh->cursor, "a second section $Elements");
-    return msh->version < 40 ? ost_msh2_elements(msh) : ost_msh4_elements(msh);
-}
+/* The sections that are read, in the order they may have; those of stage 0 may be anywhere. */
+enum { ENTITIES = 1, NODES = 2, ELEMENTS = 3 };
+static const struct {
+    const char *name;
+    int stage;
+    OstStatus (*read)(OstMsh *msh);  /* up to version 2.2 */
+    OstStatus (*read4)(OstMsh *msh); /* from version 4.0 */
+} section[] = {{"PhysicalNames", 0, read_names, read_names},
+               {"Entities", ENTITIES, NULL, ost_msh4_entities},
+               {"PartitionedEntities", ENTITIES, NULL, ost_msh4_partitioned_entities},
+               {"NOD", NODES, ost_msh2_nodes, NULL},
+               {"Nodes", NODES, ost_msh2_nodes, ost_msh4_nodes},
+               {"ParametricNodes", NODES, ost_msh2_parametric_nodes, NULL},
+               {"ELM", ELEMENTS, ost_msh2_elements, NULL},
+               {"Elements", ELEMENTS, ost_msh2_elements, ost_msh4_elements}};
 
 /* Goes to where the end of a section is: behind a line end, or in a binary file anywhere. */
 static OstStatus skip_section(OstMshCursor *cursor, const char *name)
@@ -140,20 +120,23 @@ static OstStatus skip_section(OstMshCursor *cursor, const char *name)
 
 static OstStatus read_section(OstMsh *msh, const char *name)
 {
-    const int second = msh->version < 40;
-    if (strcmp(name, "PhysicalNames") == 0)
-        return read_names_as_text(msh);
-    if (strcmp(name, "Nodes") == 0 || strcmp(name, "NOD") == 0)
-        return read_nodes(msh, 0);
-    if (strcmp(name, "ParametricNodes") == 0 && second)
-        return read_nodes(msh, 1);
-    if (strcmp(name, "Elements") == 0 || strcmp(name, "ELM") == 0)
-        return read_elements(msh);
-    if (strcmp(name, "Entities") == 0 && !second)
-        return read_entities(msh, 0);
-    if (strcmp(name, "PartitionedEntities") == 0 && !second)
-        return read_entities(msh, 1);
-    return skip_section(&msh->cursor, name);
+    OstStatus (*read)(OstMsh * msh) = NULL;
+    int stage = 0;
+    for (size_t i = 0; i < sizeof section / sizeof *section && !read; i++)
+        if (strcmp(name, section[i].name) == 0) {
+            read = msh->version < 40 ? section[i].read : section[i].read4;
+            stage = section[i].stage;
+        }
+    if (!read)
+        return skip_section(&msh->cursor, name);
+    if (stage > 0 && (stage < msh->stage || (stage == msh->stage && stage != ENTITIES) ||
+                      (stage == ELEMENTS && msh->stage != NODES)))
+        return OST_RAISE_MSH(&msh->cursor,
+                             "a section $%s found, expected $Entities, one $Nodes and one $Elements in "
+                             "this order",
+                             name);
+    msh->stage = stage > 0 ? stage : msh->stage;
+    return read(msh);
 }
 
 /* The first word of a line, without the $. */
@@ -176,8 +159,7 @@ static OstStatus expect_end(OstMshCursor *cursor, const char *name)
     if (line.length == 0)
         return OST_RAISE_MSH(cursor, "the file ends where $End%s is expected; it is incomplete, write it again", name);
     if (line.start[0] != '$' || strncasecmp(found, "End", 3) != 0 || strcmp(found + 3, name) != 0)
-        return OST_RAISE_MSH(cursor, "'%.*s' found, expected $End%s", line.length < NAME_SIZE ? line.length : NAME_SIZE,
-                             line.start, name);
+        return OST_RAISE_MSH(cursor, "'%.*s' found, expected $End%s", shown(line), line.start, name);
     return OST_SUCCESS;
 }
 
@@ -200,8 +182,8 @@ static OstStatus read_sections(OstMsh *msh)
     while (cursor->next < cursor->end) {
         const OstMshText line = ost_msh_rest_of_line(cursor);
         if (line.length > 0 && line.start[0] != '$' && msh->version == 0)
-            return OST_RAISE_MSH(cursor, "'%.*s' found, expected $MeshFormat: not a Gmsh mesh",
-                                 line.length < NAME_SIZE ? line.length : NAME_SIZE, line.start);
+            return OST_RAISE_MSH(cursor, "'%.*s' found, expected $MeshFormat: not a Gmsh mesh", shown(line),
+                                 line.start);
         if (line.length == 0 || line.start[0] != '$')
             continue;
         copy_name(line, name);
@@ -211,16 +193,14 @@ static OstStatus read_sections(OstMsh *msh)
     cursor->place = cursor->end;
     if (msh->version == 0)
         return OST_RAISE_MSH(cursor, "the file ends without $MeshFormat: not a Gmsh mesh");
-    if (!msh->chunk->node_label || msh->elements < 0)
+    if (msh->stage < ELEMENTS)
         return OST_RAISE_MSH(cursor, "the file ends without a section $%s; it is incomplete, write it again",
-                             msh->chunk->node_label ? "Elements" : "Nodes");
+                             msh->stage == NODES ? "Elements" : "Nodes");
     return OST_SUCCESS;
 }
 
 static void close_msh(OstMsh *msh)
 {
-    for (int i = 0; i < msh->name_count; i++)
-        OST_FREE(msh->name[i].text);
     for (int g = 0; g < msh->group_count; g++)
         OST_FREE(msh->group[g].nodes);
     OST_FREE(msh->name);
@@ -235,7 +215,7 @@ static void close_msh(OstMsh *msh)
 
 OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
-    OstMsh msh = {.elements = -1};
+    OstMsh msh = {0};
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
     OST_TRY_DONE(ost_msh_open(ctx, path, &msh.cursor));

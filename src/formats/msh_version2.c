@@ -17,7 +17,7 @@ static OstStatus skip_parameters(OstMshCursor *cursor)
     return ost_msh_skip_doubles(cursor, "a parameter of a node", dimension == 1 || dimension == 2 ? dimension : 0);
 }
 
-OstStatus ost_msh2_nodes(OstMsh *msh, int parametric)
+static OstStatus read_nodes(OstMsh *msh, int parametric)
 {
     OstMshCursor *cursor = &msh->cursor;
     OstGlobal count = 0;
@@ -34,7 +34,17 @@ OstStatus ost_msh2_nodes(OstMsh *msh, int parametric)
             OST_TRY(skip_parameters(cursor));
         OST_TRY(ost_msh_add_node(msh, tag, x));
     }
-    return OST_SUCCESS;
+    return ost_msh_index_nodes(msh);
+}
+
+OstStatus ost_msh2_nodes(OstMsh *msh)
+{
+    return read_nodes(msh, 0);
+}
+
+OstStatus ost_msh2_parametric_nodes(OstMsh *msh)
+{
+    return read_nodes(msh, 1);
 }
 
 /* The first of an element's tags is its physical tag; its entity and its partitions follow. */
@@ -52,9 +62,8 @@ static OstStatus read_tags(OstMshCursor *cursor, int count, int *group)
 static OstStatus add_element(OstMsh *msh, int type, int number, int group)
 {
     OstGlobal nodes[OST_MSH_MOST_NODES];
-    const OstMshType *facts = NULL;
-    OST_TRY(ost_msh_type(msh, type, &facts));
-    for (int i = 0; i < facts->nodes; i++) {
+    OST_TRY(ost_msh_check_type(msh, type));
+    for (int i = 0; i < ost_msh_types[type].nodes; i++) {
         int node = 0;
         OST_TRY(ost_msh_int(&msh->cursor, "a node of an element", &node));
         nodes[i] = node;
@@ -62,33 +71,23 @@ static OstStatus add_element(OstMsh *msh, int type, int number, int group)
     return ost_msh_add_element(msh, type, number, nodes, 1, &group);
 }
 
-/* Version 1: number, type, physical tag, entity, count of nodes, nodes. */
-static OstStatus read_element_1(OstMsh *msh)
+/* Number, type, count of tags, tags, nodes; in version 1 number, type, two tags, count of nodes, nodes. */
+static OstStatus read_element(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
-    const OstMshType *facts = NULL;
-    int number = 0, type = 0, group = 0, count = 0;
+    const int first = msh->version < 20;
+    int number = 0, type = 0, tags = 2, group = 0, nodes = 0;
     OST_TRY(ost_msh_int(cursor, "an element's number", &number));
     OST_TRY(ost_msh_int(cursor, "an element's type", &type));
-    OST_TRY(ost_msh_type(msh, type, &facts));
-    OST_TRY(read_tags(cursor, 2, &group));
-    OST_TRY(ost_msh_int(cursor, "the number of an element's nodes", &count));
-    if (count != facts->nodes)
-        return OST_RAISE_MSH(cursor, "an element of type %d with %d nodes found, expected %d", type, count,
-                             facts->nodes);
-    return add_element(msh, type, number, group);
-}
-
-static OstStatus read_element_2(OstMsh *msh)
-{
-    OstMshCursor *cursor = &msh->cursor;
-    const OstMshType *facts = NULL;
-    int number = 0, type = 0, tags = 0, group = 0;
-    OST_TRY(ost_msh_int(cursor, "an element's number", &number));
-    OST_TRY(ost_msh_int(cursor, "an element's type", &type));
-    OST_TRY(ost_msh_type(msh, type, &facts));
-    OST_TRY(ost_msh_int(cursor, "the number of an element's tags", &tags));
+    OST_TRY(ost_msh_check_type(msh, type));
+    if (!first)
+        OST_TRY(ost_msh_int(cursor, "the number of an element's tags", &tags));
     OST_TRY(read_tags(cursor, tags, &group));
+    if (first)
+        OST_TRY(ost_msh_int(cursor, "the number of an element's nodes", &nodes));
+    if (first && nodes != ost_msh_types[type].nodes)
+        return OST_RAISE_MSH(cursor, "an element of type %d with %d nodes found, expected %d", type, nodes,
+                             ost_msh_types[type].nodes);
     return add_element(msh, type, number, group);
 }
 
@@ -119,7 +118,7 @@ OstStatus ost_msh2_elements(OstMsh *msh)
         if (msh->cursor.binary)
             OST_TRY(read_block(msh, msh->elements - read, &count));
         else
-            OST_TRY(msh->version < 20 ? read_element_1(msh) : read_element_2(msh));
+            OST_TRY(read_element(msh));
         read += count;
     }
     return OST_SUCCESS;

@@ -84,9 +84,28 @@ static OstStatus read_entity(OstMsh *msh, int dimension, int partitioned)
     return dimension == 0 ? OST_SUCCESS : skip_tags(cursor, "bounds of an entity");
 }
 
-/* Partitioned files begin with the number of partitions, and with volumes that hold other partitions' elements again.
+static OstStatus read_entities(OstMsh *msh, int partitioned)
+{
+    OstGlobal count[4] = {0}, total = 0;
+    for (int dimension = 0; dimension < 4; dimension++) {
+        OST_TRY(read_count(&msh->cursor, "entities", SMALLEST_BLOCK, &count[dimension]));
+        total += count[dimension];
+    }
+    OST_TRY(reserve_entities(msh, total));
+    for (int dimension = 0; dimension < 4; dimension++)
+        for (OstGlobal i = 0; i < count[dimension]; i++)
+            OST_TRY(read_entity(msh, dimension, partitioned));
+    return OST_SUCCESS;
+}
+
+OstStatus ost_msh4_entities(OstMsh *msh)
+{
+    return read_entities(msh, 0);
+}
+
+/* They begin with the number of partitions, and with volumes that hold other partitions' elements again.
  */
-static OstStatus read_ghosts(OstMsh *msh)
+OstStatus ost_msh4_partitioned_entities(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
     OstGlobal partitions = 0, count = 0;
@@ -99,34 +118,7 @@ static OstStatus read_ghosts(OstMsh *msh)
         OST_TRY(ost_msh_int(cursor, "the partition of a ghost entity", &partition));
         add_entity(msh, GHOST, tag, 0);
     }
-    return OST_SUCCESS;
-}
-
-OstStatus ost_msh4_entities(OstMsh *msh, int partitioned)
-{
-    OstGlobal count[4] = {0}, total = 0;
-    if (partitioned)
-        OST_TRY(read_ghosts(msh));
-    for (int dimension = 0; dimension < 4; dimension++) {
-        OST_TRY(read_count(&msh->cursor, "entities", SMALLEST_BLOCK, &count[dimension]));
-        total += count[dimension];
-    }
-    OST_TRY(reserve_entities(msh, total));
-    for (int dimension = 0; dimension < 4; dimension++)
-        for (OstGlobal i = 0; i < count[dimension]; i++)
-            OST_TRY(read_entity(msh, dimension, partitioned));
-    return OST_SUCCESS;
-}
-
-/* The head of the nodes' and of the elements' section. */
-static OstStatus read_head(OstMsh *msh, const char *what, OstGlobal bytes_each, OstGlobal *blocks, OstGlobal *total)
-{
-    OstGlobal tag = 0;
-    OST_TRY(read_count(&msh->cursor, "blocks", SMALLEST_BLOCK, blocks));
-    OST_TRY(read_count(&msh->cursor, what, bytes_each, total));
-    for (int i = 0; i < 2 && msh->version > 40; i++)
-        OST_TRY(ost_msh_size(&msh->cursor, "the lowest or highest tag", &tag));
-    return OST_SUCCESS;
+    return read_entities(msh, 1);
 }
 
 static OstStatus read_block(OstMsh *msh, const char *what, OstGlobal left, Block *block)
@@ -145,12 +137,28 @@ static OstStatus read_block(OstMsh *msh, const char *what, OstGlobal left, Block
     return OST_SUCCESS;
 }
 
-static OstStatus check_total(const OstMsh *msh, const char *what, OstGlobal left)
+/* A section of nodes or elements: its head, then its blocks. */
+static OstStatus read_blocks(OstMsh *msh, const char *what, OstGlobal bytes_each,
+                             OstStatus (*begin)(OstMsh *msh, OstGlobal count),
+                             OstStatus (*read)(OstMsh *msh, const Block *block))
 {
-    if (left == 0)
-        return OST_SUCCESS;
-    return OST_RAISE_MSH(&msh->cursor, "the blocks hold %" PRId64 " %s fewer than the head of the section states", left,
-                         what);
+    OstMshCursor *cursor = &msh->cursor;
+    OstGlobal blocks = 0, left = 0, tag = 0;
+    Block block = {0};
+    OST_TRY(read_count(cursor, "blocks", SMALLEST_BLOCK, &blocks));
+    OST_TRY(read_count(cursor, what, bytes_each, &left));
+    for (int i = 0; i < 2 && msh->version > 40; i++)
+        OST_TRY(ost_msh_size(cursor, "the lowest or highest tag", &tag));
+    OST_TRY(begin(msh, left));
+    for (OstGlobal b = 0; b < blocks; b++) {
+        OST_TRY(read_block(msh, what, left, &block));
+        OST_TRY(read(msh, &block));
+        left -= block.count;
+    }
+    if (left > 0)
+        return OST_RAISE_MSH(cursor, "the blocks hold %" PRId64 " %s fewer than the head of the section states", left,
+                             what);
+    return OST_SUCCESS;
 }
 
 static OstStatus read_tag(OstMshCursor *cursor, int version, const char *what, OstGlobal *tag)
@@ -184,16 +192,8 @@ static OstStatus read_nodes(OstMsh *msh, const Block *block)
 
 OstStatus ost_msh4_nodes(OstMsh *msh)
 {
-    OstGlobal blocks = 0, left = 0;
-    Block block = {0};
-    OST_TRY(read_head(msh, "nodes", SMALLEST_NODE, &blocks, &left));
-    OST_TRY(ost_msh_reserve_nodes(msh, left));
-    for (OstGlobal b = 0; b < blocks; b++) {
-        OST_TRY(read_block(msh, "nodes", left, &block));
-        OST_TRY(read_nodes(msh, &block));
-        left -= block.count;
-    }
-    return check_total(msh, "nodes", left);
+    OST_TRY(read_blocks(msh, "nodes", SMALLEST_NODE, ost_msh_reserve_nodes, read_nodes));
+    return ost_msh_index_nodes(msh);
 }
 
 /* The physical groups of a block's entity. */
@@ -203,7 +203,7 @@ static OstStatus find_groups(const OstMsh *msh, const Block *block, OstGlobal *c
     *count = at < 0 ? 0 : msh->entity_start[at + 1] - msh->entity_start[at];
     *groups = at < 0 ? NULL : msh->entity_group + msh->entity_start[at];
     for (OstGlobal i = 1; i < *count && block->dimension == 3; i++)
-        if ((*groups)[i] != (*groups)[0])
+        if (abs((*groups)[i]) != abs((*groups)[0]))
             return OST_RAISE_MSH(&msh->cursor,
                                  "volume %d belongs to the physical volumes %d and %d; a tet can be in one region only",
                                  block->tag, abs((*groups)[0]), abs((*groups)[i]));
@@ -214,10 +214,10 @@ static OstStatus find_groups(const OstMsh *msh, const Block *block, OstGlobal *c
 static OstStatus read_elements(OstMsh *msh, const Block *block)
 {
     OstMshCursor *cursor = &msh->cursor;
-    const OstMshType *facts = NULL;
     const int *groups = NULL;
     OstGlobal tag = 0, nodes[OST_MSH_MOST_NODES], group_count = 0;
-    OST_TRY(ost_msh_type(msh, block->number, &facts));
+    OST_TRY(ost_msh_check_type(msh, block->number));
+    const OstMshType *facts = &ost_msh_types[block->number];
     if (facts->dimension != block->dimension)
         return OST_RAISE_MSH(cursor, "elements of type %d on an entity of dimension %d, expected dimension %d",
                              block->number, block->dimension, facts->dimension);
@@ -228,6 +228,7 @@ static OstStatus read_elements(OstMsh *msh, const Block *block)
         OST_TRY(read_tag(cursor, msh->version, "an element's tag", &tag));
         for (int n = 0; n < facts->nodes; n++)
             OST_TRY(read_tag(cursor, msh->version, "a node of an element", &nodes[n]));
+        msh->ghosts += ghosts;
         if (!ghosts)
             OST_TRY(ost_msh_add_element(msh, block->number, tag, nodes, group_count, groups));
         if (!cursor->binary)
@@ -236,17 +237,13 @@ static OstStatus read_elements(OstMsh *msh, const Block *block)
     return OST_SUCCESS;
 }
 
+static OstStatus begin_elements(OstMsh *msh, OstGlobal count)
+{
+    msh->elements = count;
+    return ost_label_index_create(msh->cursor.ctx, msh->entity_count, msh->entity, &msh->entities);
+}
+
 OstStatus ost_msh4_elements(OstMsh *msh)
 {
-    OstGlobal blocks = 0, left = 0;
-    Block block = {0};
-    OST_TRY(ost_label_index_create(msh->cursor.ctx, msh->entity_count, msh->entity, &msh->entities));
-    OST_TRY(read_head(msh, "elements", SMALLEST_ELEMENT, &blocks, &left));
-    msh->elements = left;
-    for (OstGlobal b = 0; b < blocks; b++) {
-        OST_TRY(read_block(msh, "elements", left, &block));
-        OST_TRY(read_elements(msh, &block));
-        left -= block.count;
-    }
-    return check_total(msh, "elements", left);
+    return read_blocks(msh, "elements", SMALLEST_ELEMENT, begin_elements, read_elements);
 }

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 static OstGlobal tet_entries(const OstMeshChunk *chunk)
@@ -53,6 +54,15 @@ static OstLocal move_items(OstBoundary *boundary, const OstLocal *number)
     return before - boundary->count;
 }
 
+static void say_left_out(const OstMeshChunk *chunk, const char *path, OstLocal nodes, OstGlobal items)
+{
+    char more[80] = "";
+    if (items > 0)
+        snprintf(more, sizeof more, ", and %" PRId64 " points, curves and faces of boundaries with them", items);
+    ost_warn(chunk->ctx, "%s: %d %s used by no tet and left out%s", path, nodes,
+             nodes == 1 ? "vertex is" : "vertices are", more);
+}
+
 OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path)
 {
     OstLocal *number = NULL;
@@ -65,10 +75,7 @@ OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path)
         for (int b = 0; b < chunk->boundary_count; b++)
             items += move_items(&chunk->boundaries[b], number);
         chunk->node_count = used;
-        ost_warn(chunk->ctx,
-                 "%s: %d of its vertices are used by no tet and left out, and %" PRId64 " points, curves and faces of "
-                 "boundaries with them",
-                 path, unused, items);
+        say_left_out(chunk, path, unused, items);
     }
     chunk->global_nodes = used;
     OST_FREE(number);
