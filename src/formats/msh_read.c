@@ -221,6 +221,8 @@ OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
     OST_TRY_DONE(ost_msh_open(ctx, path, &msh.cursor));
     OST_TRY_DONE(OST_NEW(ctx, &msh.chunk, 1));
     msh.chunk->ctx = ctx;
+    OST_TRY_DONE(OST_NEW(ctx, &msh.name, 0));
+    OST_TRY_DONE(OST_NEW(ctx, &msh.group, 0));
     OST_TRY_DONE(read_sections(&msh));
     OST_TRY_DONE(ost_msh_finish(&msh));
 done:
