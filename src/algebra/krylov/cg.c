@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/krylov/cg.h"
+
+#include "algebra/krylov/cg_run.h"
+#include "algebra/krylov/energy_error.h"
+#include "algebra/matrix/vector.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/reduce.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const double ost_cg_rounding = 1e-13; /* some tens of units in the last place */
+
+/* What each pass for a hidden displacement takes from the residual, and how many there are at most. */
+static const double pass_gain = 1e-2;
+
+enum { MOST_PASSES = 8 };
+
+typedef struct Cg {
+    OstCgRun run;
+    double smallest, largest; /* eigenvalues of M^-1 A, by the coefficients of all first runs */
+    int hidden;               /* is the displacement where the energy, and so the residual, has little to say? */
+} Cg;
+
+double ost_cg_square(const OstCgRun *run, const double *residual)
+{
+    const OstScaling *scaling = run->system->scaling;
+    return scaling ? ost_scaling_residual_square(scaling, residual) : ost_dot(run->n, residual, residual);
+}
+
+OstStatus ost_cg_multiply(OstCgRun *run, const double *p, double *y)
+{
+    const OstScaling *scaling = run->system->scaling;
+    if (scaling)
+        ost_scaling_from_scaled(scaling, p, run->unscaled);
+    else if (run->n > 0)
+        memcpy(run->unscaled, p, run->n * sizeof *p);
+    OST_TRY(ost_block_matrix_apply(run->system->matrix, run->unscaled, y));
+    if (scaling)
+        ost_scaling_to_scaled(scaling, y, y);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cg_rounding_scale(const OstCgRun *run, double *scale)
+{
+    const OstBlockMatrix *matrix = run->system->matrix;
+    *scale = 0.0;
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[i], *p = run->unscaled + 3 * (size_t)i;
+        *scale += fabs(block[0]) * p[0] * p[0] + fabs(block[4]) * p[1] * p[1] + fabs(block[8]) * p[2] * p[2];
+    }
+    return ost_sum(run->ctx, 1, scale);
+}
+
+OstStatus ost_cg_judge_energy(const OstCgRun *run, double energy, OstGoal *goal)
+{
+    double scale;
+    OST_TRY(ost_cg_rounding_scale(run, &scale));
+    if (energy < -ost_cg_rounding * scale)
+        return ost_goal_refuse_indefinite(goal, energy);
+    goal->end = OST_END_STALLED;
+    snprintf(goal->words, sizeof goal->words,
+             "in iteration %d p·Ap = %g beside p·Dp = %g: the stiffness is singular to rounding, not positive definite",
+             goal->iterations + 1, energy, scale);
+    return OST_SUCCESS;
+}
+
+/* OstInnerSolve: A u = r by way of A' u' = S r, u = S^T u'. */
+static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *goal)
+{
+    OstCgRun *run = &((Cg *)data)->run;
+    const OstScaling *scaling = run->system->scaling;
+    if (scaling)
+        ost_scaling_to_scaled(scaling, r, run->residual);
+    else
+        memcpy(run->residual, r, run->n * sizeof *r);
+    OST_TRY(ost_vector_size(run->ctx, run->n, run->residual, &run->size));
+    for (size_t i = 0; i < run->n; i++)
+        run->residual[i] /= run->size;
+    const OstStatus status =
+        run->preconditioner->factors ? ost_cg_run_by_factors(run, u, goal) : ost_cg_run_by_aztec(run, u, goal);
+    for (size_t i = 0; i < run->n; i++)
+        u[i] *= run->size;
+    if (scaling)
+        ost_scaling_from_scaled(scaling, u, u);
+    run->runs++;
+    return status;
+}
+
+/* What the coefficients say of the spectrum. */
+static void note_spectrum(Cg *cg)
+{
+    double smallest, largest;
+    ost_lanczos_extremes(&cg->run.lanczos, &smallest, &largest);
+    cg->smallest = cg->smallest > 0.0 && smallest > 0.0 ? fmin(cg->smallest, smallest) : fmax(cg->smallest, smallest);
+    cg->largest = fmax(cg->largest, largest);
+    cg->run.lanczos.count = 0;
+    cg->run.runs = 0;
+}
+
+/* That, and so the error of u; nothing where M is not definite. */
+static OstStatus report_error(Cg *cg, const double *f, const double *u, const OstGoal *goal, OstSolveReport *report)
+{
+    OstEnergyError error = {.whole = NAN};
+    note_spectrum(cg);
+    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
+        OST_TRY(
+            ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
+    const int known = !isnan(error.whole) && !isnan(error.rounding);
+    report->condition_estimate = cg->smallest > 0.0 ? cg->largest / cg->smallest : 0.0;
+    /* Factors whose steps do not settle are what rounding made them. */
+    report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
+    report->energy_error = known ? fmax(error.energy, goal->drift) : 0.0;
+    report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
+    report->rounding_spread = known && error.rounding >= goal->drift ? error.spread : 0.0;
+    cg->hidden = known && error.hidden;
+    return OST_SUCCESS;
+}
+
+/* Solves for what is left; u stays where the goal would then be missed. Returns whether more may be had in `on`. */
+static OstStatus go_on(Cg *cg, const double *f, double *u, double *before, OstGoal *goal, int *on)
+{
+    OstGoal further = *goal;
+    further.target = pass_gain * goal->norm;
+    memcpy(before, u, cg->run.n * sizeof *u);
+    OST_TRY(ost_refine(cg->run.system->matrix, solve_scaled, cg, f, u, &further));
+    *on = further.end == OST_END_REACHED;
+    goal->iterations = further.iterations;
+    if (further.norm > goal->target) {
+        memcpy(u, before, cg->run.n * sizeof *u);
+        *on = 0;
+        return OST_SUCCESS;
+    }
+    goal->norm = further.norm;
+    goal->compensated = further.compensated;
+    return OST_SUCCESS;
+}
+
+/* The residual asked for is reached, but by the part of the body that has the energy: the displacement of another is
+ * hardly solved for, and nor was its part of the spectrum seen. So a smaller residual is asked for, until it is. */
+static OstStatus solve_for_the_hidden(Cg *cg, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    double *before = NULL;
+    OST_TRY(ost_agree(cg->run.ctx, OST_NEW(cg->run.ctx, &before, cg->run.n)));
+    OstStatus status = OST_SUCCESS;
+    const double asked = goal->target / goal->start;
+    for (int pass = 0, on = 1; pass < MOST_PASSES && on && cg->hidden && status == OST_SUCCESS; pass++) {
+        if (report->error_estimate <= asked)
+            break;
+        status = go_on(cg, f, u, before, goal, &on);
+        if (status == OST_SUCCESS)
+            status = report_error(cg, f, u, goal, report);
+    }
+    OST_FREE(before);
+    return status;
+}
+
+OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
+                       OstGoal *goal, OstSolveReport *report)
+{
+    OstContext *ctx = system->matrix->ctx;
+    Cg cg = {
+        .run = {.ctx = ctx, .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)system->matrix->rows}};
+    OstStatus status = OST_NEW(ctx, &cg.run.unscaled, 3 * (size_t)system->matrix->columns);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &cg.run.residual, cg.run.n);
+    if (status == OST_SUCCESS)
+        status = ost_lanczos_create(ctx, goal->most_iterations, &cg.run.lanczos);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
+    OST_TRY_DONE(report_error(&cg, f, u, goal, report));
+    if (cg.hidden && goal->end == OST_END_REACHED)
+        OST_TRY_DONE(solve_for_the_hidden(&cg, f, u, goal, report));
+done:
+    OST_FREE(cg.run.unscaled);
+    OST_FREE(cg.run.residual);
+    ost_lanczos_destroy(&cg.run.lanczos);
+    return status;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/matrix/vector.h"
+
+#include "core/error.h"
+#include "core/reduce.h"
+
+#include <float.h>
+#include <math.h>
+
+double ost_dot(size_t n, const double *restrict a, const double *restrict b)
+{
+    double total = 0.0;
+#pragma omp simd reduction(+ : total)
+    for (size_t i = 0; i < n; i++)
+        total += a[i] * b[i];
+    return total;
+}
+
+OstStatus ost_vector_dot(OstContext *ctx, size_t n, const double *a, const double *b, double *product)
+{
+    *product = ost_dot(n, a, b);
+    return ost_sum(ctx, 1, product);
+}
+
+OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++)
+        largest = fabs(values[i]) <= largest ? largest : fabs(values[i]);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    *size = largest >= DBL_MIN && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
+    return OST_SUCCESS;
+}

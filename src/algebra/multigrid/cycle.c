@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/cycle.h"
+
+#include "algebra/multigrid/coarsest.h"
+#include "algebra/trilinos/cycle.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+enum {
+    LARGEST_FACTORED = 50000, /* unknowns of a level that coarsening could not make smaller; beyond, it is smoothed */
+    COARSEST_SWEEPS = 10      /* then; a fixed number keeps the cycle symmetric */
+};
+
+static const double careful = 1.2; /* of an eigenvalue estimate that may have been too low */
+
+/* One level as the cycle works on it. */
+typedef struct Level {
+    const OstLevelMatrix *matrix;
+    OstSmoother *smoother;                 /* NULL where the level is solved by factors */
+    const OstProlongator *prolongator;     /* from the next level: this or */
+    const OstInterpolation *interpolation; /* this; neither on the coarsest level */
+    OstCoarsest *coarsest;                 /* of that, unless smoothing must do */
+    double *own;                           /* a vector of this level with room for ghosts */
+    double *coarse;                        /* a vector of the next level with room for the prolongator's ghosts */
+} Level;
+
+struct OstCycle {
+    OstMetricLevels levels;
+    OstQuadraticLevel *quadratic;
+    OstCoarsest *coarsest;
+    int count; /* of levels, the quadratic one included */
+    Level level[OST_MAX_LEVELS + 1];
+    OstMlCycle *ml; /* NULL where there is but one level */
+};
+
+void ost_cycle_destroy(OstCycle **cycle)
+{
+    if (!*cycle)
+        return;
+    ost_ml_cycle_destroy(&(*cycle)->ml);
+    for (int l = 0; l < (*cycle)->count; l++) {
+        OST_FREE((*cycle)->level[l].own);
+        OST_FREE((*cycle)->level[l].coarse);
+    }
+    ost_coarsest_destroy(&(*cycle)->coarsest);
+    ost_quadratic_level_destroy(&(*cycle)->quadratic);
+    ost_metric_levels_clear(&(*cycle)->levels);
+    OST_FREE(*cycle);
+}
+
+/* Factors the coarsest level, or, where it is still large, makes the smoother that must do. */
+static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSolverOptions *options)
+{
+    OstMetricLevels *levels = &cycle->levels;
+    const int last = levels->count - 1;
+    OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
+    OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+    if (status == OST_SUCCESS && (unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels))
+        status = ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest);
+    else if (status == OST_SUCCESS)
+        status = ost_smoother_create(levels->matrix[last], levels->graph[last], options, &levels->smoother[last]);
+    ost_double_matrix_destroy(&levels->coarsest);
+    ost_metric_graph_destroy(&levels->graph[last]);
+    return ost_agree(ctx, status);
+}
+
+/* y = A x */
+static OstStatus multiply(void *data, const double *x, double *y)
+{
+    const Level *level = data;
+    const size_t n = ost_level_unknowns(level->matrix);
+    if (n > 0) {
+        memcpy(level->own, x, n * sizeof *x);
+        memset(y, 0, n * sizeof *y);
+    }
+    return ost_level_matrix_add(level->matrix, 1.0, level->own, y);
+}
+
+static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
+{
+    const Level *level = data;
+    if (level->coarsest)
+        return ost_coarsest_solve(level->coarsest, b, x);
+    const int is_last = !level->prolongator && !level->interpolation;
+    for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
+        OST_TRY(ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0));
+    return OST_SUCCESS;
+}
+
+static OstStatus restrict_to(void *data, const double *fine, double *coarse)
+{
+    const Level *level = data;
+    if (level->interpolation)
+        return ost_interpolation_restrict(level->interpolation, fine, coarse);
+    OST_TRY(ost_prolongator_restrict(level->prolongator, fine, level->coarse));
+    const size_t n = ost_level_unknowns(level[1].matrix);
+    if (n > 0)
+        memcpy(coarse, level->coarse, n * sizeof *coarse);
+    return OST_SUCCESS;
+}
+
+static OstStatus prolong(void *data, const double *coarse, double *fine)
+{
+    const Level *level = data;
+    const size_t n = ost_level_unknowns(level->matrix), coarse_n = ost_level_unknowns(level[1].matrix);
+    if (n > 0)
+        memset(fine, 0, n * sizeof *fine);
+    if (level->interpolation)
+        return ost_interpolation_add(level->interpolation, coarse, fine);
+    if (coarse_n > 0)
+        memcpy(level->coarse, coarse, coarse_n * sizeof *coarse);
+    return ost_prolongator_add(level->prolongator, level->coarse, fine);
+}
+
+/* The levels in the order of the cycle, the finest first. */
+static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
+{
+    const OstMetricLevels *levels = &cycle->levels;
+    const OstQuadraticLevel *quadratic = cycle->quadratic;
+    const int finest = quadratic ? 1 : 0; /* of the linear tets */
+    cycle->count = levels->count + finest;
+    if (quadratic)
+        cycle->level[0] = (Level){
+            .matrix = quadratic->matrix, .smoother = quadratic->smoother, .interpolation = quadratic->interpolation};
+    for (int l = 0; l < levels->count; l++)
+        cycle->level[finest + l] = (Level){
+            .matrix = levels->matrix[l], .smoother = levels->smoother[l], .prolongator = levels->prolongator[l]};
+    cycle->level[cycle->count - 1].coarsest = cycle->coarsest;
+    for (int l = 0; l < cycle->count; l++) {
+        Level *level = &cycle->level[l];
+        OST_TRY(ost_level_vector_create(ctx, level->matrix->size, level->matrix->columns, &level->own));
+        if (level->prolongator)
+            OST_TRY(ost_level_vector_create(ctx, OST_MODES, level->prolongator->columns, &level->coarse));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus hand_to_ml(OstContext *ctx, OstCycle *cycle)
+{
+    OstMlLevel level[OST_MAX_LEVELS + 1] = {{0}};
+    if (cycle->count == 1)
+        return OST_SUCCESS;
+    for (int l = 0; l < cycle->count; l++)
+        level[l] = (OstMlLevel){.data = &cycle->level[l],
+                                .unknowns = (OstLocal)ost_level_unknowns(cycle->level[l].matrix),
+                                .multiply = multiply,
+                                .smooth = smooth,
+                                .restrict_to = restrict_to,
+                                .prolong = prolong};
+    return ost_ml_cycle_create(ctx, cycle->count, level, &cycle->ml);
+}
+
+OstStatus ost_cycle_create(OstContext *ctx, OstMetricLevels *levels, OstQuadraticLevel **quadratic,
+                           const OstSolverOptions *options, OstCycle **cycle)
+{
+    OstCycle *made = NULL;
+    *cycle = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
+    made->levels = *levels;
+    made->quadratic = *quadratic;
+    memset(levels, 0, sizeof *levels);
+    *quadratic = NULL;
+    OST_TRY_DONE(prepare_coarsest(ctx, made, options));
+    OST_TRY_DONE(ost_agree(ctx, set_levels(ctx, made)));
+    OST_TRY_DONE(hand_to_ml(ctx, made));
+done:
+    if (status != OST_SUCCESS)
+        ost_cycle_destroy(&made);
+    *cycle = made;
+    return status;
+}
+
+OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z)
+{
+    return cycle->ml ? ost_ml_cycle_apply(cycle->ml, r, z) : smooth(&cycle->level[0], r, z, 1);
+}
+
+void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)
+{
+    for (int l = 0; l < cycle->count; l++) {
+        OstSmoother *smoother = cycle->level[l].smoother;
+        if (!smoother)
+            continue;
+        smoother->degree += more;
+        smoother->ratio = ratio * careful;
+        /* The estimate comes from below, and a polynomial that ends short of the spectrum is not definite. */
+        smoother->largest *= careful;
+    }
+}
