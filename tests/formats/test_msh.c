@@ -559,6 +559,27 @@ static void other_binary_sections_are_skipped(void **state)
     }
 }
 
+/* PyMesh and TetWild write the end of a section right behind its bytes. */
+static void ends_may_follow_bytes_at_once(void **state)
+{
+    (void)state;
+    static MshFile file;
+    static const char *const ends[] = {"\n$EndMeshFormat", "\n$EndNodes", "\n$EndElements"};
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        if (!msh_flavours[f].binary)
+            continue;
+        msh_make(&model4, msh_flavours[f], &file);
+        for (int e = 0; e < 3; e++) {
+            char *end = memmem(file.bytes, file.length, ends[e], strlen(ends[e]));
+            file.length--;
+            memmove(end, end + 1, file.length - (size_t)(end - file.bytes));
+        }
+        assert_success(read_mesh(write_bytes("ends.msh", file.bytes, file.length)));
+        check_model4(msh_flavours[f].version);
+        drop_mesh();
+    }
+}
+
 static void tags_may_be_zero_sparse_and_many(void **state)
 {
     (void)state;
@@ -706,6 +727,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(wrong_files_are_refused_where_they_are_wrong),
     cmocka_unit_test(other_sections_and_words_are_skipped),
     cmocka_unit_test(other_binary_sections_are_skipped),
+    cmocka_unit_test(ends_may_follow_bytes_at_once),
     cmocka_unit_test(tags_may_be_zero_sparse_and_many),
     cmocka_unit_test(parametric_nodes_are_read),
     cmocka_unit_test(partitioned_files_are_one_body),
