@@ -2,9 +2,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/chunk_share.h"
+#include "formats/chunk_tidy.h"
 #include "formats/msh.h"
-#include "formats/tet_list.h"
-#include "formats/used_nodes.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -48,7 +48,7 @@ static OstStatus read_format(OstMsh *msh)
     return OST_SUCCESS;
 }
 
-/* A name stands in quotes; without them, as nobody should write it, it is what the line holds. */
+/* A name stands in quotes; one without them is the rest of the line. */
 static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText text)
 {
     const char *quote = memchr(text.start, '"', (size_t)text.length);

@@ -32,16 +32,6 @@ static OstStatus read_count(OstMshCursor *cursor, const char *what, OstGlobal by
     return ost_msh_check_count(cursor, what, *count, bytes_each);
 }
 
-static OstStatus skip_tags(OstMshCursor *cursor, const char *what)
-{
-    OstGlobal count = 0;
-    int tag = 0;
-    OST_TRY(read_count(cursor, what, SMALLEST_TAG, &count));
-    for (OstGlobal i = 0; i < count; i++)
-        OST_TRY(ost_msh_int(cursor, what, &tag));
-    return OST_SUCCESS;
-}
-
 static OstStatus reserve_entities(OstMsh *msh, OstGlobal count)
 {
     OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->entity, msh->entity_count + count));
@@ -55,14 +45,16 @@ static void add_entity(OstMsh *msh, int dimension, int tag, OstGlobal group_coun
     msh->entity_count++;
 }
 
-/* The entity's physical groups. */
-static OstStatus read_groups(OstMsh *msh, OstGlobal *count)
+/* A count and as many tags; physical groups are kept, behind those of the entities before. */
+static OstStatus read_tags(OstMsh *msh, const char *what, int kept, OstGlobal *count)
 {
     const OstGlobal first = msh->entity_start[msh->entity_count];
-    OST_TRY(read_count(&msh->cursor, "physical groups of an entity", SMALLEST_TAG, count));
-    OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->entity_group, first + *count));
+    int tag = 0;
+    OST_TRY(read_count(&msh->cursor, what, SMALLEST_TAG, count));
+    if (kept)
+        OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->entity_group, first + *count));
     for (OstGlobal i = 0; i < *count; i++)
-        OST_TRY(ost_msh_int(&msh->cursor, "a physical group of an entity", &msh->entity_group[first + i]));
+        OST_TRY(ost_msh_int(&msh->cursor, what, kept ? &msh->entity_group[first + i] : &tag));
     return OST_SUCCESS;
 }
 
@@ -71,17 +63,17 @@ static OstStatus read_entity(OstMsh *msh, int dimension, int partitioned)
 {
     OstMshCursor *cursor = &msh->cursor;
     int tag = 0, parent_dimension = dimension, parent = 0;
-    OstGlobal group_count = 0;
+    OstGlobal count = 0, group_count = 0;
     OST_TRY(ost_msh_int(cursor, "an entity's tag", &tag));
     if (partitioned) {
         OST_TRY(ost_msh_int(cursor, "the dimension of an entity's parent", &parent_dimension));
         OST_TRY(ost_msh_int(cursor, "the tag of an entity's parent", &parent));
-        OST_TRY(skip_tags(cursor, "partitions of an entity"));
+        OST_TRY(read_tags(msh, "partitions of an entity", 0, &count));
     }
     OST_TRY(ost_msh_skip_doubles(cursor, "the box of an entity", dimension == 0 && msh->version > 40 ? 3 : 6));
-    OST_TRY(read_groups(msh, &group_count));
+    OST_TRY(read_tags(msh, "physical groups of an entity", 1, &group_count));
     add_entity(msh, dimension, tag, parent_dimension == dimension ? group_count : 0);
-    return dimension == 0 ? OST_SUCCESS : skip_tags(cursor, "bounds of an entity");
+    return dimension == 0 ? OST_SUCCESS : read_tags(msh, "bounds of an entity", 0, &count);
 }
 
 static OstStatus read_entities(OstMsh *msh, int partitioned)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/tet_list.h"
+#include "formats/chunk_tidy.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -7,6 +7,7 @@
 #include "formats/label_index.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,4 +131,66 @@ OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path)
                                chunk->regions.name[chunk->tet_region[set[t].tet]]);
     OST_FREE(set);
     return status;
+}
+
+/* Numbers the nodes that tets use in their order, the others -1; gives how many are used. */
+static OstLocal number_used(const OstMeshChunk *chunk, OstLocal *number)
+{
+    OstLocal used = 0;
+    for (size_t i = 0; i < (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet; i++)
+        number[chunk->tet_nodes[i]] = 1;
+    for (OstLocal n = 0; n < chunk->node_count; n++)
+        number[n] = number[n] ? used++ : -1;
+    return used;
+}
+
+static void move_nodes(OstMeshChunk *chunk, const OstLocal *number)
+{
+    for (OstLocal n = 0; n < chunk->node_count; n++) {
+        if (number[n] < 0)
+            continue;
+        chunk->node_label[number[n]] = chunk->node_label[n];
+        for (int d = 0; d < 3; d++)
+            chunk->coordinates[3 * (size_t)number[n] + (size_t)d] = chunk->coordinates[3 * (size_t)n + (size_t)d];
+    }
+    for (size_t i = 0; i < (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet; i++)
+        chunk->tet_nodes[i] = number[chunk->tet_nodes[i]];
+}
+
+/* Gives the number of items left out. */
+static OstLocal move_items(OstBoundary *boundary, const OstLocal *number)
+{
+    const OstLocal before = boundary->count;
+    const size_t width = (size_t)boundary->nodes_per_item;
+    boundary->count = 0;
+    for (OstLocal i = 0; i < before; i++) {
+        const OstGlobal *from = boundary->nodes + (size_t)i * width;
+        OstGlobal *to = boundary->nodes + (size_t)boundary->count * width;
+        size_t used = 0;
+        for (; used < width && number[from[used]] >= 0; used++)
+            to[used] = number[from[used]];
+        boundary->count += used == width;
+    }
+    return before - boundary->count;
+}
+
+OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path)
+{
+    OstLocal *number = NULL;
+    char more[80] = "";
+    OstGlobal items = 0;
+    OST_TRY(OST_NEW(chunk->ctx, &number, chunk->node_count));
+    const OstLocal used = number_used(chunk, number);
+    const OstLocal unused = chunk->node_count - used;
+    move_nodes(chunk, number);
+    for (int b = 0; b < chunk->boundary_count; b++)
+        items += move_items(&chunk->boundaries[b], number);
+    chunk->global_nodes = chunk->node_count = used;
+    if (items > 0)
+        snprintf(more, sizeof more, ", and %" PRId64 " points, curves and faces of boundaries with them", items);
+    if (unused > 0)
+        ost_warn(chunk->ctx, "%s: %d %s used by no tet and left out%s", path, unused,
+                 unused == 1 ? "vertex is" : "vertices are", more);
+    OST_FREE(number);
+    return OST_SUCCESS;
 }
