@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_BENCH_SYSTEM_MATRIX_H
 #define ORTHOSTAT_BENCH_SYSTEM_MATRIX_H
 
-#include "algebra/block_matrix.h"
+#include "algebra/matrix/block_matrix.h"
 #include "orthostat/case.h"
 #include "system_file.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/rung.h"
 
-#include "algebra/direct.h"
-#include "algebra/metric_solver.h"
-#include "algebra/plain.h"
+#include "algebra/direct/direct.h"
+#include "algebra/multigrid/metric.h"
+#include "algebra/trilinos/plain.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_RUNG_H
 #define ORTHOSTAT_ALGEBRA_RUNG_H
 
-#include "algebra/refine.h"
+#include "algebra/krylov/refine.h"
 #include "algebra/solver.h"
 
 /* One rung of the ladder: a recipe, built and ready to work. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/epetra.h"
-#include "algebra/exact_residual.h"
+#include "algebra/matrix/exact_residual.h"
+#include "algebra/matrix/vector.h"
 #include "algebra/rung.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
-#include "algebra/vector.h"
+#include "algebra/trilinos/epetra.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/matrix/rigid_modes.h"
 #include "algebra/solver.h"
 #include "assembly/system.h"
 #include "core/error.h"

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SYSTEM_H
 #define ORTHOSTAT_ASSEMBLY_SYSTEM_H
 
-#include "algebra/block_matrix.h"
+#include "algebra/matrix/block_matrix.h"
 #include "assembly/supports.h"
 #include "orthostat/field.h"
 #include "orthostat/mesh.h"

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_TRIANGLE_H
 #define ORTHOSTAT_ASSEMBLY_TRIANGLE_H
 
-#include "algebra/block_matrix.h"
+#include "algebra/matrix/block_matrix.h"
 
 /* A symmetric matrix is summed in its upper triangle alone: in each row, from the diagonal to the end, ghost columns
  * included (their rows are another rank's, and lie below). */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/checks.h"
 
-#include "algebra/energy_error.h"
-#include "algebra/rounded_stiffness.h"
+#include "algebra/krylov/energy_error.h"
+#include "algebra/matrix/rounded_stiffness.h"
 #include "assembly/batch.h"
 #include "assembly/system.h"
 #include "core/error.h"

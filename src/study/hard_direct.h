@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_STUDY_HARD_DIRECT_H
 #define ORTHOSTAT_STUDY_HARD_DIRECT_H
 
-#include "algebra/mumps.h"
-#include "algebra/scaling.h"
+#include "algebra/direct/mumps.h"
+#include "algebra/matrix/scaling.h"
 #include "assembly/system.h"
 #include "orthostat/scene.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/rounded_stiffness.h"
+#include "algebra/matrix/rounded_stiffness.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "study/hard.h"

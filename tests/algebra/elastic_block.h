@@ -4,7 +4,8 @@
 
 #include "support.h"
 
-#include "algebra/block_matrix.h"
+#include "algebra/matrix/block_matrix.h"
+#include "algebra/matrix/rigid_modes.h"
 #include "algebra/solver.h"
 #include "core/error.h"
 #include "core/memory.h"

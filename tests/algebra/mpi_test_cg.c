@@ -3,9 +3,9 @@
 
 #include "elastic_block.h"
 
-#include "algebra/aztec.h"
-#include "algebra/cg.h"
-#include "algebra/mumps.h"
+#include "algebra/direct/mumps.h"
+#include "algebra/krylov/cg.h"
+#include "algebra/trilinos/plain_cg.h"
 
 static const ElasticBlock cube = {
     .bricks = {3, 3, 6}, .size = {1.0, 1.0, 1.0}, .modulus = 1e3, .poisson = 0.3, .held = 1};

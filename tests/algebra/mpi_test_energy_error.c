@@ -3,8 +3,8 @@
 
 #include "soft_pair.h"
 
-#include "algebra/energy_error.h"
-#include "algebra/mumps.h"
+#include "algebra/direct/mumps.h"
+#include "algebra/krylov/energy_error.h"
 
 #include <float.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "algebra/epetra.h"
+#include "algebra/trilinos/epetra.h"
 
 /* Rank r has 5 r unknowns: the first rank has none. */
 static OstEpetraMap *make_map(void)

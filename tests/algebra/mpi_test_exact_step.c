@@ -3,7 +3,7 @@
 
 #include "elastic_block.h"
 
-#include "algebra/exact_step.h"
+#include "algebra/matrix/exact_step.h"
 
 static const double diagonal[3] = {1.0, 2.0, 3.0};
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_galerkin.h"
+#include "algebra/level/galerkin.h"
 
-#include "algebra/metric_aggregate.h"
-#include "algebra/metric_block_sum.h"
-#include "algebra/metric_rows.h"
-#include "algebra/metric_smoothing.h"
+#include "algebra/aggregation/aggregates.h"
+#include "algebra/level/block_sum.h"
+#include "algebra/level/fetched_rows.h"
+#include "algebra/multigrid/prolongator_smoothing.h"
 #include "elastic_block.h"
 #include "support.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_cycle.h"
-#include "algebra/scaling.h"
+#include "algebra/matrix/scaling.h"
+#include "algebra/multigrid/cycle.h"
 #include "elastic_block.h"
 #include "support.h"
 

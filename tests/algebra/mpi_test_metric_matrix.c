@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_blocks.h"
-#include "algebra/metric_spectrum.h"
+#include "algebra/level/smoother_blocks.h"
+#include "algebra/multigrid/spectrum.h"
 #include "elastic_block.h"
 #include "support.h"
 

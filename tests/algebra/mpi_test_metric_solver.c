@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_solver.h"
+#include "algebra/matrix/rigid_modes.h"
+#include "algebra/multigrid/metric.h"
 #include "elastic_block.h"
 #include "support.h"
 

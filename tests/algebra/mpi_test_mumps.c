@@ -3,7 +3,7 @@
 
 #include "elastic_block.h"
 
-#include "algebra/mumps.h"
+#include "algebra/direct/mumps.h"
 
 #include <float.h>
 

@@ -3,7 +3,7 @@
 
 #include "soft_pair.h"
 
-#include "algebra/refine.h"
+#include "algebra/krylov/refine.h"
 
 typedef struct Inner {
     size_t n;

@@ -3,8 +3,8 @@
 
 #include "elastic_block.h"
 
-#include "algebra/rounded_stiffness.h"
-#include "algebra/term_rounding.h"
+#include "algebra/matrix/rounded_stiffness.h"
+#include "algebra/matrix/term_rounding.h"
 
 #include <float.h>
 

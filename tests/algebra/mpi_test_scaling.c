@@ -3,7 +3,7 @@
 
 #include "elastic_block.h"
 
-#include "algebra/scaling.h"
+#include "algebra/matrix/scaling.h"
 #include "core/small.h"
 
 static const ElasticBlock uneven = {

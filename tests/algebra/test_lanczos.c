@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "algebra/lanczos.h"
+#include "algebra/krylov/lanczos.h"
 
 /* Conjugate gradients on diag(values), all of them excited. */
 static double condition_after(int n, const double *values, int steps)

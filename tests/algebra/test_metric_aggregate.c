@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_aggregate.h"
+#include "algebra/aggregation/aggregates.h"
 #include "elastic_block.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/metric_index.h"
+#include "algebra/level/index_map.h"
 #include "support.h"
 
 static void keys_are_numbered_in_the_order_in_which_they_first_come(void **state)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "algebra/pace.h"
+#include "algebra/krylov/pace.h"
 
 static void a_steady_fall_is_projected(void **state)
 {

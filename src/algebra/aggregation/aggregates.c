@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/aggregation/aggregates.h"
+
+#include "algebra/aggregation/paths.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { RADIUS_TRIES = 6, RADIUS_SAMPLES = 40, UNREACHED = -1, LEFT_OUT = -2 };
+
+/* What the grouping works on. */
+typedef struct Grouping {
+    const OstMetricGraph *graph;
+    const OstAggregateShape *shape;
+    OstPaths *paths;
+    unsigned char *covered; /* nodes */
+    OstLocal count;         /* of seeds */
+    OstLocal *seed;         /* nodes */
+    OstLocal *size;         /* nodes: of each seed's aggregate */
+    double *centre;         /* nodes × 3: of each seed's aggregate */
+    double *offset;         /* nodes: metric distance of the best new seed from the centre */
+} Grouping;
+
+static void destroy_grouping(Grouping *g)
+{
+    ost_paths_destroy(&g->paths);
+    OST_FREE(g->covered);
+    OST_FREE(g->seed);
+    OST_FREE(g->size);
+    OST_FREE(g->centre);
+    OST_FREE(g->offset);
+}
+
+static OstStatus create_grouping(const OstMetricGraph *graph, const OstAggregateShape *shape, Grouping *g)
+{
+    const size_t n = (size_t)graph->nodes;
+    *g = (Grouping){.graph = graph, .shape = shape};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_paths_create(graph, &g->paths));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->covered, n));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->seed, n));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->size, n));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->centre, 3 * n));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->offset, n));
+done:
+    if (status != OST_SUCCESS)
+        destroy_grouping(g);
+    return status;
+}
+
+/* First guess: the mean radius that holds 1.6 targets, over a sample of the nodes. */
+static OstStatus guess_radius(Grouping *g, double *radius)
+{
+    const OstLocal most = (OstLocal)ceil(1.6 * g->shape->target);
+    OstLocal samples = 0;
+    double sum = 0.0;
+    ost_paths_clear(g->paths);
+    for (OstLocal i = 0; i < g->graph->nodes; i += g->graph->nodes / RADIUS_SAMPLES + 1) {
+        OstBall ball;
+        OST_TRY(ost_paths_ball(g->paths, i, samples++, FLT_MAX, most, NULL, &ball));
+        sum += ball.reach;
+    }
+    *radius = sum / samples;
+    return OST_SUCCESS;
+}
+
+/* Every node in its turn becomes a seed unless an earlier seed's ball covers it. */
+static OstStatus cover(Grouping *g, double radius)
+{
+    const OstLocal n = g->graph->nodes;
+    g->count = 0;
+    memset(g->covered, 0, (size_t)n);
+    ost_paths_clear(g->paths);
+    for (OstLocal i = 0; i < n; i++) {
+        OstBall ball;
+        if (g->covered[i])
+            continue;
+        g->seed[g->count] = i;
+        OST_TRY(ost_paths_ball(g->paths, i, g->count, radius, n, g->covered, &ball));
+        g->count++;
+    }
+    return OST_SUCCESS;
+}
+
+/* Balls overlap, so that their radius is found by trying: nodes per seed grow about as its 2.2nd power. On a regular
+ * mesh they grow by leaps, which may jump the target; the nearest try is taken. */
+static OstStatus choose_seeds(Grouping *g)
+{
+    double radius, best = 0.0, best_miss = DBL_MAX;
+    double low = 0.0, high = FLT_MAX;
+    OST_TRY(guess_radius(g, &radius));
+    for (int try = 0; try < RADIUS_TRIES; try++) {
+        OST_TRY(cover(g, radius));
+        const double excess = (double)g->graph->nodes / (double)g->count / g->shape->target;
+        if (excess > 0.88 && excess < 1.13)
+            return OST_SUCCESS;
+        if (fabs(log(excess)) < best_miss) {
+            best_miss = fabs(log(excess));
+            best = radius;
+        }
+        if (excess > 1.0)
+            high = radius;
+        else
+            low = radius;
+        radius *= pow(1.0 / excess, 0.45);
+        if (radius <= low || radius >= high)
+            radius = high < FLT_MAX ? 0.5 * (low + high) : 2.0 * low;
+    }
+    return cover(g, best);
+}
+
+/* The node nearest to the centroid of each aggregate becomes its seed. */
+static void recentre(Grouping *g)
+{
+    const OstMetricGraph *graph = g->graph;
+    const OstLocal *of_node = g->paths->source;
+    memset(g->centre, 0, 3 * (size_t)g->count * sizeof *g->centre);
+    memset(g->size, 0, (size_t)g->count * sizeof *g->size);
+    for (OstLocal i = 0; i < graph->nodes; i++) {
+        if (of_node[i] < 0)
+            continue;
+        g->size[of_node[i]]++;
+        for (int c = 0; c < 3; c++)
+            g->centre[3 * (size_t)of_node[i] + (size_t)c] += graph->position[3 * (size_t)i + (size_t)c];
+    }
+    for (OstLocal s = 0; s < g->count; s++) {
+        g->offset[s] = DBL_MAX;
+        for (int c = 0; c < 3; c++)
+            g->centre[3 * (size_t)s + (size_t)c] /= g->size[s];
+    }
+    for (OstLocal i = 0; i < graph->nodes; i++) {
+        const OstLocal s = of_node[i];
+        if (s < 0)
+            continue;
+        double d[3];
+        for (int c = 0; c < 3; c++)
+            d[c] = graph->position[3 * (size_t)i + (size_t)c] - g->centre[3 * (size_t)s + (size_t)c];
+        const double square = ost_metric_square(graph->metric + 6 * (size_t)i, d);
+        if (square < g->offset[s]) {
+            g->offset[s] = square;
+            g->seed[s] = i;
+        }
+    }
+}
+
+/* Seeds of aggregates under the minimum give up theirs; returns whether any did. */
+static int drop_small(Grouping *g)
+{
+    OstLocal kept = 0;
+    for (OstLocal s = 0; s < g->count; s++)
+        if (g->size[s] >= g->shape->minimum)
+            g->seed[kept++] = g->seed[s];
+    const int dropped = kept < g->count;
+    g->count = kept;
+    return dropped;
+}
+
+/* Dropping can leave a part of the graph without any seed: it becomes one aggregate, if it is large enough. */
+static OstStatus adopt_orphans(Grouping *g)
+{
+    OstPaths *paths = g->paths;
+    const OstLocal n = g->graph->nodes;
+    for (OstLocal i = 0; i < n; i++) {
+        OstBall part;
+        if (paths->source[i] != UNREACHED)
+            continue;
+        OST_TRY(ost_paths_ball(paths, i, g->count, FLT_MAX, n, NULL, &part));
+        if (part.nodes >= g->shape->minimum)
+            g->seed[g->count++] = i;
+        else
+            OST_TRY(ost_paths_ball(paths, i, LEFT_OUT, FLT_MAX, n, NULL, &part));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus group(Grouping *g)
+{
+    int dropped = 1;
+    OST_TRY(choose_seeds(g));
+    OST_TRY(ost_paths_assign(g->paths, g->count, g->seed));
+    for (int pass = 0; pass < g->shape->recentrings || dropped; pass++) {
+        recentre(g);
+        dropped = drop_small(g);
+        if (pass < g->shape->recentrings || dropped)
+            OST_TRY(ost_paths_assign(g->paths, g->count, g->seed));
+        if (dropped)
+            OST_TRY(adopt_orphans(g));
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_aggregates_create(const OstMetricGraph *graph, const OstAggregateShape *shape, OstAggregates **aggregates)
+{
+    Grouping g;
+    *aggregates = NULL;
+    OST_TRY(create_grouping(graph, shape, &g));
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(OST_NEW(graph->ctx, aggregates, 1));
+    (*aggregates)->ctx = graph->ctx;
+    OST_TRY_DONE(OST_NEW(graph->ctx, &(*aggregates)->of_node, graph->nodes));
+    if (graph->nodes > 0)
+        OST_TRY_DONE(group(&g));
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        (*aggregates)->of_node[i] = g.paths->source[i] < 0 ? -1 : g.paths->source[i];
+    (*aggregates)->count = g.count;
+done:
+    destroy_grouping(&g);
+    if (status != OST_SUCCESS)
+        ost_aggregates_destroy(aggregates);
+    return status;
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/direct/direct.h"
+
+#include "algebra/direct/mumps.h"
+#include "algebra/krylov/cg.h"
+#include "algebra/krylov/energy_error.h"
+#include "algebra/matrix/rounded_stiffness.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+
+/* A step by factors costs little beside making them: u is refined until this is all that it moves. */
+static const double settled = 1e-3;
+
+struct OstDirect {
+    OstCgSystem system;
+    OstScaling *scaling;
+    OstMumps *factors;
+    double shift; /* on the diagonal of what was factored */
+};
+
+void ost_direct_destroy(OstDirect **direct)
+{
+    if (!*direct)
+        return;
+    ost_mumps_destroy(&(*direct)->factors);
+    ost_scaling_destroy(&(*direct)->scaling);
+    OST_FREE(*direct);
+}
+
+OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDirect **direct)
+{
+    OstDirect *made = NULL;
+    *direct = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &made, 1)));
+    OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
+    OST_TRY_DONE(ost_mumps_create_of_rows(matrix, made->scaling, memory, &made->shift, &made->factors));
+    made->system = (OstCgSystem){.matrix = matrix, .scaling = made->scaling};
+done:
+    if (status != OST_SUCCESS)
+        ost_direct_destroy(&made);
+    *direct = made;
+    return status;
+}
+
+static OstStatus apply_factors(void *data, const double *r, double *z)
+{
+    return ost_mumps_solve(data, r, z);
+}
+
+/* What was factored is not the stiffness itself: a body that can move freely looks the same, but holds no digit. */
+static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
+{
+    if (report->error_estimate > 0.0 && isfinite(report->error_estimate) &&
+        !ost_surely_beyond(report->rounding_error, report->rounding_spread, ost_least_digit))
+        return OST_SUCCESS;
+    return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
+                     "the stiffness, as double precision rounds it, is not positive definite, or hardly: the body, or "
+                     "a part of it, can move freely or has no stiffness in some direction; hold it in all six rigid "
+                     "motions, and check that parts share vertices and that materials are definite");
+}
+
+OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .factors = 1};
+    report->levels = 1;
+    report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
+    report->operator_complexity = 1.0;
+    goal->settled = settled;
+    goal->exact |= direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
+    OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
+    return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
+}

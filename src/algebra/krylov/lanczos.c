@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/krylov/lanczos.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <float.h>
+#include <math.h>
+
+/* More steps would not change the estimate, and a generous iteration limit should not cost memory. */
+enum { MOST_STEPS = 10000 };
+
+OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos)
+{
+    lanczos->room = steps < MOST_STEPS ? steps : MOST_STEPS;
+    lanczos->count = 0;
+    lanczos->alpha = NULL;
+    lanczos->beta = NULL;
+    OST_TRY(OST_NEW(ctx, &lanczos->alpha, lanczos->room));
+    return OST_NEW(ctx, &lanczos->beta, lanczos->room);
+}
+
+void ost_lanczos_destroy(OstLanczos *lanczos)
+{
+    OST_FREE(lanczos->alpha);
+    OST_FREE(lanczos->beta);
+}
+
+void ost_lanczos_add(OstLanczos *lanczos, double alpha, double beta)
+{
+    if (lanczos->count >= lanczos->room)
+        return;
+    lanczos->alpha[lanczos->count] = alpha;
+    lanczos->beta[lanczos->count++] = fmax(beta, 0.0);
+}
+
+/* Row k of the Lanczos matrix: its diagonal entry, and the square of the entry below the diagonal. */
+static double diagonal(const OstLanczos *lanczos, int k)
+{
+    const double coupling = k > 0 ? lanczos->beta[k] / lanczos->alpha[k - 1] : 0.0;
+    return 1.0 / lanczos->alpha[k] + coupling;
+}
+
+static double off_diagonal_square(const OstLanczos *lanczos, int k)
+{
+    return lanczos->beta[k + 1] / (lanczos->alpha[k] * lanczos->alpha[k]);
+}
+
+/* Sturm's count: how many eigenvalues are below x. */
+static int count_below(const OstLanczos *lanczos, double x)
+{
+    int count = 0;
+    double pivot = 1.0;
+    for (int k = 0; k < lanczos->count; k++) {
+        pivot = diagonal(lanczos, k) - x - (k > 0 ? off_diagonal_square(lanczos, k - 1) / pivot : 0.0);
+        if (pivot == 0.0)
+            pivot = -DBL_MIN;
+        count += pivot < 0.0;
+    }
+    return count;
+}
+
+/* The place where the count first exceeds `below`. */
+static double bisect(const OstLanczos *lanczos, int below, double high)
+{
+    double low = 0.0;
+    while (high - low > 1e-12 * high && high > DBL_MIN) {
+        const double middle = 0.5 * (low + high);
+        if (count_below(lanczos, middle) > below)
+            high = middle;
+        else
+            low = middle;
+    }
+    return high;
+}
+
+/* Gershgorin's bound on the largest. */
+static double upper_bound(const OstLanczos *lanczos)
+{
+    const int n = lanczos->count;
+    double bound = 0.0;
+    for (int k = 0; k < n; k++) {
+        const double before = k > 0 ? sqrt(off_diagonal_square(lanczos, k - 1)) : 0.0;
+        const double after = k + 1 < n ? sqrt(off_diagonal_square(lanczos, k)) : 0.0;
+        bound = fmax(bound, diagonal(lanczos, k) + before + after);
+    }
+    return bound;
+}
+
+void ost_lanczos_extremes(const OstLanczos *lanczos, double *smallest, double *largest)
+{
+    const double bound = upper_bound(lanczos);
+    *smallest = *largest = 0.0;
+    if (lanczos->count == 0 || !isfinite(bound))
+        return;
+    *smallest = bisect(lanczos, 0, bound);
+    *largest = bisect(lanczos, lanczos->count - 1, bound);
+}

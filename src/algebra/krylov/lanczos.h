@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_KRYLOV_LANCZOS_H
+#define ORTHOSTAT_ALGEBRA_KRYLOV_LANCZOS_H
+
+#include "orthostat/context.h"
+
+/* The coefficients of a run of conjugate gradients, which hold the Lanczos matrix of the preconditioned operator. */
+typedef struct OstLanczos {
+    int room;
+    int count;
+    double *alpha; /* step lengths */
+    double *beta;  /* beta[k] led to the direction of step k; beta[0] is not used */
+} OstLanczos;
+
+/* Local. Room for at most `steps` steps; later ones are not kept. */
+OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos);
+void ost_lanczos_destroy(OstLanczos *lanczos);
+void ost_lanczos_add(OstLanczos *lanczos, double alpha, double beta);
+
+/* Local. The smallest and the largest eigenvalue of the Lanczos matrix, which approach those of the preconditioned
+ * matrix from above and from below; 0 if there were no steps. */
+void ost_lanczos_extremes(const OstLanczos *lanczos, double *smallest, double *largest);
+
+#endif

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/level/block_sum.h"
+
+#include "algebra/level/fetched_rows.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+/* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed.
+ * Room for these from the start is not touched before it is used; growing would be, twice over. */
+enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
+
+OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum)
+{
+    OST_TRY(OST_NEW(ctx, sum, 1));
+    **sum = (OstBlockSum){.ctx = ctx, .first = first, .owned = owned};
+    OstStatus status = ost_index_create(ctx, &(*sum)->ghost);
+    if (status == OST_SUCCESS)
+        status = ost_index_create(ctx, &(*sum)->entry);
+    (*sum)->room = LIKELY_ENTRIES * owned + 64;
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &(*sum)->value, BLOCK * (size_t)(*sum)->room);
+    if (status != OST_SUCCESS)
+        ost_block_sum_destroy(sum);
+    return status;
+}
+
+void ost_block_sum_destroy(OstBlockSum **sum)
+{
+    if (!*sum)
+        return;
+    ost_index_destroy(&(*sum)->ghost);
+    ost_index_destroy(&(*sum)->entry);
+    OST_FREE((*sum)->value);
+    OST_FREE(*sum);
+}
+
+OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *node)
+{
+    if (number >= sum->first && number < sum->first + sum->owned) {
+        *node = (OstLocal)(number - sum->first);
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_index_place(sum->ghost, number, node));
+    *node += sum->owned;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block)
+{
+    OstLocal place;
+    OST_TRY(ost_index_place(sum->entry, (OstGlobal)row << 32 | column, &place));
+    if (place >= sum->room) {
+        const OstLocal room = sum->room + sum->room / 4;
+        OST_TRY(OST_RESIZE(sum->ctx, &sum->value, BLOCK * (size_t)room));
+        sum->room = room;
+    }
+    *block = sum->value + BLOCK * (size_t)place;
+    return OST_SUCCESS;
+}
+
+static OstLocal row_of(const OstBlockSum *sum, OstLocal entry)
+{
+    return (OstLocal)(sum->entry->key[entry] >> 32);
+}
+
+static OstLocal column_of(const OstBlockSum *sum, OstLocal entry)
+{
+    return (OstLocal)(sum->entry->key[entry] & 0xffffffff);
+}
+
+static OstGlobal number_of(const OstBlockSum *sum, OstLocal node)
+{
+    return node < sum->owned ? sum->first + node : sum->ghost->key[node - sum->owned];
+}
+
+/* What was summed in the rows of the halo's ghosts. */
+static OstStatus pack(const OstBlockSum *sum, OstBlockRows *out)
+{
+    const OstLocal entries = sum->entry->count;
+    OstLocal *next = NULL;
+    OST_TRY(OST_NEW(sum->ctx, &next, out->rows));
+    for (OstLocal e = 0; e < entries; e++)
+        if (row_of(sum, e) >= sum->owned)
+            out->start[row_of(sum, e) - sum->owned + 1]++;
+    for (OstLocal g = 0; g < out->rows; g++) {
+        next[g] = out->start[g];
+        out->start[g + 1] += out->start[g];
+    }
+    const OstStatus status = ost_block_rows_reserve(out);
+    double *value = (double *)(void *)out->value;
+    for (OstLocal e = 0; e < entries && status == OST_SUCCESS; e++) {
+        if (row_of(sum, e) < sum->owned)
+            continue;
+        const OstLocal k = next[row_of(sum, e) - sum->owned]++;
+        out->column[k] = number_of(sum, column_of(sum, e));
+        memcpy(value + BLOCK * (size_t)k, sum->value + BLOCK * (size_t)e, BLOCK * sizeof *value);
+    }
+    OST_FREE(next);
+    return status;
+}
+
+static OstStatus add(OstBlockSum *sum, const OstLocal *row, const OstBlockRows *in)
+{
+    const double *value = (const double *)(const void *)in->value;
+    for (OstLocal i = 0; i < in->rows; i++)
+        for (OstLocal k = in->start[i]; k < in->start[i + 1]; k++) {
+            OstLocal column;
+            double *block;
+            OST_TRY(ost_block_sum_number(sum, in->column[k], &column));
+            if (ost_block_sum_is_mirrored(sum, row[i], column))
+                continue;
+            OST_TRY(ost_block_sum_find(sum, row[i], column, &block));
+            for (int c = 0; c < BLOCK; c++)
+                block[c] += value[BLOCK * (size_t)k + (size_t)c];
+        }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo)
+{
+    OstContext *ctx = sum->ctx;
+    OstBlockRows *out = NULL, *in = NULL;
+    OstStatus status = ost_block_rows_create(ctx, halo->ghosts, BLOCK * sizeof(double), &out);
+    if (status == OST_SUCCESS)
+        status = pack(sum, out);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_block_rows_exchange(halo, OST_TO_OWNERS, out, &in));
+    OST_TRY_DONE(ost_agree(ctx, add(sum, halo->send_index, in)));
+done:
+    ost_block_rows_destroy(&out);
+    ost_block_rows_destroy(&in);
+    return status;
+}
+
+/* The rows of the matrix as lists of blocks: entry e, or ~e where it is the mirror image of one. */
+typedef struct Listing {
+    OstLocal *start;    /* owned + 2, the last one scratch; becomes the matrix' row_start */
+    OstLocal *block;    /* start[owned] */
+    OstLocal *renumber; /* local number here -> column of the matrix */
+    OstGlobal *ghost;   /* global numbers of the matrix' ghosts, ascending */
+    OstLocal columns;
+} Listing;
+
+static OstStatus list_rows(const OstBlockSum *sum, Listing *list)
+{
+    const OstLocal entries = sum->entry->count;
+    OST_TRY(OST_NEW(sum->ctx, &list->start, sum->owned + 2));
+    OST_TRY(OST_NEW(sum->ctx, &list->block, 2 * (size_t)entries));
+    OstLocal *next = list->start + 1; /* becomes the next row's start while it is filled */
+    for (OstLocal e = 0; e < entries; e++) {
+        const OstLocal row = row_of(sum, e), column = column_of(sum, e);
+        if (row < sum->owned)
+            next[row + 1]++;
+        if (row < column && column < sum->owned)
+            next[column + 1]++;
+    }
+    for (OstLocal i = 0; i < sum->owned; i++)
+        next[i + 1] += next[i];
+    for (OstLocal e = 0; e < entries; e++) {
+        const OstLocal row = row_of(sum, e), column = column_of(sum, e);
+        if (row < sum->owned)
+            list->block[next[row]++] = e;
+        if (row < column && column < sum->owned)
+            list->block[next[column]++] = ~e;
+    }
+    return OST_SUCCESS;
+}
+
+/* Ghosts that no row of the matrix needs are dropped, the others sorted. */
+static OstStatus number_columns(const OstBlockSum *sum, Listing *list)
+{
+    const OstLocal ghosts = sum->ghost->count;
+    OstLocal kept = 0;
+    OST_TRY(OST_NEW(sum->ctx, &list->renumber, sum->owned + ghosts));
+    OST_TRY(OST_NEW(sum->ctx, &list->ghost, ghosts));
+    for (OstLocal e = 0; e < sum->entry->count; e++)
+        if (row_of(sum, e) < sum->owned)
+            list->renumber[column_of(sum, e)] = 1;
+    for (OstLocal g = 0; g < ghosts; g++)
+        if (list->renumber[sum->owned + g])
+            list->ghost[kept++] = sum->ghost->key[g];
+    kept = ost_numbers_sort(kept, list->ghost);
+    for (OstLocal i = 0; i < sum->owned; i++)
+        list->renumber[i] = i;
+    for (OstLocal g = 0; g < ghosts; g++)
+        if (list->renumber[sum->owned + g])
+            list->renumber[sum->owned + g] = sum->owned + ost_numbers_find(kept, list->ghost, sum->ghost->key[g]);
+    list->columns = sum->owned + kept;
+    return OST_SUCCESS;
+}
+
+/* Puts a row's blocks in the order of their columns, by insertion: rows are short. */
+static void sort_row(const OstBlockSum *sum, const Listing *list, OstLocal i, OstLocal *column)
+{
+    for (OstLocal k = list->start[i]; k < list->start[i + 1]; k++) {
+        const OstLocal b = list->block[k];
+        const OstLocal c = b >= 0 ? list->renumber[column_of(sum, b)] : row_of(sum, ~b);
+        OstLocal to = k;
+        for (; to > list->start[i] && column[to - 1] > c; to--) {
+            column[to] = column[to - 1];
+            list->block[to] = list->block[to - 1];
+        }
+        column[to] = c;
+        list->block[to] = b;
+    }
+}
+
+static void copy_block(const OstBlockSum *sum, OstLocal block, double *value)
+{
+    const double *kept = sum->value + BLOCK * (size_t)(block >= 0 ? block : ~block);
+    for (int r = 0; r < OST_MODES; r++)
+        for (int c = 0; c < OST_MODES; c++)
+            value[OST_MODES * r + c] = block >= 0 ? kept[OST_MODES * r + c] : kept[OST_MODES * c + r];
+}
+
+static OstStatus fill(const OstBlockSum *sum, Listing *list, OstExactMatrix **matrix)
+{
+    OST_TRY(list_rows(sum, list));
+    OST_TRY(number_columns(sum, list));
+    const OstLocal blocks = list->start[sum->owned];
+    OST_TRY(OST_NEW(sum->ctx, matrix, 1));
+    **matrix = (OstExactMatrix){.ctx = sum->ctx, .size = OST_MODES, .rows = sum->owned, .columns = list->columns};
+    OST_TRY(OST_NEW(sum->ctx, &(*matrix)->column, blocks));
+    OST_TRY(OST_NEW(sum->ctx, &(*matrix)->value, BLOCK * (size_t)blocks));
+    for (OstLocal i = 0; i < sum->owned; i++)
+        sort_row(sum, list, i, (*matrix)->column);
+    for (OstLocal k = 0; k < blocks; k++)
+        copy_block(sum, list->block[k], (*matrix)->value + BLOCK * (size_t)k);
+    (*matrix)->row_start = list->start;
+    list->start = NULL;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstExactMatrix **matrix)
+{
+    OstContext *ctx = sum->ctx;
+    Listing list = {0};
+    *matrix = NULL;
+    OstStatus status = ost_agree(ctx, fill(sum, &list, matrix));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_halo_create(ctx, sum->owned, sum->first, list.columns - sum->owned, list.ghost, &(*matrix)->halo));
+done:
+    OST_FREE(list.start);
+    OST_FREE(list.block);
+    OST_FREE(list.renumber);
+    OST_FREE(list.ghost);
+    if (status != OST_SUCCESS)
+        ost_exact_matrix_destroy(matrix);
+    return status;
+}

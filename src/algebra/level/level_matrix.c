@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/level/level_matrix.h"
+
+#include "algebra/level/lanes.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+void ost_level_matrix_destroy(OstLevelMatrix **matrix)
+{
+    if (!*matrix)
+        return;
+    OST_FREE((*matrix)->row_start);
+    OST_FREE((*matrix)->own_end);
+    OST_FREE((*matrix)->column);
+    OST_FREE((*matrix)->diagonal);
+    OST_FREE((*matrix)->value);
+    ost_halo_destroy(&(*matrix)->halo);
+    OST_FREE(*matrix);
+}
+
+static OstStatus copy_halo(const OstExactMatrix *exact, OstHalo **halo)
+{
+    OstLocal *same = NULL;
+    OST_TRY(OST_NEW(exact->ctx, &same, exact->columns));
+    for (OstLocal i = 0; i < exact->columns; i++)
+        same[i] = i;
+    const OstStatus status = ost_halo_subset(exact->halo, same, halo);
+    OST_FREE(same);
+    return status;
+}
+
+static void round_block(size_t count, const double *exact, float *rounded)
+{
+    for (size_t k = 0; k < count; k++)
+        rounded[k] = (float)exact[k];
+}
+
+OST_UNROLLED void fill_upper_half(const OstExactMatrix *exact, int size, OstLevelMatrix *matrix)
+{
+    const size_t square = (size_t)(size * size);
+    OstLocal upper = 0;
+    double room[9];
+    for (OstLocal i = 0; i < exact->rows; i++) {
+        matrix->own_end[i] = upper;
+        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++) {
+            if (exact->column[k] < i)
+                continue;
+            const double *block = ost_exact_matrix_block(exact, size, i, k, room);
+            if (exact->column[k] == i) {
+                round_block(square, block, matrix->diagonal + square * (size_t)i);
+                continue;
+            }
+            round_block(square, block, matrix->value + square * (size_t)upper);
+            matrix->column[upper++] = exact->column[k];
+            if (exact->column[k] < exact->rows)
+                matrix->own_end[i] = upper;
+        }
+        matrix->row_start[i + 1] = upper;
+    }
+}
+
+static OstStatus copy_upper_half(const OstExactMatrix *exact, OstLevelMatrix *matrix)
+{
+    OstContext *ctx = exact->ctx;
+    const size_t square = (size_t)(exact->size * exact->size);
+    OstLocal upper = 0;
+    for (OstLocal i = 0; i < exact->rows; i++)
+        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++)
+            upper += exact->column[k] > i;
+    OST_TRY(OST_NEW(ctx, &matrix->row_start, exact->rows + 1));
+    OST_TRY(OST_NEW(ctx, &matrix->own_end, exact->rows));
+    OST_TRY(OST_NEW(ctx, &matrix->column, upper));
+    OST_TRY(OST_NEW(ctx, &matrix->diagonal, square * (size_t)exact->rows + OST_PADDING));
+    OST_TRY(OST_NEW(ctx, &matrix->value, square * (size_t)upper + OST_PADDING));
+    if (exact->size == 3)
+        fill_upper_half(exact, 3, matrix);
+    else
+        fill_upper_half(exact, 6, matrix);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_level_matrix_create(const OstExactMatrix *exact, OstLevelMatrix **matrix)
+{
+    OstContext *ctx = exact->ctx;
+    OstStatus status = OST_NEW(ctx, matrix, 1);
+    if (status == OST_SUCCESS) {
+        (*matrix)->ctx = ctx;
+        (*matrix)->size = exact->size;
+        (*matrix)->rows = exact->rows;
+        (*matrix)->columns = exact->columns;
+        (*matrix)->nonzeros = (OstGlobal)(exact->size * exact->size) * exact->row_start[exact->rows];
+        status = copy_upper_half(exact, *matrix);
+    }
+    if (status == OST_SUCCESS)
+        status = copy_halo(exact, &(*matrix)->halo);
+    status = ost_agree(ctx, status);
+    if (status != OST_SUCCESS)
+        ost_level_matrix_destroy(matrix);
+    return status;
+}
+
+OstStatus ost_level_vector_create(OstContext *ctx, int size, OstLocal columns, double **vector)
+{
+    return OST_NEW(ctx, vector, (size_t)size * (size_t)columns + OST_PADDING);
+}
+
+/* Block rows 0 .. rows - 1 with blocks of 3 × 3: each block right of the diagonal serves its row and, transposed, the
+ * row of its column. */
+static void add3(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+{
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        const double *own = x + 3 * (size_t)i;
+        const float *a = matrix->diagonal + 9 * (size_t)i;
+        const double x0 = scale * own[0], x1 = scale * own[1], x2 = scale * own[2];
+        OstDouble4 v = OST_LOAD4(own);
+        OstDouble4 s0 = OST_LOAD_FLOAT4(a) * v, s1 = OST_LOAD_FLOAT4(a + 3) * v, s2 = OST_LOAD_FLOAT4(a + 6) * v;
+        OstLocal k = matrix->row_start[i];
+        a = matrix->value + 9 * (size_t)k;
+        for (; k < matrix->own_end[i]; k++, a += 9) {
+            const size_t j = 3 * (size_t)matrix->column[k];
+            const OstDouble4 a0 = OST_LOAD_FLOAT4(a), a1 = OST_LOAD_FLOAT4(a + 3), a2 = OST_LOAD_FLOAT4(a + 6);
+            const OstDouble4 mirrored = a0 * x0 + a1 * x1 + a2 * x2;
+            v = OST_LOAD4(x + j);
+            s0 += a0 * v;
+            s1 += a1 * v;
+            s2 += a2 * v;
+            ost_add_row3(&mirrored, y + j);
+        }
+        for (; k < matrix->row_start[i + 1]; k++, a += 9) {
+            v = OST_LOAD4(x + 3 * (size_t)matrix->column[k]);
+            s0 += OST_LOAD_FLOAT4(a) * v;
+            s1 += OST_LOAD_FLOAT4(a + 3) * v;
+            s2 += OST_LOAD_FLOAT4(a + 6) * v;
+        }
+        y[3 * (size_t)i] += scale * ost_sum_row3(&s0);
+        y[3 * (size_t)i + 1] += scale * ost_sum_row3(&s1);
+        y[3 * (size_t)i + 2] += scale * ost_sum_row3(&s2);
+    }
+}
+
+/* The same with blocks of 6 × 6. */
+static void add6(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+{
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        const double *own = x + 6 * (size_t)i;
+        const float *a = matrix->diagonal + 36 * (size_t)i;
+        OstDouble8 sum[6], v = OST_LOAD8(own);
+        OstLocal k = matrix->row_start[i];
+        for (int r = 0; r < 6; r++)
+            sum[r] = OST_LOAD_FLOAT8(a + 6 * r) * v;
+        a = matrix->value + 36 * (size_t)k;
+        for (; k < matrix->own_end[i]; k++, a += 36) {
+            const size_t j = 6 * (size_t)matrix->column[k];
+            OstDouble8 mirrored = {0};
+            v = OST_LOAD8(x + j);
+            for (int r = 0; r < 6; r++) {
+                const OstDouble8 row = OST_LOAD_FLOAT8(a + 6 * r);
+                sum[r] += row * v;
+                mirrored += row * (scale * own[r]);
+            }
+            ost_add_row6(&mirrored, y + j);
+        }
+        for (; k < matrix->row_start[i + 1]; k++, a += 36) {
+            v = OST_LOAD8(x + 6 * (size_t)matrix->column[k]);
+            for (int r = 0; r < 6; r++)
+                sum[r] += OST_LOAD_FLOAT8(a + 6 * r) * v;
+        }
+        for (int r = 0; r < 6; r++)
+            y[6 * (size_t)i + (size_t)r] += scale * ost_sum_row6(&sum[r]);
+    }
+}
+
+OstStatus ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
+{
+    OST_TRY(ost_halo_import(matrix->halo, (size_t)matrix->size * sizeof *x, x));
+    if (matrix->size == 3)
+        add3(matrix, scale, x, y);
+    else
+        add6(matrix, scale, x, y);
+    return OST_SUCCESS;
+}

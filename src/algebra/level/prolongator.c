@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/level/prolongator.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+void ost_prolongator_destroy(OstProlongator **prolongator)
+{
+    if (!*prolongator)
+        return;
+    OST_FREE((*prolongator)->row_start);
+    OST_FREE((*prolongator)->column);
+    OST_FREE((*prolongator)->value);
+    ost_halo_destroy(&(*prolongator)->halo);
+    OST_FREE(*prolongator);
+}
+
+OST_UNROLLED void add_rows(const OstProlongator *p, int height, const double *restrict c, double *restrict x)
+{
+    for (OstLocal i = 0; i < p->rows; i++) {
+        OstDouble8 sum[OST_MODES] = {{0}};
+        for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
+            const float *a = p->value + (size_t)(height * OST_MODES) * (size_t)k;
+            const OstDouble8 v = OST_LOAD8(c + OST_MODES * (size_t)p->column[k]);
+            for (int r = 0; r < height; r++)
+                sum[r] += OST_LOAD_FLOAT8(a + OST_MODES * r) * v;
+        }
+        for (int r = 0; r < height; r++)
+            x[(size_t)height * (size_t)i + (size_t)r] += ost_sum_row6(&sum[r]);
+    }
+}
+
+OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const double *restrict x, double *restrict c)
+{
+    for (OstLocal i = 0; i < p->rows; i++) {
+        const double *v = x + (size_t)height * (size_t)i;
+        for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
+            const float *a = p->value + (size_t)(height * OST_MODES) * (size_t)k;
+            OstDouble8 sum = {0};
+            for (int r = 0; r < height; r++)
+                sum += OST_LOAD_FLOAT8(a + OST_MODES * r) * v[r];
+            ost_add_row6(&sum, c + OST_MODES * (size_t)p->column[k]);
+        }
+    }
+}
+
+OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
+{
+    OST_TRY(ost_halo_import(prolongator->halo, OST_MODES * sizeof *c, c));
+    if (prolongator->height == 3)
+        add_rows(prolongator, 3, c, x);
+    else
+        add_rows(prolongator, 6, c, x);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
+{
+    memset(c, 0, OST_MODES * (size_t)prolongator->columns * sizeof *c);
+    if (prolongator->height == 3)
+        restrict_rows(prolongator, 3, x, c);
+    else
+        restrict_rows(prolongator, 6, x, c);
+    return ost_halo_add_to_owners(prolongator->halo, OST_MODES, c);
+}

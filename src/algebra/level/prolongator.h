@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_LEVEL_PROLONGATOR_H
+#define ORTHOSTAT_ALGEBRA_LEVEL_PROLONGATOR_H
+
+#include "algebra/level/lanes.h"
+#include "core/halo.h"
+
+/* From a coarse level to the next finer one, in single precision. Columns are coarse nodes: this rank's, then those of
+ * others that its rows reach, by ascending global number. */
+typedef struct OstProlongator {
+    OstContext *ctx;
+    int height; /* numbers of a fine node: 3 or 6; a coarse one has OST_MODES */
+    OstLocal rows, columns;
+    OstLocal *row_start, *column; /* columns ascend within a row */
+    float *value;                 /* row_start[rows] × height × OST_MODES, row by row, and padding */
+    OstHalo *halo;                /* over columns */
+} OstProlongator;
+
+void ost_prolongator_destroy(OstProlongator **prolongator);
+
+/* Collective over neighbours. x += P c; the ghosts of c are filled here. Both are level vectors. */
+OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x);
+
+/* Collective over neighbours. c = Pᵀ x; c has room for the columns, and is right in its owned part. */
+OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c);
+
+#endif

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/level/smoother_blocks.h"
+
+#include "algebra/aggregation/aggregates.h"
+#include "algebra/level/lanes.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <string.h>
+
+enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK, MOST_STRIPS = 3 };
+
+void ost_metric_blocks_destroy(OstMetricBlocks **blocks)
+{
+    if (!*blocks)
+        return;
+    OST_FREE((*blocks)->node_start);
+    OST_FREE((*blocks)->node);
+    OST_FREE((*blocks)->value_start);
+    OST_FREE((*blocks)->value);
+    OST_FREE(*blocks);
+}
+
+/* One block per aggregate; those too large for a dense inverse are cut. */
+static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstMetricBlocks *blocks)
+{
+    OstContext *ctx = blocks->ctx;
+    OstLocal *start = NULL;
+    OstStatus status = OST_SUCCESS;
+    const size_t room = (size_t)aggregates->count + (size_t)nodes / LARGEST_BLOCK + 1;
+    OST_TRY_DONE(ost_aggregates_list(aggregates, nodes, &start, &blocks->node));
+    OST_TRY_DONE(OST_NEW(ctx, &blocks->node_start, room));
+    OST_TRY_DONE(OST_NEW(ctx, &blocks->value_start, room));
+    for (OstLocal a = 0; a < aggregates->count; a++)
+        for (OstLocal from = start[a]; from < start[a + 1]; from += LARGEST_BLOCK) {
+            const OstLocal end = from + LARGEST_BLOCK < start[a + 1] ? from + LARGEST_BLOCK : start[a + 1];
+            const size_t side = (size_t)blocks->size * (size_t)(end - from);
+            const OstLocal b = blocks->count++;
+            blocks->node_start[b + 1] = end;
+            blocks->value_start[b + 1] = blocks->value_start[b] + side * side;
+        }
+    OST_TRY_DONE(OST_NEW(ctx, &blocks->value, blocks->value_start[blocks->count] + OST_PADDING));
+done:
+    OST_FREE(start);
+    return status;
+}
+
+/* Puts a 3 × 3 or 6 × 6 block in its place, and its mirror image. */
+static void spread(int size, const float *value, int side, double *lower, double *upper)
+{
+    for (int r = 0; r < size; r++)
+        for (int c = 0; c < size; c++)
+            lower[c * side + r] = upper[r * side + c] = (double)value[r * size + c];
+}
+
+/* The block's part of the matrix, dense; `place` is each node's place in its block and `of_node` its block. */
+static void gather_block(const OstLevelMatrix *matrix, const OstMetricBlocks *blocks, OstLocal b,
+                         const OstLocal *of_node, const OstLocal *place, double *dense)
+{
+    const int size = blocks->size;
+    const int side = size * (blocks->node_start[b + 1] - blocks->node_start[b]);
+    const size_t square = (size_t)(size * size);
+    memset(dense, 0, (size_t)side * (size_t)side * sizeof *dense);
+    for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++) {
+        const OstLocal i = blocks->node[m];
+        double *row = dense + place[i] * size * side, *column = dense + place[i] * size;
+        spread(size, matrix->diagonal + square * (size_t)i, side, row + place[i] * size, row + place[i] * size);
+        for (OstLocal k = matrix->row_start[i]; k < matrix->own_end[i]; k++) {
+            const OstLocal j = matrix->column[k];
+            if (of_node[j] == b)
+                spread(size, matrix->value + square * (size_t)k, side, column + place[j] * size * side,
+                       row + place[j] * size);
+        }
+    }
+}
+
+/* inverse = A^-1 by way of the Cholesky factor, which replaces A; returns 0, or the pivot that is not positive. */
+static int invert_dense(int side, double *a, double *inverse)
+{
+    const int pivot = ost_cholesky(side, a);
+    if (pivot != 0)
+        return pivot;
+    for (int i = 0; i < side; i++) { /* L^-1, row by row, in the lower part */
+        double *row = inverse + i * side;
+        memset(row, 0, (size_t)side * sizeof *row);
+        for (int k = 0; k < i; k++) {
+            const double factor = a[i * side + k];
+            for (int j = 0; j <= k; j++)
+                row[j] -= factor * inverse[k * side + j];
+        }
+        row[i] = 1.0;
+        for (int j = 0; j <= i; j++)
+            row[j] /= a[i * side + i];
+    }
+    memset(a, 0, (size_t)(side * side) * sizeof *a);
+    for (int k = 0; k < side; k++)
+        for (int i = 0; i <= k; i++)
+            for (int j = 0; j <= k; j++)
+                a[i * side + j] += inverse[k * side + i] * inverse[k * side + j];
+    memcpy(inverse, a, (size_t)(side * side) * sizeof *a);
+    return 0;
+}
+
+/* Inverts only the `size` × `size` blocks on the diagonal of `a`, or of those that fail only their diagonals. */
+static void invert_nodes(int size, int side, const double *a, double *inverse)
+{
+    memset(inverse, 0, (size_t)(side * side) * sizeof *inverse);
+    for (int n = 0; n < side; n += size) {
+        double block[36], block_inverse[36];
+        for (int r = 0; r < size; r++)
+            for (int c = 0; c < size; c++)
+                block[r * size + c] = a[(n + r) * side + n + c];
+        const int failed = invert_dense(size, block, block_inverse);
+        for (int r = 0; r < size; r++) {
+            const double diagonal = a[(n + r) * side + n + r];
+            if (failed)
+                inverse[(n + r) * side + n + r] = diagonal > 0.0 ? 1.0 / diagonal : 1.0;
+            for (int c = 0; c < size && !failed; c++)
+                inverse[(n + r) * side + n + c] = block_inverse[r * size + c];
+        }
+    }
+}
+
+static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node, const OstLocal *place, double *dense,
+                          double *inverse, OstMetricBlocks *blocks)
+{
+    for (OstLocal b = 0; b < blocks->count; b++) {
+        const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
+        gather_block(matrix, blocks, b, of_node, place, dense);
+        if (invert_dense(side, dense, inverse) != 0) {
+            gather_block(matrix, blocks, b, of_node, place, dense);
+            invert_nodes(blocks->size, side, dense, inverse);
+        }
+        float *value = blocks->value + blocks->value_start[b];
+        for (int k = 0; k < side * side; k++)
+            value[k] = (float)inverse[k];
+    }
+}
+
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstMetricBlocks *blocks)
+{
+    OstContext *ctx = blocks->ctx;
+    OstLocal *of_node = NULL, *place = NULL;
+    double *dense = NULL, *inverse = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(OST_NEW(ctx, &of_node, matrix->rows));
+    OST_TRY_DONE(OST_NEW(ctx, &place, matrix->rows));
+    OST_TRY_DONE(OST_NEW(ctx, &dense, LARGEST_SIDE * LARGEST_SIDE));
+    OST_TRY_DONE(OST_NEW(ctx, &inverse, LARGEST_SIDE * LARGEST_SIDE));
+    for (OstLocal b = 0; b < blocks->count; b++)
+        for (OstLocal k = blocks->node_start[b]; k < blocks->node_start[b + 1]; k++) {
+            of_node[blocks->node[k]] = b;
+            place[blocks->node[k]] = k - blocks->node_start[b];
+        }
+    invert_blocks(matrix, of_node, place, dense, inverse, blocks);
+done:
+    OST_FREE(of_node);
+    OST_FREE(place);
+    OST_FREE(dense);
+    OST_FREE(inverse);
+    return status;
+}
+
+OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
+                                   OstMetricBlocks **blocks)
+{
+    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0};
+    OstAggregates *aggregates = NULL;
+    *blocks = NULL;
+    OstStatus status = ost_aggregates_create(graph, &shape, &aggregates);
+    if (status != OST_SUCCESS)
+        return status;
+    OST_TRY_DONE(OST_NEW(matrix->ctx, blocks, 1));
+    (*blocks)->ctx = matrix->ctx;
+    (*blocks)->size = matrix->size;
+    OST_TRY_DONE(list_blocks(aggregates, matrix->rows, *blocks));
+    OST_TRY_DONE(fill_blocks(matrix, *blocks));
+done:
+    ost_aggregates_destroy(&aggregates);
+    if (status != OST_SUCCESS)
+        ost_metric_blocks_destroy(blocks);
+    return status;
+}
+
+/* Rows offset[0 .. count - 1] and the seven behind each of value × in; columns by twos, for what they wait for. */
+OST_UNROLLED void multiply_strips(int count, int side, const float *value, const int *offset, const float *in,
+                                  float *out)
+{
+    OstFloat8 even[MOST_STRIPS] = {{0}}, odd[MOST_STRIPS] = {{0}};
+    int j = 0;
+    for (; j + 1 < side; j += 2, value += 2 * side)
+        for (int s = 0; s < count; s++) {
+            even[s] += in[j] * *(const OstFloat8 *)(value + offset[s]);
+            odd[s] += in[j + 1] * *(const OstFloat8 *)(value + side + offset[s]);
+        }
+    for (int s = 0; s < count && j < side; s++)
+        even[s] += in[j] * *(const OstFloat8 *)(value + offset[s]);
+    for (int s = 0; s < count; s++)
+        *(OstFloat8 *)(out + offset[s]) = even[s] + odd[s];
+}
+
+/* out = value × in, in strips of eight rows of which the last two overlap; what is behind out[side - 1] is written over
+ * if there are fewer than eight. */
+static void multiply_dense(int side, const float *value, const float *in, float *out)
+{
+    for (int from = 0; from < side; from += 8 * MOST_STRIPS) {
+        int count = 0, offset[MOST_STRIPS];
+        for (int row = from; row < side && count < MOST_STRIPS; row += 8)
+            offset[count++] = row + 8 <= side ? row : side > 8 ? side - 8 : 0;
+        if (count == 3)
+            multiply_strips(3, side, value, offset, in, out);
+        else if (count == 2)
+            multiply_strips(2, side, value, offset, in, out);
+        else
+            multiply_strips(1, side, value, offset, in, out);
+    }
+}
+
+OST_UNROLLED void apply_blocks(const OstMetricBlocks *blocks, int size, const OstBlockStep *step, const double *r)
+{
+    for (OstLocal b = 0; b < blocks->count; b++) {
+        const OstLocal *node = blocks->node + blocks->node_start[b];
+        const int nodes = blocks->node_start[b + 1] - blocks->node_start[b];
+        float in[LARGEST_SIDE + OST_PADDING], out[LARGEST_SIDE + OST_PADDING];
+        for (int k = 0; k < nodes; k++)
+            for (int c = 0; c < size; c++)
+                in[k * size + c] = (float)r[(size_t)size * (size_t)node[k] + (size_t)c];
+        multiply_dense(size * nodes, blocks->value + blocks->value_start[b], in, out);
+        for (int k = 0; k < nodes; k++) {
+            double *restrict direction = step->direction + (size_t)size * (size_t)node[k];
+            double *restrict x = step->x + (size_t)size * (size_t)node[k];
+            for (int c = 0; c < size; c++) {
+                direction[c] = step->keep * direction[c] + step->add * (double)out[k * size + c];
+                x[c] += direction[c];
+            }
+        }
+    }
+}
+
+void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r)
+{
+    if (blocks->size == 3)
+        apply_blocks(blocks, 3, step, r);
+    else
+        apply_blocks(blocks, 6, step, r);
+}

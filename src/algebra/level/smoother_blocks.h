@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_LEVEL_SMOOTHER_BLOCKS_H
+#define ORTHOSTAT_ALGEBRA_LEVEL_SMOOTHER_BLOCKS_H
+
+#include "algebra/aggregation/graph.h"
+#include "algebra/level/level_matrix.h"
+
+/* Block Jacobi: the inverses of a matrix' diagonal blocks over groups of nodes that do not overlap. */
+typedef struct OstMetricBlocks {
+    OstContext *ctx;
+    int size; /* numbers per node */
+    OstLocal count;
+    OstLocal *node_start; /* count + 1 */
+    OstLocal *node;       /* nodes, block by block */
+    size_t *value_start;  /* count + 1 */
+    float *value;         /* dense symmetric inverses, and padding */
+} OstMetricBlocks;
+
+/* Local. Blocks of about `target` nodes, round in the graph's metric. A block that is not positive definite falls back
+ * to its nodes alone, and these to their diagonal. */
+OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
+                                   OstMetricBlocks **blocks);
+void ost_metric_blocks_destroy(OstMetricBlocks **blocks);
+
+/* A step of an iteration: direction = keep direction + add B^-1 r, then x += direction. */
+typedef struct OstBlockStep {
+    double keep, add;
+    double *direction, *x;
+} OstBlockStep;
+
+/* Local. */
+void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_LEVEL_TENTATIVE_H
+#define ORTHOSTAT_ALGEBRA_LEVEL_TENTATIVE_H
+
+#include "algebra/aggregation/graph.h"
+#include "algebra/level/double_matrix.h"
+#include "algebra/level/lanes.h"
+
+/* The tentative prolongator: each aggregate's part of the near-null space, made orthonormal, is the basis of its coarse
+ * node. Nodes of other ranks are known as well. */
+typedef struct OstTentative {
+    OstContext *ctx;
+    OstLocal coarse_nodes;  /* of this rank */
+    OstGlobal first_coarse; /* global number of the first */
+    OstGlobal *coarse;      /* fine columns: global number of each node's coarse node, or -1 */
+    float *block;  /* fine columns: each node's rows of the basis, size × OST_MODES; then OST_PADDING of padding */
+    double *modes; /* near-null space of the coarse level: OST_MODES columns of OST_MODES × coarse_nodes */
+} OstTentative;
+
+/* Collective. `modes`: near-null space of the fine level, OST_MODES columns of size × rows. A mode that an aggregate
+ * cannot tell from the others gets a basis vector of zeros, and the coarse modes' part there is 0. */
+OstStatus ost_tentative_create(const OstExactMatrix *matrix, const OstAggregates *aggregates, const double *modes,
+                               OstTentative **tentative);
+void ost_tentative_destroy(OstTentative **tentative);
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/matrix/block_matrix.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+void ost_block_matrix_destroy(OstBlockMatrix **matrix)
+{
+    if (!*matrix)
+        return;
+    OST_FREE((*matrix)->label);
+    OST_FREE((*matrix)->row_start);
+    OST_FREE((*matrix)->column);
+    OST_FREE((*matrix)->diagonal);
+    OST_FREE((*matrix)->value);
+    ost_halo_destroy(&(*matrix)->halo);
+    OST_FREE(*matrix);
+}
+
+void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *restrict x, double *restrict y)
+{
+    const OstLocal *restrict column = matrix->column;
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        double y0 = 0.0;
+        double y1 = 0.0;
+        double y2 = 0.0;
+        const OstLocal end = matrix->row_start[i + 1];
+        const double *restrict a = matrix->value + 9 * (size_t)matrix->row_start[i];
+        for (OstLocal k = matrix->row_start[i]; k < end; k++, a += 9) {
+            const double *b = x + 3 * (size_t)column[k];
+            y0 += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            y1 += a[3] * b[0] + a[4] * b[1] + a[5] * b[2];
+            y2 += a[6] * b[0] + a[7] * b[1] + a[8] * b[2];
+        }
+        y[3 * (size_t)i] = y0;
+        y[3 * (size_t)i + 1] = y1;
+        y[3 * (size_t)i + 2] = y2;
+    }
+}
+
+OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y)
+{
+    OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof *x, x));
+    ost_block_matrix_multiply(matrix, x, y);
+    return OST_SUCCESS;
+}

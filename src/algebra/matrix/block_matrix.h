@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_MATRIX_BLOCK_MATRIX_H
+#define ORTHOSTAT_ALGEBRA_MATRIX_BLOCK_MATRIX_H
+
+#include "core/halo.h"
+
+/* A sparse matrix of 3×3 blocks, rows distributed: this rank's complete rows, columns in local numbers (owned rows
+ * first, then the halo's ghosts), ascending within a row. Blocks are row-major. */
+typedef struct OstBlockMatrix {
+    OstContext *ctx;
+    OstLocal rows;       /* block rows this rank owns */
+    OstLocal columns;    /* rows + ghosts */
+    OstGlobal first_row; /* global number of row 0 */
+    OstGlobal global_rows;
+    OstGlobal *label;    /* columns: a number of each node's own, the same on any ranks */
+    OstLocal *row_start; /* rows + 1 */
+    OstLocal *column;    /* row_start[rows] */
+    OstLocal *diagonal;  /* rows: where each diagonal block is */
+    double *value;       /* row_start[rows] × 9 */
+    OstHalo *halo;       /* over rows; owned by the matrix */
+} OstBlockMatrix;
+
+void ost_block_matrix_destroy(OstBlockMatrix **matrix);
+
+/* Collective over neighbours. y = A x; x has room for 3 × columns numbers, and its ghosts are filled here; y 3 × rows.
+ */
+OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y);
+
+/* Local. The same where x holds its ghosts' values already. */
+void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *x, double *y);
+
+#endif

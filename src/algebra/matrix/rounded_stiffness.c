@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/matrix/rounded_stiffness.h"
+
+#include "core/scatter.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Standard errors that make sure. */
+static const double sure = 3.0;
+
+/* Where a block of the matrix is; which of the pair's nine bits is each entry's there. */
+typedef enum { BELOW_DIAGONAL, ABOVE_DIAGONAL, ON_DIAGONAL } Place;
+
+static const int bit_of_entry[][9] = {
+    [BELOW_DIAGONAL] = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+    [ABOVE_DIAGONAL] = {0, 3, 6, 1, 4, 7, 2, 5, 8},
+    [ON_DIAGONAL] = {0, 3, 6, 3, 4, 7, 6, 7, 8},
+};
+
+static inline Place place_of_block(OstGlobal i, OstGlobal j)
+{
+    if (i == j)
+        return ON_DIAGONAL;
+    return i > j ? BELOW_DIAGONAL : ABOVE_DIAGONAL;
+}
+
+static inline uint64_t bits_of_pair(OstGlobal i, OstGlobal j, int which)
+{
+    const uint64_t low = (uint64_t)(i < j ? i : j), high = (uint64_t)(i < j ? j : i);
+    return ost_scatter(ost_scatter(ost_scatter(low) + high) + (uint64_t)which);
+}
+
+static inline void add_block(const double *block, uint64_t bits, Place place, const double *u, double *force)
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            const double half = (double)(int)(bits >> bit_of_entry[place][3 * r + c] & 1) - 0.5;
+            force[r] += half * DBL_EPSILON * (block[3 * r + c] * u[c]);
+        }
+}
+
+void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force)
+{
+    memset(force, 0, 3 * (size_t)matrix->rows * sizeof *force);
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
+            const OstLocal column = matrix->column[k];
+            const OstGlobal i = matrix->label[row], j = matrix->label[column];
+            add_block(matrix->value + 9 * (size_t)k, bits_of_pair(i, j, which), place_of_block(i, j),
+                      u + 3 * (size_t)column, force + 3 * (size_t)row);
+        }
+}
+
+double ost_throws_size(const OstThrows *throws)
+{
+    return sqrt(throws->squares / throws->count);
+}
+
+double ost_throws_spread(const OstThrows *throws)
+{
+    return 1.0 / sqrt(2.0 * throws->count);
+}
+
+int ost_surely_beyond(double size, double spread, double limit)
+{
+    return !(size <= (1.0 + sure * spread) * limit);
+}
+
+int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most)
+{
+    if (throws->count < fewest)
+        return 1;
+    const double size = ost_throws_size(throws), margin = sure * ost_throws_spread(throws) * limit;
+    return throws->count < most && fabs(size - limit) <= margin;
+}

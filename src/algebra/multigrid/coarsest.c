@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/coarsest.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SHIFT_TRIES = 5 };
+
+static const double first_shift = 1e-10; /* of the largest diagonal entry; the next are a hundred times larger each */
+
+extern void dpotrf_(const char *uplo, const int *n, double *a, const int *leading, int *info, size_t length);
+extern void dpotrs_(const char *uplo, const int *n, const int *columns, const double *a, const int *leading, double *b,
+                    const int *b_leading, int *info, size_t length);
+
+void ost_coarsest_destroy(OstCoarsest **coarsest)
+{
+    if (!*coarsest)
+        return;
+    OST_FREE((*coarsest)->count);
+    OST_FREE((*coarsest)->start);
+    OST_FREE((*coarsest)->factor);
+    OST_FREE((*coarsest)->vector);
+    ost_mumps_destroy(&(*coarsest)->sparse);
+    OST_FREE(*coarsest);
+}
+
+/* How the unknowns lie over the ranks. */
+static OstStatus number_unknowns(OstCoarsest *coarsest)
+{
+    OstContext *ctx = coarsest->ctx;
+    OST_TRY(OST_MPI(ctx, MPI_Allgather(&coarsest->owned, 1, MPI_INT, coarsest->count, 1, MPI_INT, ost_comm(ctx))));
+    OstGlobal order = 0;
+    for (int r = 0; r < ost_size(ctx); r++) {
+        coarsest->start[r] = order <= OST_COARSEST_LIMIT ? (int)order : 0;
+        order += coarsest->count[r];
+    }
+    coarsest->dense = order <= OST_COARSEST_LIMIT;
+    coarsest->order = order <= OST_COARSEST_LIMIT ? (int)order : 0;
+    return OST_SUCCESS;
+}
+
+/* This rank's rows, in place in the dense matrix. `number` has each block column's first global unknown. */
+static void spread_rows(const OstExactMatrix *matrix, const OstGlobal *number, OstCoarsest *coarsest)
+{
+    const int size = matrix->size;
+    const size_t order = (size_t)coarsest->order;
+    double room[9];
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+            const double *value = ost_exact_matrix_block(matrix, size, i, k, room);
+            double *target = coarsest->factor + (size_t)number[i] * order + (size_t)number[matrix->column[k]];
+            for (int r = 0; r < size; r++)
+                for (int c = 0; c < size; c++)
+                    target[(size_t)r * order + (size_t)c] = value[r * size + c];
+        }
+}
+
+/* All rows to every rank. Rows are sent as one type, so that counts stay small. */
+static OstStatus gather_rows(OstCoarsest *coarsest)
+{
+    OstContext *ctx = coarsest->ctx;
+    MPI_Datatype row;
+    OST_TRY(OST_MPI(ctx, MPI_Type_contiguous(coarsest->order, MPI_DOUBLE, &row)));
+    OstStatus status = OST_MPI(ctx, MPI_Type_commit(&row));
+    if (status == OST_SUCCESS)
+        status = OST_MPI(ctx, MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, coarsest->factor, coarsest->count,
+                                             coarsest->start, row, ost_comm(ctx)));
+    const OstStatus freed = OST_MPI(ctx, MPI_Type_free(&row));
+    return status != OST_SUCCESS ? status : freed;
+}
+
+static OstStatus assemble(const OstExactMatrix *matrix, OstCoarsest *coarsest)
+{
+    OstContext *ctx = coarsest->ctx;
+    OstGlobal *number = NULL;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &number, matrix->columns));
+    if (status != OST_SUCCESS)
+        goto done;
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        number[i] = coarsest->start[ost_rank(ctx)] + (OstGlobal)matrix->size * i;
+    OST_TRY_DONE(ost_halo_import(matrix->halo, sizeof *number, number));
+    spread_rows(matrix, number, coarsest);
+    OST_TRY_DONE(gather_rows(coarsest));
+done:
+    OST_FREE(number);
+    return status;
+}
+
+/* LAPACK's lower triangle is the upper one of our rows, which it leaves whole when it fails: a failed try is undone
+ * from the other triangle. */
+static void restore(OstCoarsest *coarsest, const double *diagonal, double shift)
+{
+    const size_t n = (size_t)coarsest->order;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i + 1; j < n; j++)
+            coarsest->factor[i * n + j] = coarsest->factor[j * n + i];
+        coarsest->factor[i * n + i] = diagonal[i] + shift;
+    }
+}
+
+static OstStatus factor(OstCoarsest *coarsest)
+{
+    const size_t n = (size_t)coarsest->order;
+    double *diagonal = coarsest->vector;
+    double largest = 0.0, shift = 0.0;
+    const int leading = coarsest->order > 0 ? coarsest->order : 1;
+    int info = 0;
+    for (size_t i = 0; i < n; i++) {
+        diagonal[i] = coarsest->factor[i * n + i];
+        largest = fmax(largest, diagonal[i]);
+    }
+    for (int try = 0; try <= SHIFT_TRIES; try++) {
+        restore(coarsest, diagonal, shift);
+        dpotrf_("L", &coarsest->order, coarsest->factor, &leading, &info, 1);
+        if (info == 0)
+            return OST_SUCCESS;
+        shift = try == 0 ? first_shift * largest : 100.0 * shift;
+    }
+    return OST_RAISE(
+        coarsest->ctx, OST_NOT_CONVERGED,
+        "pivot %d of %d on the coarsest level is not positive: the stiffness, or what rounding made of it, is "
+        "indefinite",
+        info, coarsest->order);
+}
+
+static OstStatus factor_dense(const OstExactMatrix *matrix, OstCoarsest *coarsest)
+{
+    OstContext *ctx = coarsest->ctx;
+    OstStatus status = OST_NEW(ctx, &coarsest->factor, (size_t)coarsest->order * (size_t)coarsest->order);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &coarsest->vector, coarsest->order);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, assemble(matrix, coarsest)));
+    return ost_agree(ctx, factor(coarsest));
+}
+
+OstStatus ost_coarsest_create(const OstExactMatrix *matrix, double memory, OstCoarsest **coarsest)
+{
+    OstContext *ctx = matrix->ctx;
+    const size_t ranks = (size_t)ost_size(ctx);
+    OstCoarsest *made = NULL;
+    *coarsest = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &made->count, ranks);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &made->start, ranks);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    made->ctx = ctx;
+    made->owned = matrix->size * matrix->rows;
+    OST_TRY_DONE(ost_agree(ctx, number_unknowns(made)));
+    if (made->dense)
+        OST_TRY_DONE(factor_dense(matrix, made));
+    else
+        OST_TRY_DONE(ost_mumps_create(matrix, memory, &made->sparse));
+done:
+    if (status != OST_SUCCESS)
+        ost_coarsest_destroy(&made);
+    *coarsest = made;
+    return status;
+}
+
+OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x)
+{
+    OstContext *ctx = coarsest->ctx;
+    const int one = 1;
+    int info = 0;
+    if (coarsest->sparse)
+        return ost_mumps_solve(coarsest->sparse, b, x);
+    OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
+                                        coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
+    const int leading = coarsest->order > 0 ? coarsest->order : 1;
+    dpotrs_("L", &coarsest->order, &one, coarsest->factor, &leading, coarsest->vector, &leading, &info, 1);
+    if (info != 0)
+        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "LAPACK's dpotrs returned %d", info);
+    memcpy(x, coarsest->vector + coarsest->start[ost_rank(ctx)], (size_t)coarsest->owned * sizeof *x);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/levels.h"
+
+#include "algebra/aggregation/aggregates.h"
+#include "algebra/level/galerkin.h"
+#include "algebra/multigrid/prolongator_smoothing.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A level with more than this part of the unknowns of the one above is not worth having. */
+static const double least_gain = 0.8;
+
+/* Up to a ratio of 1000 between Young's moduli (its root below this) the options hold as they are. Beyond, what is
+ * stiff keeps its length to ever more digits: six modes an aggregate follow that only over few nodes, and the smoother
+ * must reach them. Found on the tube of cases/tube with a ratio of 1e6: 25, 108 and over 300 iterations (along, through
+ * the wall, around) by the options as they are, 12, 18 and 53 by 12 nodes an aggregate and 10 a block. */
+static const double unhurt_shortening = 32.0, fewest_nodes = 10.0;
+
+/* The building of levels, from the finest down. */
+typedef struct Coarsening {
+    OstContext *ctx;
+    OstSolverOptions options;
+    OstMetricLevels *levels;
+    double **modes;     /* near-null space of the coarsest level so far */
+    OstGlobal unknowns; /* on all ranks */
+} Coarsening;
+
+static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
+{
+    double shortening;
+    OST_TRY(ost_metric_graph_shortening(graph, &shortening));
+    if (shortening <= unhurt_shortening)
+        return OST_SUCCESS;
+    const double factor = shortening / unhurt_shortening;
+    const double aggregate = options->aggregate_nodes, block = options->smoother_block_nodes;
+    if (!(options->given & OST_GIVEN_AGGREGATE))
+        options->aggregate_nodes = fmin(aggregate, fmax(aggregate / factor, fewest_nodes));
+    if (!(options->given & OST_GIVEN_BLOCK))
+        options->smoother_block_nodes = fmax(block, fmin(block * factor, fewest_nodes));
+    return OST_SUCCESS;
+}
+
+/* Aggregates of the coarsest level so far, the graph of the next, and its unknowns over all ranks. */
+static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlobal *unknowns)
+{
+    const int l = work->levels->count - 1;
+    const OstSolverOptions *options = &work->options;
+    const OstMetricGraph *graph = work->levels->graph[l];
+    /* Two nodes or fewer cannot show the six modes; a coarse node carries all six. */
+    const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
+                                     .minimum = l == 0 ? 3 : 1,
+                                     .recentrings = 2};
+    OstStatus status = ost_aggregates_create(graph, &shape, aggregates);
+    if (status == OST_SUCCESS)
+        status = ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]);
+    OST_TRY(ost_agree(work->ctx, status));
+    *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
+    return OST_MPI(work->ctx, MPI_Allreduce(MPI_IN_PLACE, unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(work->ctx)));
+}
+
+static void take_modes(Coarsening *work, OstTentative *tentative)
+{
+    OST_FREE(*work->modes);
+    *work->modes = tentative->modes;
+    tentative->modes = NULL;
+}
+
+/* The level below the coarsest so far. */
+static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
+{
+    OstMetricLevels *levels = work->levels;
+    const int l = levels->count - 1;
+    OstTentative *tentative = NULL;
+    OstExactMatrix *coarse = NULL;
+    OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, &tentative);
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
+    ost_metric_graph_destroy(&levels->graph[l]); /* as all that goes early here: the Galerkin product is the peak */
+    OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
+    const OstGlobal first = tentative->first_coarse;
+    take_modes(work, tentative);
+    ost_tentative_destroy(&tentative);
+    OST_TRY_DONE(
+        ost_galerkin_create(levels->coarsest, levels->smoother[l]->blocks, levels->prolongator[l], first, &coarse));
+    ost_exact_matrix_mend_diagonal(coarse);
+    ost_exact_matrix_destroy(&levels->coarsest);
+    levels->coarsest = coarse;
+    OST_TRY_DONE(ost_level_matrix_create(coarse, &levels->matrix[l + 1]));
+    levels->count++;
+done:
+    ost_tentative_destroy(&tentative);
+    return status;
+}
+
+static OstStatus coarsen(Coarsening *work)
+{
+    OstMetricLevels *levels = work->levels;
+    OstAggregates *aggregates = NULL;
+    OstStatus status = OST_SUCCESS;
+    while (work->unknowns > work->options.coarsest_unknowns && levels->count < work->options.most_levels) {
+        OstGlobal unknowns = 0;
+        OST_TRY_DONE(aggregate(work, &aggregates, &unknowns));
+        if (unknowns == 0 || (double)unknowns > least_gain * (double)work->unknowns) {
+            ost_metric_graph_destroy(&levels->graph[levels->count]);
+            break;
+        }
+        OST_TRY_DONE(add_level(work, aggregates));
+        ost_aggregates_destroy(&aggregates);
+        work->unknowns = unknowns;
+    }
+done:
+    ost_aggregates_destroy(&aggregates);
+    OST_FREE(*work->modes);
+    return status;
+}
+
+OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
+                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
+                                   OstMetricLevels *levels)
+{
+    Coarsening work = {
+        .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
+    memset(levels, 0, sizeof *levels);
+    levels->count = 1;
+    levels->graph[0] = *finest_graph;
+    *finest_graph = NULL;
+    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &levels->coarsest));
+    if (status == OST_SUCCESS)
+        status = ost_level_matrix_create(levels->coarsest, &levels->matrix[0]);
+    if (status == OST_SUCCESS)
+        status = adapt_options(levels->graph[0], &work.options);
+    if (status == OST_SUCCESS)
+        status = coarsen(&work);
+    if (status != OST_SUCCESS)
+        ost_metric_levels_clear(levels);
+    return status;
+}
+
+void ost_metric_levels_clear(OstMetricLevels *levels)
+{
+    for (int l = 0; l < OST_MAX_LEVELS; l++) {
+        ost_smoother_destroy(&levels->smoother[l]);
+        ost_level_matrix_destroy(&levels->matrix[l]);
+        ost_prolongator_destroy(&levels->prolongator[l]);
+        ost_metric_graph_destroy(&levels->graph[l]);
+    }
+    ost_exact_matrix_destroy(&levels->coarsest);
+    levels->count = 0;
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/metric.h"
+
+#include "algebra/krylov/cg.h"
+#include "algebra/matrix/vector.h"
+#include "algebra/multigrid/cycle.h"
+#include "algebra/multigrid/quadratic.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+static const double careful = 1.2; /* of an eigenvalue estimate that may have been too low */
+
+struct OstMetric {
+    OstContext *ctx;
+    OstSolverOptions options;
+    const OstBlockMatrix *matrix;
+    OstScaling *scaling;
+    OstCycle *cycle;
+    /* quadratic tets: the cycle is that of the linear ones under them */
+    OstQuadraticLevel *quadratic;
+    OstScaling *linear_scaling;
+    int levels;
+    OstGlobal level_unknowns[OST_MAX_LEVELS];
+    double operator_complexity;
+};
+
+void ost_metric_destroy(OstMetric **metric)
+{
+    if (!*metric)
+        return;
+    ost_quadratic_level_destroy(&(*metric)->quadratic);
+    ost_cycle_destroy(&(*metric)->cycle);
+    ost_scaling_destroy(&(*metric)->linear_scaling);
+    ost_scaling_destroy(&(*metric)->scaling);
+    OST_FREE(*metric);
+}
+
+/* The modes in scaled unknowns, each of order 1. */
+static OstStatus scale_modes(const OstScaling *scaling, const double *modes, double **scaled)
+{
+    const size_t n = 3 * (size_t)scaling->rows;
+    OST_TRY(ost_agree(scaling->ctx, OST_NEW(scaling->ctx, scaled, 6 * n)));
+    for (size_t k = 0; k < 6; k++) {
+        double *mode = *scaled + k * n;
+        double size;
+        ost_scaling_to_scaled_mode(scaling, modes + k * n, mode);
+        OST_TRY(ost_vector_size(scaling->ctx, n, mode, &size));
+        for (size_t i = 0; i < n; i++)
+            mode[i] /= size;
+    }
+    return OST_SUCCESS;
+}
+
+/* Sizes of the levels over all ranks, for the report. */
+static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels)
+{
+    OstGlobal size[2 * OST_MAX_LEVELS] = {0};
+    for (int l = 0; l < levels->count; l++) {
+        size[2 * l] = (OstGlobal)ost_level_unknowns(levels->matrix[l]);
+        size[2 * l + 1] = levels->matrix[l]->nonzeros;
+    }
+    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, size, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM,
+                                               ost_comm(metric->ctx))));
+    OstGlobal nonzeros = 0;
+    metric->levels = levels->count;
+    for (int l = 0; l < levels->count; l++) {
+        metric->level_unknowns[l] = size[2 * l];
+        nonzeros += size[2 * l + 1];
+    }
+    metric->operator_complexity = (double)nonzeros / (double)size[1];
+    return OST_SUCCESS;
+}
+
+/* The cycle of a matrix on aggregates of its graph. */
+static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
+                             const OstSolverGeometry *geometry)
+{
+    OstContext *ctx = metric->ctx;
+    OstMetricGraph *graph = NULL;
+    OstMetricLevels levels = {0};
+    double *modes = NULL;
+    OstStatus status = ost_metric_graph_create(matrix, geometry, &graph);
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
+    OST_TRY_DONE(ost_metric_levels_create(matrix, scaling, &modes, &graph, &metric->options, &levels));
+    OST_TRY_DONE(measure_levels(metric, &levels));
+    OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
+done:
+    OST_FREE(modes);
+    ost_metric_graph_destroy(&graph);
+    ost_metric_levels_clear(&levels);
+    return status;
+}
+
+/* Puts the quadratic tets on top in the report: complexity is over the finest matrix. */
+static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear)
+{
+    OstGlobal blocks[2] = {metric->matrix->row_start[metric->matrix->rows], linear->row_start[linear->rows]};
+    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, blocks, 2, MPI_INT64_T, MPI_SUM, ost_comm(metric->ctx))));
+    if (metric->levels < OST_MAX_LEVELS)
+        metric->levels++;
+    for (int l = metric->levels - 1; l > 0; l--)
+        metric->level_unknowns[l] = metric->level_unknowns[l - 1];
+    metric->level_unknowns[0] = 3 * metric->matrix->global_rows;
+    metric->operator_complexity = 1.0 + metric->operator_complexity * (double)blocks[1] / (double)blocks[0];
+    return OST_SUCCESS;
+}
+
+static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry)
+{
+    const OstCoarseSpace *space = geometry->coarse;
+    OstMetricGraph *graph = NULL;
+    metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
+    OstStatus status = ost_scaling_create(space->matrix, &metric->linear_scaling);
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(build_cycle(metric, space->matrix, metric->linear_scaling, space->geometry));
+    OST_TRY_DONE(count_quadratic(metric, space->matrix));
+    OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
+    OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
+                                            metric->cycle, &metric->options, &metric->quadratic));
+done:
+    ost_metric_graph_destroy(&graph);
+    return status;
+}
+
+OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+                            const OstSolverOptions *options, OstMetric **metric)
+{
+    OstMetric *made = NULL;
+    *metric = NULL;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
+    if (status != OST_SUCCESS)
+        goto done;
+    made->ctx = ctx;
+    made->options = *options;
+    made->matrix = matrix;
+    OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
+    if (geometry->coarse)
+        OST_TRY_DONE(build_quadratic(made, geometry));
+    else
+        OST_TRY_DONE(build_cycle(made, matrix, made->scaling, geometry));
+done:
+    if (status != OST_SUCCESS)
+        ost_metric_destroy(&made);
+    *metric = made;
+    return status;
+}
+
+/* The estimate of the largest eigenvalue is from below, and a polynomial that ends short of the spectrum is not
+ * definite: a stronger smoother also takes more care. */
+static void strengthen(OstSmoother *smoother, int more, double ratio)
+{
+    if (!smoother)
+        return;
+    smoother->degree += more;
+    smoother->ratio = ratio * careful;
+    smoother->largest *= careful;
+}
+
+static OstStatus apply_cycle(void *data, const double *r, double *z)
+{
+    return ost_cycle_apply(data, r, z);
+}
+
+static OstStatus apply_quadratic(void *data, const double *r, double *z)
+{
+    return ost_quadratic_level_apply(data, r, z);
+}
+
+void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
+{
+    const int more = options->smoother_degree - metric->options.smoother_degree;
+    OstCycle *cycle = metric->cycle;
+    for (int l = 0; l < cycle->levels.count; l++)
+        strengthen(cycle->level[l].smoother, more, options->smoother_ratio);
+    if (metric->quadratic)
+        strengthen(metric->quadratic->smoother, more, options->smoother_ratio);
+    metric->options.smoother_degree = options->smoother_degree;
+    metric->options.smoother_ratio = options->smoother_ratio;
+}
+
+OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    const OstPreconditioner linear = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
+    const OstPreconditioner quadratic = {.data = metric->quadratic, .apply = apply_quadratic, .flexible = 1};
+    const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
+    report->levels = metric->levels;
+    for (int l = 0; l < metric->levels; l++)
+        report->level_unknowns[l] = metric->level_unknowns[l];
+    report->operator_complexity = metric->operator_complexity;
+    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, goal, report);
+}
+
+OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
+{
+    OstGoal goal;
+    OST_TRY(ost_goal_set(metric->matrix, f, &metric->options, &goal));
+    memset(u, 0, 3 * (size_t)metric->matrix->rows * sizeof *u);
+    const OstStatus status = ost_metric_improve(metric, f, u, &goal, report);
+    report->iterations = goal.iterations;
+    report->relative_residual = goal.start > 0.0 ? goal.norm / goal.start : 0.0;
+    return status == OST_SUCCESS ? ost_goal_verdict(&goal) : status;
+}

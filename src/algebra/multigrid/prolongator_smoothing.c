@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/prolongator_smoothing.h"
+
+#include "algebra/level/index_map.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+static const double damping = 4.0 / 3.0;
+
+/* What the rows are made from. */
+typedef struct Smoothing {
+    const OstExactMatrix *matrix;
+    const OstTentative *tentative;
+    const OstMetricBlocks *blocks;
+    OstProlongator *p;
+    double omega;
+    OstLocal *column;                     /* fine columns: the coarse column of each node, or -1 */
+    OstLocal *block_start, *block_column; /* of each block: the coarse columns that its rows reach, ascending */
+    OstLocal *place;                      /* coarse columns: where each is in the block at hand, or -1 */
+    OstDouble8 *sum;                      /* the block's part of A T, node by node, column by column */
+} Smoothing;
+
+static void destroy_smoothing(Smoothing *s)
+{
+    OST_FREE(s->column);
+    OST_FREE(s->block_start);
+    OST_FREE(s->block_column);
+    OST_FREE(s->place);
+    OST_FREE(s->sum);
+}
+
+/* The coarse nodes of the fine ghosts, each once, and every fine node's coarse column. */
+static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
+{
+    const OstExactMatrix *a = s->matrix;
+    const OstTentative *t = s->tentative;
+    OstLocal ghosts = 0;
+    OST_TRY(OST_NEW(a->ctx, ghost, a->columns - a->rows));
+    OST_TRY(OST_NEW(a->ctx, &s->column, a->columns));
+    for (OstLocal j = a->rows; j < a->columns; j++)
+        if (t->coarse[j] >= 0)
+            (*ghost)[ghosts++] = t->coarse[j];
+    ghosts = ost_numbers_sort(ghosts, *ghost);
+    for (OstLocal j = 0; j < a->columns; j++)
+        if (t->coarse[j] < 0)
+            s->column[j] = -1;
+        else if (j < a->rows)
+            s->column[j] = (OstLocal)(t->coarse[j] - t->first_coarse);
+        else
+            s->column[j] = t->coarse_nodes + ost_numbers_find(ghosts, *ghost, t->coarse[j]);
+    s->p->columns = t->coarse_nodes + ghosts;
+    return OST_SUCCESS;
+}
+
+/* The columns that a block's rows reach, ascending. B^-1 mixes them: they are the columns of each of its rows. */
+static void list_block(Smoothing *s, OstLocal b)
+{
+    const OstExactMatrix *a = s->matrix;
+    const OstLocal start = s->block_start[b];
+    OstLocal end = start;
+    for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++) {
+        const OstLocal i = s->blocks->node[m];
+        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
+            const OstLocal column = s->column[a->column[k]];
+            if (column < 0 || s->place[column] == b)
+                continue;
+            OstLocal to = end++;
+            s->place[column] = b; /* seen */
+            for (; to > start && s->block_column[to - 1] > column; to--)
+                s->block_column[to] = s->block_column[to - 1];
+            s->block_column[to] = column;
+        }
+    }
+    s->block_start[b + 1] = end;
+}
+
+static OstStatus list_blocks(Smoothing *s)
+{
+    const OstExactMatrix *a = s->matrix;
+    OST_TRY(OST_NEW(a->ctx, &s->block_start, s->blocks->count + 1));
+    OST_TRY(OST_NEW(a->ctx, &s->block_column, a->row_start[a->rows]));
+    OST_TRY(OST_NEW(a->ctx, &s->place, s->p->columns));
+    for (OstLocal c = 0; c < s->p->columns; c++)
+        s->place[c] = -1;
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        list_block(s, b);
+    for (OstLocal c = 0; c < s->p->columns; c++)
+        s->place[c] = -1;
+    return OST_RESIZE(a->ctx, &s->block_column, s->block_start[s->blocks->count]);
+}
+
+static OstStatus list_rows(Smoothing *s)
+{
+    OstContext *ctx = s->matrix->ctx;
+    OstProlongator *p = s->p;
+    OST_TRY(OST_NEW(ctx, &p->row_start, p->rows + 1));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++)
+            p->row_start[s->blocks->node[m] + 1] = s->block_start[b + 1] - s->block_start[b];
+    for (OstLocal i = 0; i < p->rows; i++)
+        p->row_start[i + 1] += p->row_start[i];
+    OST_TRY(OST_NEW(ctx, &p->column, p->row_start[p->rows]));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++)
+            memcpy(p->column + p->row_start[s->blocks->node[m]], s->block_column + s->block_start[b],
+                   (size_t)(s->block_start[b + 1] - s->block_start[b]) * sizeof *p->column);
+    return OST_SUCCESS;
+}
+
+/* The block's rows of A T. */
+OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
+{
+    const OstExactMatrix *a = s->matrix;
+    const size_t block = (size_t)(size * OST_MODES);
+    const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
+    const OstLocal first = s->blocks->node_start[b], nodes = s->blocks->node_start[b + 1] - first;
+    double room[9];
+    memset(s->sum, 0, (size_t)nodes * (size_t)size * (size_t)count * sizeof *s->sum);
+    for (OstLocal c = 0; c < count; c++)
+        s->place[s->block_column[start + c]] = c;
+    for (OstLocal m = 0; m < nodes; m++) {
+        const OstLocal i = s->blocks->node[first + m];
+        OstDouble8 *row = s->sum + (size_t)m * (size_t)count * (size_t)size;
+        for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
+            const OstLocal column = s->column[a->column[k]];
+            if (column >= 0)
+                ost_block_multiply(size, ost_exact_matrix_block(a, size, i, k, room),
+                                   s->tentative->block + block * (size_t)a->column[k],
+                                   row + (size_t)size * (size_t)s->place[column]);
+        }
+    }
+}
+
+/* The block's rows of T - omega B^-1 A T. */
+OST_UNROLLED void smooth_block(Smoothing *s, int size, OstLocal b)
+{
+    const OstMetricBlocks *blocks = s->blocks;
+    OstProlongator *p = s->p;
+    const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
+    const OstLocal first = blocks->node_start[b], nodes = blocks->node_start[b + 1] - first;
+    const float *inverse = blocks->value + blocks->value_start[b];
+    const int side = size * nodes;
+    sum_block(s, size, b);
+    for (int row = 0; row < side; row++) {
+        const OstLocal i = blocks->node[first + row / size];
+        const int r = row % size;
+        float *value = p->value + (size_t)(size * OST_MODES) * (size_t)p->row_start[i] + (size_t)(OST_MODES * r);
+        const float *tentative = s->tentative->block + (size_t)(size * OST_MODES) * (size_t)i + OST_MODES * r;
+        for (OstLocal c = 0; c < count; c++, value += size * OST_MODES) {
+            OstDouble8 total = {0};
+            for (int k = 0; k < side; k++)
+                total += (double)inverse[row * side + k] *
+                         s->sum[((size_t)(k / size) * (size_t)count + (size_t)c) * (size_t)size + (size_t)(k % size)];
+            const int own = s->block_column[start + c] == s->column[i];
+            for (int mode = 0; mode < OST_MODES; mode++)
+                value[mode] = (float)((own ? (double)tentative[mode] : 0.0) - s->omega * total[mode]);
+        }
+    }
+}
+
+static OstStatus smooth_blocks(Smoothing *s)
+{
+    OstContext *ctx = s->matrix->ctx;
+    const int size = s->matrix->size;
+    OstProlongator *p = s->p;
+    size_t largest = 0;
+    for (OstLocal b = 0; b < s->blocks->count; b++) {
+        const size_t blocks = (size_t)(s->block_start[b + 1] - s->block_start[b]) *
+                              (size_t)(s->blocks->node_start[b + 1] - s->blocks->node_start[b]);
+        largest = blocks > largest ? blocks : largest;
+    }
+    OST_TRY(OST_NEW(ctx, &s->sum, largest * (size_t)size));
+    OST_TRY(OST_NEW(ctx, &p->value, (size_t)p->row_start[p->rows] * (size_t)(size * OST_MODES) + OST_PADDING));
+    for (OstLocal b = 0; b < s->blocks->count; b++)
+        if (size == 3)
+            smooth_block(s, 3, b);
+        else
+            smooth_block(s, 6, b);
+    return OST_SUCCESS;
+}
+
+static OstStatus prepare(Smoothing *s, OstGlobal **ghost)
+{
+    const OstExactMatrix *a = s->matrix;
+    OST_TRY(OST_NEW(a->ctx, &s->p, 1));
+    s->p->ctx = a->ctx;
+    s->p->height = a->size;
+    s->p->rows = a->rows;
+    OST_TRY(number_columns(s, ghost));
+    OST_TRY(list_blocks(s));
+    return list_rows(s);
+}
+
+OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix, const OstSmoother *smoother,
+                               OstProlongator **prolongator)
+{
+    OstContext *ctx = matrix->ctx;
+    Smoothing s = {
+        .matrix = matrix, .tentative = tentative, .blocks = smoother->blocks, .omega = damping / smoother->largest};
+    OstGlobal *ghost = NULL;
+    *prolongator = NULL;
+    OstStatus status = ost_agree(ctx, prepare(&s, &ghost));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse,
+                                 s.p->columns - tentative->coarse_nodes, ghost, &s.p->halo));
+    OST_TRY_DONE(ost_agree(ctx, smooth_blocks(&s)));
+done:
+    OST_FREE(ghost);
+    destroy_smoothing(&s);
+    if (status != OST_SUCCESS)
+        ost_prolongator_destroy(&s.p);
+    *prolongator = s.p;
+    return status;
+}

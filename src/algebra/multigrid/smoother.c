@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/multigrid/smoother.h"
+
+#include "algebra/multigrid/spectrum.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <string.h>
+
+static const double safety = 1.1; /* of the estimated largest eigenvalue */
+
+void ost_smoother_destroy(OstSmoother **smoother)
+{
+    if (!*smoother)
+        return;
+    ost_metric_blocks_destroy(&(*smoother)->blocks);
+    OST_FREE((*smoother)->residual);
+    OST_FREE((*smoother)->direction);
+    OST_FREE(*smoother);
+}
+
+/* z = B^-1 r, by a step from nothing. */
+static void apply_blocks(const void *data, const double *r, double *z)
+{
+    const OstSmoother *smoother = data;
+    const OstBlockStep step = {.keep = 0.0, .add = 1.0, .direction = z, .x = smoother->direction};
+    ost_metric_blocks_step(smoother->blocks, &step, r);
+}
+
+OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph,
+                              const OstSolverOptions *options, OstSmoother **smoother)
+{
+    OstContext *ctx = matrix->ctx;
+    OstSmoother *made = NULL;
+    *smoother = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS)
+        status = ost_level_vector_create(ctx, matrix->size, matrix->rows, &made->residual);
+    if (status == OST_SUCCESS)
+        status = ost_level_vector_create(ctx, matrix->size, matrix->columns, &made->direction);
+    if (status == OST_SUCCESS)
+        status = ost_metric_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    made->matrix = matrix;
+    made->degree = options->smoother_degree;
+    made->ratio = options->smoother_ratio;
+    OST_TRY_DONE(ost_largest_eigenvalue(matrix, apply_blocks, made, &made->largest));
+done:
+    if (status != OST_SUCCESS)
+        ost_smoother_destroy(&made);
+    *smoother = made;
+    return status;
+}
+
+/* Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
+OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
+{
+    const size_t n = ost_level_unknowns(smoother->matrix);
+    const double upper = safety * smoother->largest;
+    const double lower = smoother->largest / smoother->ratio;
+    const double centre = 0.5 * (upper + lower);
+    const double half_width = 0.5 * (upper - lower);
+    const double sigma = centre / half_width;
+    double rho = 1.0 / sigma;
+    memcpy(smoother->residual, b, n * sizeof(double));
+    if (from_zero)
+        memset(x, 0, n * sizeof(double));
+    else
+        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, x, smoother->residual));
+    OstBlockStep step = {.keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x};
+    ost_metric_blocks_step(smoother->blocks, &step, smoother->residual);
+    for (int k = 1; k < smoother->degree; k++) {
+        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
+        const double next = 1.0 / (2.0 * sigma - rho);
+        step.keep = next * rho;
+        step.add = 2.0 * next / half_width;
+        ost_metric_blocks_step(smoother->blocks, &step, smoother->residual);
+        rho = next;
+    }
+    return OST_SUCCESS;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/trilinos/epetra.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <limits.h>
+
+/* Epetra_ConfigDefs.h is C++ only. The C wrappers need nothing from it but to know that Epetra has MPI. */
+#define EPETRA_CONFIGDEFS_H
+#define EPETRA_MPI
+#include <Epetra_C_wrappers.h>
+
+enum { EPETRA_VIEW = 0 }; /* for the wrappers, 1 copies the values and anything else looks at them in place */
+
+struct OstEpetraMap {
+    OstContext *ctx;
+    EPETRA_OBJECT_PTR communicator;
+    EPETRA_OBJECT_PTR map;
+};
+
+void ost_epetra_map_destroy(OstEpetraMap **map)
+{
+    if (!*map)
+        return;
+    if ((*map)->map)
+        epetra_map_destroy((*map)->map);
+    if ((*map)->communicator)
+        epetra_comm_destroy((*map)->communicator);
+    OST_FREE(*map);
+}
+
+/* The wrapper that makes a 64-bit map with a given count per rank is not callable from C in Trilinos 13 (the library
+ * defines it with other argument types than its header, under a C++ name), so the map is a 32-bit one. */
+static OstStatus check_limit(OstContext *ctx, OstLocal count)
+{
+    OstGlobal total = count;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    if (total > INT_MAX)
+        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
+                         "%lld unknowns are more than Epetra's C interface can number (2^31 - 1); use a smaller mesh",
+                         (long long)total);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_epetra_map_create(OstContext *ctx, OstLocal count, OstEpetraMap **map)
+{
+    OstEpetraMap *made = NULL;
+    MPI_Comm comm = ost_comm(ctx);
+    *map = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
+    OST_TRY_DONE(check_limit(ctx, count));
+    made->ctx = ctx;
+    made->communicator = epetra_mpicomm_create2(&comm);
+    if (made->communicator)
+        made->map = epetra_map_create2(-1, count, 0, made->communicator);
+    if (!made->map || epetra_map_nummyelements(made->map) != count)
+        status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "Epetra could not make a map of %d unknowns", count);
+    status = ost_agree(ctx, status);
+done:
+    if (status != OST_SUCCESS)
+        ost_epetra_map_destroy(&made);
+    *map = made;
+    return status;
+}
+
+OstGlobal ost_epetra_map_size(const OstEpetraMap *map)
+{
+    return epetra_map_numglobalelements(map->map);
+}
+
+OstGlobal ost_epetra_map_first(const OstEpetraMap *map)
+{
+    return epetra_map_nummyelements(map->map) > 0 ? epetra_map_myglobalelements(map->map)[0] : 0;
+}
+
+OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm)
+{
+    /* The wrappers know no const; a norm writes nothing. */
+    EPETRA_OBJECT_PTR vector = epetra_vector_create2(EPETRA_VIEW, map->map, (double *)(uintptr_t)values);
+    const int error = vector ? epetra_vector_norm2(vector, norm) : -1;
+    if (vector)
+        epetra_vector_destroy(vector);
+    if (error != 0)
+        return OST_RAISE(map->ctx, OST_LIBRARY_FAILED, "Epetra's norm failed with code %d", error);
+    return OST_SUCCESS;
+}
