@@ -12,7 +12,8 @@ function(orthostat_find name what package header libraries)
   find_path(ORTHOSTAT_${name}_INCLUDE ${header} PATH_SUFFIXES trilinos)
   set(found)
   foreach(library IN LISTS libraries)
-    find_library(ORTHOSTAT_${name}_${library} NAMES ${library})
+    string(REGEX REPLACE "^trilinos_" "" unprefixed ${library}) # Debian puts the project's name in front
+    find_library(ORTHOSTAT_${name}_${library} NAMES ${library} ${unprefixed})
     if(NOT ORTHOSTAT_${name}_${library})
       orthostat_missing("${what} (library ${library})" ${package})
     endif()
@@ -43,15 +44,20 @@ orthostat_find(MUMPS "MUMPS" libmumps-dev dmumps_c.h "dmumps")
 orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
 orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
 
-# Parallel HDF5 goes by its own names, beside a serial one.
-pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi)
-if(NOT ORTHOSTAT_HDF5_FOUND)
-  pkg_check_modules(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-mpi)
+# Debian has parallel HDF5 under names of its own, beside a serial one; elsewhere it is the HDF5 that is found first.
+pkg_search_module(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi hdf5-mpi)
+if(ORTHOSTAT_HDF5_FOUND)
+  add_library(Orthostat::HDF5 ALIAS PkgConfig::ORTHOSTAT_HDF5)
+else()
+  set(HDF5_PREFER_PARALLEL TRUE)
+  find_package(HDF5 COMPONENTS C)
+  if(NOT HDF5_FOUND OR NOT HDF5_IS_PARALLEL)
+    orthostat_missing("parallel HDF5" libhdf5-openmpi-dev)
+  endif()
+  add_library(Orthostat::HDF5 INTERFACE IMPORTED)
+  set_target_properties(Orthostat::HDF5 PROPERTIES INTERFACE_LINK_LIBRARIES "${HDF5_C_LIBRARIES}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${HDF5_C_INCLUDE_DIRS}")
 endif()
-if(NOT ORTHOSTAT_HDF5_FOUND)
-  orthostat_missing("parallel HDF5" libhdf5-openmpi-dev)
-endif()
-add_library(Orthostat::HDF5 ALIAS PkgConfig::ORTHOSTAT_HDF5)
 
 # Gmsh's library is loaded when a .msh file is read and not before: it takes 40 ms and 22 MiB that no other case needs.
 find_path(ORTHOSTAT_GMSH_INCLUDE gmshc.h)
