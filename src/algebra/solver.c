@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/matrix/exact_residual.h"
+#include "algebra/matrix/compensated_residual.h"
 #include "algebra/matrix/vector.h"
-#include "algebra/rung.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
+#include "algebra/strategy.h"
 #include "algebra/trilinos/epetra.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -18,7 +18,7 @@ struct OstSolver {
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
     OstSolverPlan plan;
-    OstRung *rung; /* NULL if there are no unknowns */
+    OstStrategy *rung; /* NULL if there are no unknowns */
     OstEpetraMap *map;
     double setup_seconds; /* of all rungs so far */
     double rung_seconds;  /* of the one that stands, until it has been booked to a step */
@@ -55,7 +55,7 @@ static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *ste
         const double start = ost_seconds();
         ost_solver_rung_options(&solver->plan.options, recipe, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
-        const OstStatus status = ost_rung_stand(solver->matrix, &solver->geometry, &options, &solver->rung);
+        const OstStatus status = ost_strategy_prepare(solver->matrix, &solver->geometry, &options, &solver->rung);
         ost_ledger_leave(solver->ctx);
         solver->rung_seconds = ost_seconds() - start;
         solver->setup_seconds += solver->rung_seconds;
@@ -150,15 +150,16 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    ost_rung_destroy(&(*solver)->rung);
+    ost_strategy_destroy(&(*solver)->rung);
     ost_epetra_map_destroy(&(*solver)->map);
     OST_FREE(*solver);
 }
 
-static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, double *u, int exact, double *residual)
+static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, double *u, int compensated,
+                               double *residual)
 {
-    if (exact)
-        return ost_exact_residual(matrix, f, u, residual);
+    if (compensated)
+        return ost_compensated_residual(matrix, f, u, residual);
     OST_TRY(ost_block_matrix_apply(matrix, u, residual));
     for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
         residual[i] = f[i] - residual[i];
@@ -166,7 +167,7 @@ static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, do
 }
 
 /* ||f - A u|| / ||f||, by Epetra's norms: no code in common with what the recipes stop by but the product. */
-static OstStatus measure_residual(const OstSolver *solver, const double *f, const double *u, int exact,
+static OstStatus measure_residual(const OstSolver *solver, const double *f, const double *u, int compensated,
                                   double *relative)
 {
     OstContext *ctx = solver->ctx;
@@ -180,7 +181,7 @@ static OstStatus measure_residual(const OstSolver *solver, const double *f, cons
         status = OST_NEW(ctx, &residual, n);
     OST_TRY_DONE(ost_agree(ctx, status));
     memcpy(vector, u, n * sizeof *u);
-    OST_TRY_DONE(find_residual(solver->matrix, f, vector, exact, residual));
+    OST_TRY_DONE(find_residual(solver->matrix, f, vector, compensated, residual));
     OST_TRY_DONE(ost_epetra_norm(solver->map, residual, &norm));
     OST_TRY_DONE(ost_epetra_norm(solver->map, f, &f_norm));
     *relative = f_norm > 0.0 ? norm / f_norm : norm;
@@ -195,13 +196,13 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 {
     const double start = ost_seconds();
     const int before = goal->iterations;
-    const OstStatus status = ost_rung_work(solver->rung, f, u, goal, report);
+    const OstStatus status = ost_strategy_improve(solver->rung, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
                           : goal->end == OST_END_REACHED ? "reached the residual asked for"
                                                          : goal->words;
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung), outcome);
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_recipe(solver->rung), outcome);
     step->iterations = goal->iterations - before;
-    step->factor = step->iterations > 0 ? ost_pace_whole_factor(&goal->pace) : 0.0;
+    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->pace) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->rung_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %d iterations in %.3f s to a residual of %.2e: %s",
@@ -216,7 +217,7 @@ static int should_climb(const OstSolver *solver, const OstGoal *goal)
 {
     const int mendable =
         goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return climbs(solver) && mendable && ost_rung_recipe(solver->rung) < OST_RECIPE_DIRECT;
+    return climbs(solver) && mendable && ost_strategy_recipe(solver->rung) < OST_RECIPE_DIRECT;
 }
 
 /* The rung that came down fastest, to be gone on with where those above it ask for more memory than there is; AUTO if
@@ -226,7 +227,7 @@ static OstRecipe fastest(const OstSolveReport *report)
     OstRecipe found = OST_RECIPE_AUTO;
     double least = 0.9999;
     for (int s = 0; s < report->steps; s++)
-        if (report->step[s].iterations >= OST_PACE_WINDOW && report->step[s].factor < least) {
+        if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
             found = report->step[s].rung;
             least = report->step[s].factor;
         }
@@ -235,7 +236,7 @@ static OstRecipe fastest(const OstSolveReport *report)
 
 static OstStatus climb(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstRecipe from = ost_rung_recipe(solver->rung);
+    const OstRecipe from = ost_strategy_recipe(solver->rung);
     const OstStatus status = stand_on(solver, (OstRecipe)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
@@ -259,7 +260,7 @@ static OstStatus ascend(OstSolver *solver, const double *f, double *u, OstGoal *
 
 static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
 {
-    report->recipe = solver->rung ? ost_rung_recipe(solver->rung) : solver->plan.first;
+    report->recipe = solver->rung ? ost_strategy_recipe(solver->rung) : solver->plan.first;
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
@@ -283,7 +284,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
-    return measure_residual(solver, f, u, goal.exact, &report->relative_residual);
+    return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)

@@ -83,16 +83,16 @@ static OstStatus find_errors(OstHardDirect *direct, const OstResult *result, con
  * and with a factorisation led to 32 digits. u is u* with its ghosts; that of `direct` becomes the last throw's. */
 static OstStatus try_roundings(OstHardDirect *direct, const double *u, double *force, OstHardTruth *truth)
 {
-    OstThrows throws = {0, 0.0};
+    OstSamples throws = {0, 0.0};
     int known = 1;
-    while (known && ost_throws_undecided(&throws, ost_hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
+    while (known && ost_samples_undecided(&throws, ost_hard_hopeless, FEWEST_ROUNDINGS, MOST_ROUNDINGS)) {
         double moved;
         ost_rounded_stiffness_force(direct->system->matrix, u, FIRST_ROUNDING + throws.count, force);
         OST_TRY(ost_hard_direct_solve(direct, force, roughly, NULL, &known));
         OST_TRY(ost_hard_direct_size(direct, &moved));
-        ost_throws_add(&throws, moved / truth->size);
+        ost_samples_add(&throws, moved / truth->size);
     }
-    truth->rounded = known ? ost_throws_size(&throws) : NAN;
+    truth->rounded = known ? ost_samples_size(&throws) : NAN;
     return OST_SUCCESS;
 }
 

@@ -69,7 +69,8 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
     goal->settled = settled;
-    goal->exact |= direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
+    goal->compensated |=
+        direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
     OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
     return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ALGEBRA_LEVEL_LANES_H
-#define ORTHOSTAT_ALGEBRA_LEVEL_LANES_H
+#ifndef ORTHOSTAT_ALGEBRA_LEVEL_SIMD_H
+#define ORTHOSTAT_ALGEBRA_LEVEL_SIMD_H
 
 #ifdef __AVX__
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/matrix/exact_residual.h"
+#include "algebra/matrix/compensated_residual.h"
 
 #include "core/error.h"
 
@@ -21,7 +21,7 @@ static inline void subtract_product(Sum *sum, double a, double b)
     sum->high = high;
 }
 
-OstStatus ost_exact_residual(const OstBlockMatrix *matrix, const double *f, double *u, double *residual)
+OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f, double *u, double *residual)
 {
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), u));
     for (OstLocal row = 0; row < matrix->rows; row++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/matrix/exact_step.h"
+#include "algebra/matrix/compensated_step.h"
 
-#include "algebra/matrix/exact_residual.h"
+#include "algebra/matrix/compensated_residual.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-OstStatus ost_exact_step_create(const OstBlockMatrix *matrix, OstExactStep **step)
+OstStatus ost_compensated_step_create(const OstBlockMatrix *matrix, OstCompensatedStep **step)
 {
     OstContext *ctx = matrix->ctx;
-    OstExactStep *made = NULL;
+    OstCompensatedStep *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {
         made->matrix = matrix;
@@ -21,12 +21,12 @@ OstStatus ost_exact_step_create(const OstBlockMatrix *matrix, OstExactStep **ste
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &made->product, 3 * (size_t)matrix->rows);
     if (status != OST_SUCCESS)
-        ost_exact_step_destroy(&made);
+        ost_compensated_step_destroy(&made);
     *step = made;
     return ost_agree(ctx, status);
 }
 
-void ost_exact_step_destroy(OstExactStep **step)
+void ost_compensated_step_destroy(OstCompensatedStep **step)
 {
     if (!*step)
         return;
@@ -36,7 +36,7 @@ void ost_exact_step_destroy(OstExactStep **step)
 }
 
 /* p = correction, made conjugate to the last p where there is one. */
-static OstStatus next_direction(OstExactStep *step, const double *correction)
+static OstStatus next_direction(OstCompensatedStep *step, const double *correction)
 {
     const size_t n = 3 * (size_t)step->matrix->rows;
     double overlap = 0.0;
@@ -48,13 +48,13 @@ static OstStatus next_direction(OstExactStep *step, const double *correction)
     return OST_SUCCESS;
 }
 
-OstStatus ost_exact_step_turn(OstExactStep *step, const double *residual, double *correction)
+OstStatus ost_compensated_step_turn(OstCompensatedStep *step, const double *residual, double *correction)
 {
     const size_t n = 3 * (size_t)step->matrix->rows;
     double gain;
     OST_TRY(next_direction(step, correction));
     memset(step->product, 0, n * sizeof *step->product);
-    OST_TRY(ost_exact_residual(step->matrix, step->product, step->direction, step->product));
+    OST_TRY(ost_compensated_residual(step->matrix, step->product, step->direction, step->product));
     for (size_t i = 0; i < n; i++)
         step->product[i] = -step->product[i];
     OST_TRY(ost_vector_dot(step->matrix->ctx, n, step->direction, step->product, &step->energy));

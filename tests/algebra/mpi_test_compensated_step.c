@@ -3,7 +3,7 @@
 
 #include "elastic_block.h"
 
-#include "algebra/matrix/exact_step.h"
+#include "algebra/matrix/compensated_step.h"
 
 static const double diagonal[3] = {1.0, 2.0, 3.0};
 
@@ -35,20 +35,20 @@ static void a_mode_that_factors_miss_takes_one_step_more(void **state)
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *u = NULL, *residual = NULL, *correction = NULL;
-    OstExactStep *step = NULL;
+    OstCompensatedStep *step = NULL;
     assert_success(OST_NEW(ctx, &u, n + 1));
     assert_success(OST_NEW(ctx, &residual, n + 1));
     assert_success(OST_NEW(ctx, &correction, n + 1));
-    assert_success(ost_exact_step_create(problem.matrix, &step));
+    assert_success(ost_compensated_step_create(problem.matrix, &step));
     for (int k = 0; k < 2; k++) {
         assert_true(largest_residual(&problem, u, residual) > 0.01);
         miss_one_mode(problem.matrix, residual, correction);
-        assert_success(ost_exact_step_turn(step, residual, correction));
+        assert_success(ost_compensated_step_turn(step, residual, correction));
         for (size_t i = 0; i < n; i++)
             u[i] += correction[i];
     }
     assert_true(largest_residual(&problem, u, residual) < 1e-14);
-    ost_exact_step_destroy(&step);
+    ost_compensated_step_destroy(&step);
     OST_FREE(u);
     OST_FREE(residual);
     OST_FREE(correction);
@@ -66,10 +66,10 @@ static void what_rounding_hides_of_an_energy_is_found(void **state)
     const size_t n = 3 * (size_t)matrix->rows;
     const int first = matrix->first_row == 0 && matrix->rows > 0;
     double *correction = NULL, *residual = NULL;
-    OstExactStep *step = NULL;
+    OstCompensatedStep *step = NULL;
     assert_success(OST_NEW(ctx, &correction, n + 1));
     assert_success(OST_NEW(ctx, &residual, n + 1));
-    assert_success(ost_exact_step_create(matrix, &step));
+    assert_success(ost_compensated_step_create(matrix, &step));
     if (first) {
         double *block = matrix->value + 9 * (size_t)matrix->diagonal[0];
         block[0] = a;
@@ -78,13 +78,13 @@ static void what_rounding_hides_of_an_energy_is_found(void **state)
         memcpy(correction, p, sizeof p);
         residual[0] = 1.0;
     }
-    assert_success(ost_exact_step_turn(step, residual, correction));
+    assert_success(ost_compensated_step_turn(step, residual, correction));
     const double apart = p[0] - p[1], more = stiff - a; /* both exact */
     const double expected = a * apart * apart + more * p[1] * p[1];
     assert_close(step->energy, expected, 1e-9 * expected);
     if (first) /* r·p / p·Ap of p */
         assert_close(correction[1], p[0] / expected * p[1], 1e-9 * p[0] / expected * p[1]);
-    ost_exact_step_destroy(&step);
+    ost_compensated_step_destroy(&step);
     OST_FREE(correction);
     OST_FREE(residual);
     elastic_destroy(&problem);
@@ -97,7 +97,7 @@ static void a_direction_without_energy_is_left_alone(void **state)
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *zero = NULL, *correction = NULL;
-    OstExactStep *step = NULL;
+    OstCompensatedStep *step = NULL;
     assert_success(OST_NEW(ctx, &zero, n + 1));
     assert_success(OST_NEW(ctx, &correction, n + 1));
     for (OstLocal k = 0; k < problem.matrix->row_start[problem.matrix->rows]; k++)
@@ -105,12 +105,12 @@ static void a_direction_without_energy_is_left_alone(void **state)
             problem.matrix->value[9 * (size_t)k + (size_t)c] *= -1.0;
     for (size_t i = 0; i < n; i++)
         correction[i] = 1.0;
-    assert_success(ost_exact_step_create(problem.matrix, &step));
-    assert_success(ost_exact_step_turn(step, zero, correction));
+    assert_success(ost_compensated_step_create(problem.matrix, &step));
+    assert_success(ost_compensated_step_turn(step, zero, correction));
     for (size_t i = 0; i < n; i++)
         assert_true(correction[i] == 1.0);
     assert_true(step->energy == 0.0);
-    ost_exact_step_destroy(&step);
+    ost_compensated_step_destroy(&step);
     OST_FREE(zero);
     OST_FREE(correction);
     elastic_destroy(&problem);

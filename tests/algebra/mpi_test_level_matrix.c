@@ -9,11 +9,11 @@ static const ElasticBlock block = {
 
 static OstLevelMatrix *level_matrix(const OstBlockMatrix *matrix)
 {
-    OstExactMatrix *exact = NULL;
+    OstDoubleMatrix *exact = NULL;
     OstLevelMatrix *level = NULL;
-    assert_success(ost_exact_matrix_borrow(matrix, NULL, &exact));
+    assert_success(ost_double_matrix_borrow(matrix, NULL, &exact));
     assert_success(ost_level_matrix_create(exact, &level));
-    ost_exact_matrix_destroy(&exact);
+    ost_double_matrix_destroy(&exact);
     return level;
 }
 
@@ -54,14 +54,14 @@ static void half_a_matrix_multiplies_as_the_whole_does(void **state)
 }
 
 /* direction = 1/2 direction + 3 B^-1 r, x += direction, with r = B v for a v of noise. */
-static void check_step(const OstLevelMatrix *level, const OstMetricBlocks *blocks, const double *r, const double *v)
+static void check_step(const OstLevelMatrix *level, const OstSmootherBlocks *blocks, const double *r, const double *v)
 {
     double *direction = level_vector(level), *x = level_vector(level);
     for (size_t i = 0; i < ost_level_unknowns(level); i++) {
         direction[i] = 8.0;
         x[i] = (double)i;
     }
-    ost_metric_blocks_step(blocks, &(OstBlockStep){.keep = 0.5, .add = 3.0, .direction = direction, .x = x}, r);
+    ost_smoother_blocks_step(blocks, &(OstBlockStep){.keep = 0.5, .add = 3.0, .direction = direction, .x = x}, r);
     for (size_t i = 0; i < ost_level_unknowns(level); i++) {
         assert_close(direction[i], 4.0 + 3.0 * v[i], 1e-3); /* single precision */
         assert_close(x[i], direction[i] + (double)i, 1e-9);
@@ -79,7 +79,7 @@ static void one_block_of_any_size_inverts_its_nodes(void **state)
         OstContext *alone = NULL;
         ElasticProblem problem;
         OstMetricGraph *graph = NULL;
-        OstMetricBlocks *blocks = NULL;
+        OstSmootherBlocks *blocks = NULL;
         ElasticBlock small = block;
         memcpy(small.bricks, bricks[k], sizeof small.bricks);
         assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
@@ -91,12 +91,12 @@ static void one_block_of_any_size_inverts_its_nodes(void **state)
         double *v = noise(level), *r = level_vector(level);
         assert_success(ost_level_matrix_add(level, 1.0, v, r));
         assert_success(ost_metric_graph_create(problem.matrix, &problem.geometry, &graph));
-        assert_success(ost_metric_blocks_create(level, graph, 1000.0, &blocks));
+        assert_success(ost_smoother_blocks_create(level, graph, 1000.0, &blocks));
         assert_int_equal(blocks->count, 1);
         check_step(level, blocks, r, v);
         OST_FREE(v);
         OST_FREE(r);
-        ost_metric_blocks_destroy(&blocks);
+        ost_smoother_blocks_destroy(&blocks);
         ost_metric_graph_destroy(&graph);
         ost_level_matrix_destroy(&level);
         elastic_destroy(&problem);

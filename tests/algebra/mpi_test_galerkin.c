@@ -12,18 +12,18 @@
 typedef struct Coarse {
     ElasticProblem problem;
     OstScaling *scaling;
-    OstExactMatrix *exact;
+    OstDoubleMatrix *exact;
     OstLevelMatrix *level;
     OstTentative *tentative;
     OstProlongator *prolongator;
-    OstExactMatrix *coarse;
+    OstDoubleMatrix *coarse;
 } Coarse;
 
 static const ElasticBlock soft_and_stiff = {
     .bricks = {7, 6, 11}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .contrast = 100.0, .held = 1};
 
 /* Rows of a block share their columns, which the product relies on. */
-static void check_columns(const OstMetricBlocks *blocks, const OstProlongator *p)
+static void check_columns(const OstSmootherBlocks *blocks, const OstProlongator *p)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal first = blocks->node[blocks->node_start[b]];
@@ -49,7 +49,7 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     assert_success(elastic_create(ctx, block, &c->problem));
     if (!given)
         assert_success(ost_scaling_create(c->problem.matrix, &c->scaling));
-    assert_success(ost_exact_matrix_borrow(c->problem.matrix, c->scaling, &c->exact));
+    assert_success(ost_double_matrix_borrow(c->problem.matrix, c->scaling, &c->exact));
     assert_success(ost_level_matrix_create(c->exact, &c->level));
     assert_success(ost_metric_graph_create(c->problem.matrix, &c->problem.geometry, &graph));
     if (!given)
@@ -68,11 +68,11 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
 
 static void destroy_coarse(Coarse *c)
 {
-    ost_exact_matrix_destroy(&c->coarse);
+    ost_double_matrix_destroy(&c->coarse);
     ost_prolongator_destroy(&c->prolongator);
     ost_tentative_destroy(&c->tentative);
     ost_level_matrix_destroy(&c->level);
-    ost_exact_matrix_destroy(&c->exact);
+    ost_double_matrix_destroy(&c->exact);
     ost_scaling_destroy(&c->scaling);
     elastic_destroy(&c->problem);
 }
@@ -94,14 +94,14 @@ static double *noise(OstGlobal first, OstLocal nodes, int size, double seed)
 }
 
 /* y = A x in double precision. */
-static void apply(const OstExactMatrix *a, double *x, double *y)
+static void apply(const OstDoubleMatrix *a, double *x, double *y)
 {
     const int size = a->size;
     assert_success(ost_halo_import(a->halo, (size_t)size * sizeof *x, x));
     for (OstLocal i = 0; i < a->rows; i++)
         for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
             double room[9];
-            const double *block = ost_exact_matrix_block(a, size, i, k, room);
+            const double *block = ost_double_matrix_block(a, size, i, k, room);
             for (int r = 0; r < size; r++)
                 for (int c = 0; c < size; c++)
                     y[size * i + r] += block[size * r + c] * x[size * a->column[k] + c];
@@ -147,7 +147,7 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
     (void)state;
     Coarse c;
     make_coarse(&soft_and_stiff, 12.0, NULL, &c);
-    const OstExactMatrix *a = c.coarse;
+    const OstDoubleMatrix *a = c.coarse;
     const size_t n = 6 * (size_t)a->rows;
     double *x = noise(c.tentative->first_coarse, a->rows, 6, 1.7), *ax = vector();
     double *y = noise(c.tentative->first_coarse, a->rows, 6, 2.3), *ay = vector();
@@ -160,7 +160,7 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
         for (OstLocal k = a->row_start[i] + 1; k < a->row_start[i + 1]; k++)
             assert_true(a->column[k] > a->column[k - 1]);
         assert_true(a->column[a->row_start[i + 1] - 1] < a->columns);
-        const double *diagonal = ost_exact_matrix_diagonal(a, i);
+        const double *diagonal = ost_double_matrix_diagonal(a, i);
         for (int r = 0; r < 6; r++)
             for (int s = 0; s < r; s++)
                 assert_close(diagonal[6 * r + s], diagonal[6 * s + r], 1e-12);
@@ -194,11 +194,11 @@ static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
                 row += fabs(c.tentative->modes[6 * (m * c.coarse->rows + a) + r]);
             left_out += row == 0.0;
             if (row == 0.0)
-                assert_close(ost_exact_matrix_diagonal(c.coarse, a)[7 * r], 0.0, 0.0);
+                assert_close(ost_double_matrix_diagonal(c.coarse, a)[7 * r], 0.0, 0.0);
         }
         assert_int_equal(left_out, 1);
     }
-    ost_exact_matrix_mend_diagonal(c.coarse);
+    ost_double_matrix_mend_diagonal(c.coarse);
     double *ones = noise(0, c.coarse->rows, 6, 0.3), *force = vector();
     apply(c.coarse, ones, force);
     assert_true(global_dot(6 * (size_t)c.coarse->rows, ones, force) > 0.0);
@@ -223,28 +223,28 @@ static void rows_travel_to_ghosts_and_back(void **state)
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &soft_and_stiff, &problem));
     OstHalo *halo = problem.matrix->halo;
-    OstBlockRows *out = NULL, *in = NULL, *back = NULL;
+    OstFetchedRows *out = NULL, *in = NULL, *back = NULL;
     const OstLocal rows = halo->send_start[halo->neighbour_count];
-    assert_success(ost_block_rows_create(ctx, rows, sizeof(double), &out));
+    assert_success(ost_fetched_rows_create(ctx, rows, sizeof(double), &out));
     for (OstLocal i = 0; i < rows; i++)
         out->start[i + 1] = out->start[i] + halo->send_index[i] % 4;
-    assert_success(ost_block_rows_reserve(out));
+    assert_success(ost_fetched_rows_reserve(out));
     for (OstLocal i = 0; i < rows; i++)
         for (OstLocal k = out->start[i]; k < out->start[i + 1]; k++) {
             out->column[k] = (problem.matrix->first_row + halo->send_index[i]) << 8 | (k - out->start[i]);
             ((double *)(void *)out->value)[k] = 0.5 * (double)out->column[k];
         }
-    assert_success(ost_block_rows_exchange(halo, OST_TO_GHOSTS, out, &in));
+    assert_success(ost_fetched_rows_exchange(halo, OST_TO_GHOSTS, out, &in));
     assert_int_equal(in->rows, halo->ghosts);
     for (OstLocal k = 0; k < in->start[in->rows]; k++)
         assert_close(((double *)(void *)in->value)[k], 0.5 * (double)in->column[k], 0.0);
-    assert_success(ost_block_rows_exchange(halo, OST_TO_OWNERS, in, &back));
+    assert_success(ost_fetched_rows_exchange(halo, OST_TO_OWNERS, in, &back));
     assert_int_equal(back->rows, rows);
     assert_memory_equal(back->start, out->start, ((size_t)rows + 1) * sizeof *out->start);
     assert_memory_equal(back->column, out->column, (size_t)out->start[rows] * sizeof *out->column);
-    ost_block_rows_destroy(&out);
-    ost_block_rows_destroy(&in);
-    ost_block_rows_destroy(&back);
+    ost_fetched_rows_destroy(&out);
+    ost_fetched_rows_destroy(&in);
+    ost_fetched_rows_destroy(&back);
     elastic_destroy(&problem);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/rung.h"
+#include "algebra/strategy.h"
 
 #include "algebra/direct/direct.h"
 #include "algebra/krylov/cg.h"
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-struct OstRung {
+struct OstStrategy {
     OstRecipe recipe;
     const OstBlockMatrix *matrix;
     OstSmoothedAggregation *plain; /* one of these three */
@@ -16,7 +16,7 @@ struct OstRung {
     OstDirect *direct;
 };
 
-void ost_rung_destroy(OstRung **rung)
+void ost_strategy_destroy(OstStrategy **rung)
 {
     if (!*rung)
         return;
@@ -26,13 +26,13 @@ void ost_rung_destroy(OstRung **rung)
     OST_FREE(*rung);
 }
 
-OstRecipe ost_rung_recipe(const OstRung *rung)
+OstRecipe ost_strategy_recipe(const OstStrategy *rung)
 {
     return rung->recipe;
 }
 
 static OstStatus build(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, const OstSolverOptions *options,
-                       OstRung *rung)
+                       OstStrategy *rung)
 {
     switch (options->recipe) {
     case OST_RECIPE_PLAIN:
@@ -44,8 +44,8 @@ static OstStatus build(const OstBlockMatrix *matrix, const OstSolverGeometry *ge
     }
 }
 
-OstStatus ost_rung_stand(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
-                         const OstSolverOptions *options, OstRung **rung)
+OstStatus ost_strategy_prepare(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+                               const OstSolverOptions *options, OstStrategy **rung)
 {
     OstContext *ctx = matrix->ctx;
     if (*rung && (*rung)->recipe == OST_RECIPE_METRIC && options->recipe == OST_RECIPE_STRONG) {
@@ -53,7 +53,7 @@ OstStatus ost_rung_stand(const OstBlockMatrix *matrix, const OstSolverGeometry *
         (*rung)->recipe = OST_RECIPE_STRONG;
         return OST_SUCCESS;
     }
-    ost_rung_destroy(rung);
+    ost_strategy_destroy(rung);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, rung, 1));
     if (status == OST_SUCCESS) {
         (*rung)->recipe = options->recipe;
@@ -61,11 +61,11 @@ OstStatus ost_rung_stand(const OstBlockMatrix *matrix, const OstSolverGeometry *
         status = build(matrix, geometry, options, *rung);
     }
     if (status != OST_SUCCESS)
-        ost_rung_destroy(rung);
+        ost_strategy_destroy(rung);
     return status;
 }
 
-OstStatus ost_rung_work(OstRung *rung, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+OstStatus ost_strategy_improve(OstStrategy *rung, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     if (rung->plain) {
         const OstPreconditioner cycle = {.data = rung->plain, .apply = ost_smoothed_aggregation_apply};
