@@ -22,6 +22,7 @@ def read(*path):
 
 def code_of(text):
     """What stands in code blocks and between backticks, as one text."""
+    text = text.replace("\\|", "|")  # as it is written in tables
     blocks = re.findall(r"^```.*?^```", text, re.M | re.S)
     return "\n".join(blocks + re.findall(r"`([^`\n]+)`", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)))
 
