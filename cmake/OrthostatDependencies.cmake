@@ -45,7 +45,7 @@ orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
 orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
 
 # Debian has parallel HDF5 under names of its own, beside a serial one; elsewhere it is the HDF5 that is found first.
-pkg_search_module(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi hdf5-mpi)
+pkg_search_module(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi hdf5-mpich hdf5-mpi)
 if(ORTHOSTAT_HDF5_FOUND)
   add_library(Orthostat::HDF5 ALIAS PkgConfig::ORTHOSTAT_HDF5)
 else()
