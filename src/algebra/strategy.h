@@ -5,17 +5,18 @@
 #include "algebra/krylov/refine.h"
 #include "algebra/matrix/geometry.h"
 
-/* One rung of the ladder: a recipe, built and ready to work. */
+/* A solver strategy: a method, built and ready to work. */
 typedef struct OstStrategy OstStrategy;
 
-/* Collective. Makes *rung the recipe in `options`: what stood there serves where it can (strong smoothing takes over
- * the hierarchy of METRIC) and is destroyed before anything new is built. On failure it is NULL. */
+/* Collective. Makes *strategy the method that `options` names. What is there already serves where it can (METRIC's
+ * hierarchy becomes STRONG's) and is destroyed before anything new is built. On failure *strategy is NULL. */
 OstStatus ost_strategy_prepare(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
-                               const OstSolverOptions *options, OstStrategy **rung);
-void ost_strategy_destroy(OstStrategy **rung);
-OstRecipe ost_strategy_recipe(const OstStrategy *rung);
+                               const OstSolverOptions *options, OstStrategy **strategy);
+void ost_strategy_destroy(OstStrategy **strategy);
+OstRecipe ost_strategy_recipe(const OstStrategy *strategy);
 
-/* Collective. Improves u, as ost_refine; fills the report's levels, complexity and condition estimate. */
-OstStatus ost_strategy_improve(OstStrategy *rung, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
+/* Collective. Improves u, as ost_refine; fills the report's engine, levels, complexity and condition estimate. */
+OstStatus ost_strategy_improve(OstStrategy *strategy, const double *f, double *u, OstGoal *goal,
+                               OstSolveReport *report);
 
 #endif

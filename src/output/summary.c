@@ -35,6 +35,7 @@ static void print_solve(const OstResult *result)
     const OstSolveReport *report = &result->solve;
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
+    printf("  engine           %s\n", report->engine);
     print_ladder(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);

@@ -52,9 +52,9 @@ static json_t *solver_json(const OstSolveReport *report)
     json_t *levels = json_array();
     for (int l = 0; l < report->levels; l++)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
-    return json_pack("{s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "recipe",
-                     ost_recipe_name(report->recipe), "iterations", report->iterations, "relative_residual",
-                     number_json(report->relative_residual), "attainable_residual",
+    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "recipe",
+                     ost_recipe_name(report->recipe), "engine", report->engine, "iterations", report->iterations,
+                     "relative_residual", number_json(report->relative_residual), "attainable_residual",
                      estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
                      "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
                      levels, "operator_complexity", report->operator_complexity, "condition_estimate",

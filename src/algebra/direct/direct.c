@@ -9,6 +9,7 @@
 #include "core/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* A step by factors costs little beside making them: u is refined until this is all that it moves. */
 static const double settled = 1e-3;
@@ -68,6 +69,7 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
+    snprintf(report->engine, sizeof report->engine, "MUMPS factors, refined by CG");
     goal->settled = settled;
     goal->compensated |=
         direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
