@@ -153,8 +153,10 @@ done:
 
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
-    const int is_multigrid = solver->strategy && ost_strategy_recipe(solver->strategy) != OST_RECIPE_DIRECT;
-    if (how == OST_UPDATE_KEEP && is_multigrid)
+    const OstRecipe at_work = solver->strategy ? ost_strategy_recipe(solver->strategy) : OST_RECIPE_AUTO;
+    /* PLAIN smooths with the new matrix by bounds of the old one's spectrum, and may not be definite then. */
+    const int may_stay = at_work >= OST_RECIPE_METRIC && at_work <= OST_RECIPE_TWO_LEVEL;
+    if (how == OST_UPDATE_KEEP && may_stay)
         return OST_SUCCESS;
     ost_strategy_destroy(&solver->strategy);
     return start(solver, &solver->options);

@@ -19,8 +19,8 @@ void ost_solver_destroy(OstSolver **solver);
 /* Collective. To be called when the matrix has got new values on the same pattern. With OST_UPDATE_REBUILD the strategy
  * is built anew, as ost_solver_create does, beginning at the plan's first. With OST_UPDATE_KEEP a multigrid hierarchy
  * stays as the preconditioner of the new matrix, which pays for values that have changed little: the solution is that
- * of the new matrix all the same. Factors are always made anew. Raises what ost_solver_create does; the solver is then
- * without a strategy, to be destroyed or updated again. */
+ * of the new matrix all the same. PLAIN's hierarchy and factors are always made anew. Raises what ost_solver_create
+ * does; the solver is then without a strategy, to be destroyed or updated again. */
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 

@@ -99,7 +99,7 @@ done:
     return status;
 }
 
-OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u)
+OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u)
 {
     const OstMesh *mesh = system->mesh;
     for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
@@ -111,7 +111,7 @@ OstStatus ost_system_displacement(const OstSystem *system, const double *v, doub
         if (row >= 0)
             ost_apply3(projector, v + 3 * (size_t)row, displacement);
         for (int i = 0; i < 3; i++)
-            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + given[i];
+            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + t * given[i];
     }
     return ost_agree(system->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), u));
 }

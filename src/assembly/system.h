@@ -40,8 +40,9 @@ void ost_system_release_scatter(OstSystem *system);
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
                                      double *rhs);
 
-/* Collective. Displacement of every local node, u = P v + g, ghosts included; v has 3 × matrix->rows numbers. */
-OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u);
+/* Collective. Displacement of every local node, u = P v + t g, ghosts included, g what the supports prescribe; v has
+ * 3 × matrix->rows numbers. */
+OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u);
 
 /* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes.
  * `magnitude` (as force, or NULL) takes the sums of absolute values |B'| |C| |B| |u|, of which rounding leaves a few

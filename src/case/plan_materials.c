@@ -62,9 +62,8 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     }
 }
 
-/* Ratios of moduli and Poisson's ratio, for the solver's plan; `softest` and `stiffest` are those so far. */
-static void add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
-                      OstSolverFacts *facts)
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                        OstSolverFacts *facts)
 {
     const double *e = k->youngs_modulus;
     const double least = fmin(e[0], fmin(e[1], e[2]));
@@ -100,7 +99,7 @@ void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, Ost
         if (is_replaced(c, i))
             continue;
         m->count++;
-        add_facts(c->ctx, &stated->constants, &softest, &stiffest, &m->facts);
+        ost_plan_add_facts(c->ctx, &stated->constants, &softest, &stiffest, &m->facts);
         if (ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material) ==
                 OST_SUCCESS &&
             material.isotropic)
@@ -111,7 +110,7 @@ void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, Ost
     }
     for (int r = 0; from_file && r < from_file->count && !file_is_replaced(c); r++) {
         m->count++;
-        add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
+        ost_plan_add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
         if (!from_file->material[r].isotropic && m->orthotropic++ == 0)
             say_why_orthotropic(from_file->material[r].name, &from_file->material[r].constants, m);
     }

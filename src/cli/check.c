@@ -103,10 +103,10 @@ static int says_exact(const OstCase *c)
 }
 
 /* A body without constraints is warned of below. */
-static OstStatus rehearse(const OstScene *scene)
+static OstStatus dry_run(const OstScene *scene)
 {
     const OstCase *c = scene->c;
-    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_rehearse(scene);
+    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_dry_run(scene);
 }
 
 static void look_for_oddities(const OstScene *scene, const Findings *findings)
@@ -174,7 +174,7 @@ static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments
     OST_TRY_DONE(ost_choose_output(c, NULL, findings->output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(check_conditions(scene, findings));
-    OST_TRY_DONE(rehearse(scene));
+    OST_TRY_DONE(dry_run(scene));
     OST_TRY_DONE(ost_watch_check(scene));
     look_for_oddities(scene, findings);
     if (ost_rank(ctx) == 0 && arguments->json)

@@ -104,7 +104,7 @@ static OstStatus keep_result(const OstScene *scene, const OstResult *result, con
                              const char *file, OstStatus failure)
 {
     OstContext *ctx = scene->ctx;
-    if (!result || !result->reached || result->objections.count == 0)
+    if (!result || !result->reached || result->verdict.count == 0)
         return failure;
     char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)];
     snprintf(text, sizeof text, "%s", ost_error_text(ctx));

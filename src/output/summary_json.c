@@ -87,7 +87,7 @@ static json_t *warnings_json(const OstChecks *checks)
     return warnings;
 }
 
-static json_t *objections_json(const OstObjections *objections)
+static json_t *objections_json(const OstVerdict *objections)
 {
     json_t *reasons = json_array();
     for (int i = 0; i < objections->count; i++)
@@ -135,8 +135,8 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 {
     const OstMesh *mesh = result->mesh;
     return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
-                     "case", scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0,
-                     "status", ost_result_status(result), "reasons", objections_json(&result->objections), "warnings",
+                     "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0,
+                     "status", ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
                      warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices",
                      (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
                      (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "solve/boundary_conditions.h"
+#include "problem/boundary_conditions.h"
 
 #include <math.h>
 #include <string.h>
