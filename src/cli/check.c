@@ -4,11 +4,11 @@
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/memory.h"
 #include "orthostat/scene.h"
 #include "study/watch.h"
 
-#include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,17 +51,12 @@ static OstStatus count_faces(const OstScene *scene, const OstSelection *selectio
     return OST_MPI(scene->ctx, MPI_Allreduce(&mine, some, 1, MPI_INT, MPI_MAX, ost_comm(scene->ctx)));
 }
 
-static int names_no_region(const OstScene *scene, const char *region)
-{
-    return region && strcmp(region, "all") != 0 && ost_mesh_find_region(scene->mesh, region) < 0;
-}
-
 static OstStatus check_load(const OstScene *scene, const OstLoad *load)
 {
     const int needs_faces = load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
                             (load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_FACES);
     if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
-        return names_no_region(scene, load->region)
+        return load->region && ost_mesh_find_region(scene->mesh, load->region) < 0
                    ? ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region)
                    : OST_SUCCESS;
     OstGlobal nodes;
@@ -117,10 +112,10 @@ static void look_for_oddities(const OstScene *scene, const Findings *findings)
         ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that nothing holds", c->path);
     if (!ost_plan_acts(c, &scene->plan))
         ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
-    if (ost_check_destinations(c, findings->output, NULL) != OST_SUCCESS)
+    if (ost_check_outputs(c, 1, (const char *const[]){findings->output}) != OST_SUCCESS)
         ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
-        if (c->materials[i].axes.kind != OST_AXES_NONE && !scene->plan.effect[OST_PLAN_ORTHOTROPY].on) {
+        if (c->materials[i].axes.kind != OST_AXES_NONE && !ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
             ost_warn(ctx, "%s: axes are given, but every material is isotropic; they do nothing", c->path);
             break;
         }
@@ -157,11 +152,10 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
                              "boundaries", boundaries, "constraints", scene->c->constraint_count, "held_vertices",
                              (json_int_t)findings->held, "loads", scene->c->load_count, "output", findings->output,
                              "warnings", findings->warnings);
-    const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0 || puts("") < 0;
-    json_decref(root);
-    return failed ? OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
-                              "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path)
-                  : OST_SUCCESS;
+    if (!root)
+        return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
+                         "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);
+    return ost_json_write(scene->ctx, root, "-");
 }
 
 static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments, Findings *findings)

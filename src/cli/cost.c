@@ -162,7 +162,7 @@ static OstStatus check_reports(const OstCase *c, const Arguments *arguments)
     const char *const paths[] = {arguments->csv, arguments->json, arguments->picture};
     if (is_stdout(arguments->picture))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it");
-    return ost_check_reports(c, (int)(sizeof paths / sizeof *paths), paths);
+    return ost_check_outputs(c, (int)(sizeof paths / sizeof *paths), paths);
 }
 
 static OstStatus price(OstContext *ctx, Arguments *arguments)

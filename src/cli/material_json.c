@@ -2,8 +2,8 @@
 #include "cli/material_report.h"
 
 #include "core/error.h"
+#include "core/json_file.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -105,10 +105,9 @@ static int fill(json_t *root, const OstMaterialReport *report)
 OstStatus ost_material_report_print_json(OstContext *ctx, const OstMaterialReport *report)
 {
     json_t *root = json_object();
-    const int failed = fill(root, report) || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
-    json_decref(root);
-    if (failed)
-        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made or written");
-    putchar('\n');
-    return OST_SUCCESS;
+    if (fill(root, report)) {
+        json_decref(root);
+        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made");
+    }
+    return ost_json_write(ctx, root, "-");
 }

@@ -125,7 +125,7 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
     if (status == OST_SUCCESS)
         status = ost_choose_output(c, arguments->output, file);
     if (status == OST_SUCCESS)
-        status = ost_check_destinations(c, file, arguments->json);
+        status = ost_check_outputs(c, 2, (const char *const[]){file, arguments->json});
     if (status == OST_SUCCESS)
         status = ost_scene_create(c, &scene);
     if (status == OST_SUCCESS)

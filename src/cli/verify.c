@@ -192,7 +192,7 @@ static OstStatus check_case_is_safe(OstContext *ctx, const char *case_path, int 
     OstCase *c = NULL;
     OstStatus status = ost_case_read(ctx, case_path, &c);
     if (status == OST_SUCCESS)
-        status = ost_check_reports(c, count, paths);
+        status = ost_check_outputs(c, count, paths);
     ost_case_destroy(&c);
     return status;
 }

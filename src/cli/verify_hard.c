@@ -50,7 +50,7 @@ static OstStatus check_destinations(OstContext *ctx, const OstHardArguments *arg
         OST_TRY(ost_agree(ctx, name_readings(ctx, arguments->picture, readings)));
         paths[1] = readings;
     }
-    return ost_check_reports(&nothing, 2, paths);
+    return ost_check_outputs(&nothing, 2, paths);
 }
 
 static OstStatus report_all(const OstHardReport *report, const OstHardArguments *arguments, const char *readings)

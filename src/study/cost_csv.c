@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
-#include "study/cost_file.h"
+
+#include "core/write_aside.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,8 +74,9 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
     fputc('\n', file);
 }
 
-static OstStatus write_csv(FILE *file, const OstCost *cost)
+static OstStatus write_csv(FILE *file, const void *content)
 {
+    const OstCost *cost = content;
     write_heading(file, cost);
     for (int i = 0; i < cost->run_count; i++)
         write_run(file, cost, &cost->run[i]);
@@ -83,5 +85,5 @@ static OstStatus write_csv(FILE *file, const OstCost *cost)
 
 OstStatus ost_cost_write_csv(const OstCost *cost, const char *path)
 {
-    return ost_cost_write_file(cost, path, write_csv);
+    return ost_rank(cost->ctx) == 0 ? ost_write_aside(cost->ctx, path, write_csv, cost) : OST_SUCCESS;
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/json_file.h"
 #include "study/cost.h"
-#include "study/cost_file.h"
 
-#include <jansson.h>
 #include <math.h>
 
 /* null where there is no number. */
@@ -102,20 +101,13 @@ static json_t *study_json(const OstCost *cost)
                      "quantities", quantities_json(cost), "runs", runs);
 }
 
-static OstStatus write_json(FILE *file, const OstCost *cost)
-{
-    json_t *document = study_json(cost);
-    const int failed = !document || json_dumpf(document, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
-                       fputc('\n', file) == EOF;
-    const int impossible = !document;
-    json_decref(document);
-    if (impossible)
-        return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
-                         "%s: the prices cannot be written as JSON (are its title and names UTF-8?)", cost->c->path);
-    return failed ? OST_RAISE(cost->ctx, OST_FILE_FAILED, "the JSON file cannot be written") : OST_SUCCESS;
-}
-
 OstStatus ost_cost_write_json(const OstCost *cost, const char *path)
 {
-    return ost_cost_write_file(cost, path, write_json);
+    if (ost_rank(cost->ctx) != 0)
+        return OST_SUCCESS;
+    json_t *document = study_json(cost);
+    if (!document)
+        return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
+                         "%s: the prices cannot be written as JSON (are its title and names UTF-8?)", cost->c->path);
+    return ost_json_write(cost->ctx, document, path);
 }

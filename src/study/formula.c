@@ -194,7 +194,7 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact)
     const OstAxesKind kind = stated->axes.kind;
     OST_TRY(ost_formula_wants(c, kind != OST_AXES_CELLS && kind != OST_AXES_GRADIENT,
                               "axes that are given by a formula too"));
-    OST_TRY(ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &exact->material));
+    exact->material = stated->material;
     exact->ctx = c->ctx;
     exact->axes = stated->axes;
     exact->field =

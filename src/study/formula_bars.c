@@ -14,7 +14,7 @@ enum { E, NU12, NU13, G12, G13, E3, LENGTH, B, H, LOAD, BAR_CONSTANTS };
 static OstStatus prepare_bar(const OstCase *c, double load, OstFormulaData *data)
 {
     const OstBlockShape *block = &c->block;
-    const OstOrthotropic *o = &c->materials[0].constants;
+    const OstOrthotropic *o = &c->materials[0].material.constants;
     double *k = data->constant;
     const int centred = fabs(block->origin[1] + 0.5 * block->size[1]) <= 1e-12 * block->size[1] &&
                         fabs(block->origin[2] + 0.5 * block->size[2]) <= 1e-12 * block->size[2];
@@ -166,7 +166,7 @@ const OstFormula ost_formula_flexure = {
  * depth. */
 static OstStatus prepare_strip(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
-    const OstOrthotropic *o = &c->materials[0].constants;
+    const OstOrthotropic *o = &c->materials[0].material.constants;
     const double *e = o->youngs_modulus;
     OST_TRY(prepare_bar(c, parameter[0] * c->block.size[1], data));
     double *k = data->constant;
@@ -228,7 +228,7 @@ static OstStatus prepare_uniform_load(const OstCase *c, const double *parameter,
 {
     OST_TRY(prepare_bar(c, parameter[0], data));
     const double *k = data->constant;
-    const double nu23 = c->materials[0].constants.poissons_ratio[1];
+    const double nu23 = c->materials[0].material.constants.poissons_ratio[1];
     OST_TRY(
         ost_formula_wants(c, k[NU12] == 0.0 && k[NU13] == 0.0 && nu23 == 0.0, "a material without Poisson's ratios"));
     data->value[0] = k[LOAD] * pow(k[LENGTH], 4) / (8.0 * k[E] * second_moment(k)) +

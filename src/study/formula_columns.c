@@ -41,8 +41,8 @@ static OstStatus prepare_torsion(const OstCase *c, const double *parameter, OstF
 {
     double *k = data->constant;
     OST_TRY(want_column(c));
-    k[GYZ] = c->materials[0].constants.shear_modulus[1];
-    k[GXZ] = c->materials[0].constants.shear_modulus[2];
+    k[GYZ] = c->materials[0].material.constants.shear_modulus[1];
+    k[GXZ] = c->materials[0].material.constants.shear_modulus[2];
     k[A] = c->block.size[0];
     k[B] = c->block.size[1];
     k[TWIST] = parameter[0];
@@ -106,11 +106,11 @@ enum { PER_LENGTH, NU31, NU32, WIDTH_X, WIDTH_Y, HEIGHT };
 
 static OstStatus prepare_hanging_bar(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
-    const OstOrthotropic *o = &c->materials[0].constants;
+    const OstOrthotropic *o = &c->materials[0].material.constants;
     const double *e = o->youngs_modulus;
     double *k = data->constant;
     OST_TRY(want_column(c));
-    k[PER_LENGTH] = c->materials[0].density * parameter[0] / e[2];
+    k[PER_LENGTH] = c->materials[0].material.density * parameter[0] / e[2];
     k[NU31] = o->poissons_ratio[2];
     k[NU32] = o->poissons_ratio[1] * e[2] / e[1];
     k[WIDTH_X] = c->block.size[0];

@@ -29,10 +29,8 @@ static OstStatus prepare_uniform_stress(const OstCase *c, const double *paramete
     const double *axes = stated->axes.kind == OST_AXES_NONE ? world : stated->axes.fixed;
     double *g = data->constant + GRADIENT;
     double s[36], strain[6] = {0.0};
-    OstMaterial material;
     OST_TRY(ost_formula_wants(c, !ost_axes_vary(&stated->axes), "axes that are the same everywhere"));
-    OST_TRY(ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material));
-    ost_material_rotate_compliance(material.compliance, axes, s);
+    ost_material_rotate_compliance(stated->material.compliance, axes, s);
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++)
             strain[i] += s[6 * i + j] * parameter[j];
@@ -44,7 +42,7 @@ static OstStatus prepare_uniform_stress(const OstCase *c, const double *paramete
     data->length = 1.0;
     if (c->mesh_kind != OST_MESH_BLOCK)
         return OST_SUCCESS;
-    data->value[0] = c->block.size[0] * parameter[0] / modulus_along_x(&stated->constants, axes[0], axes[1]);
+    data->value[0] = c->block.size[0] * parameter[0] / modulus_along_x(&stated->material.constants, axes[0], axes[1]);
     data->value[1] = c->block.size[1] * c->block.size[2] * parameter[0];
     return OST_SUCCESS;
 }

@@ -20,12 +20,10 @@ enum { EXPONENT, C, D, BETA_RT, BETA_TT };
 static OstStatus find_directions(const OstCase *c, int *radial, int *tangential, int *axial)
 {
     const OstAxesSpec *axes = &c->materials[0].axes;
-    OstMaterial material;
-    OST_TRY(ost_material_create(c->ctx, "tube", &c->materials[0].constants, 0.0, &material));
     *radial = 0;
     *tangential = 1;
     *axial = 2;
-    if (material.isotropic)
+    if (c->materials[0].material.isotropic)
         return OST_SUCCESS;
     OST_TRY(ost_formula_wants(c,
                               axes->kind == OST_AXES_CYLINDRICAL && fabs(axes->axis[2]) == 1.0 &&
@@ -63,7 +61,7 @@ static double tube_expansion(const double *k, double r)
 
 static OstStatus prepare_cylinder(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
-    const OstOrthotropic *o = &c->materials[0].constants;
+    const OstOrthotropic *o = &c->materials[0].material.constants;
     const double inner = parameter[0], outer = parameter[1], pressure = parameter[2];
     double *k = data->constant;
     int r, t, z;
@@ -110,12 +108,10 @@ enum { LINEAR, INVERSE_SQUARE };
 
 static OstStatus prepare_sphere(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
-    const OstOrthotropic *o = &c->materials[0].constants;
+    const OstOrthotropic *o = &c->materials[0].material.constants;
     const double inner = parameter[0], outer = parameter[1], pressure = parameter[2], nu = o->poissons_ratio[0];
     double *k = data->constant;
-    OstMaterial material;
-    OST_TRY(ost_material_create(c->ctx, "sphere", o, 0.0, &material));
-    OST_TRY(ost_formula_wants(c, material.isotropic && 0.0 < inner && inner < outer,
+    OST_TRY(ost_formula_wants(c, c->materials[0].material.isotropic && 0.0 < inner && inner < outer,
                               "an isotropic material, and an inner radius below the outer"));
     const double size = pressure * pow(inner, 3) / (o->youngs_modulus[0] * (pow(outer, 3) - pow(inner, 3)));
     k[LINEAR] = size * (1.0 - 2.0 * nu);

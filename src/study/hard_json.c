@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/json_file.h"
 #include "study/hard.h"
-#include "study/json_file.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -52,7 +51,5 @@ OstStatus ost_hard_write_json(const OstHardReport *report, const char *path)
                                  "ranks", ost_size(report->ctx), "seconds", report->seconds, "points", points);
     if (!document)
         return OST_RAISE(report->ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
-    const OstStatus status = ost_json_file_write(report->ctx, document, path);
-    json_decref(document);
-    return status;
+    return ost_json_write(report->ctx, document, path);
 }

@@ -52,8 +52,10 @@ OstStatus ost_hard_materials(OstContext *ctx, const OstHardPoint *point, OstHard
     hard->c.material_count = contrast == 1.0 ? 1 : 2;
     for (int m = 0; m < hard->c.material_count; m++) {
         hard->material[m].region = m == 0 ? all : inclusion;
-        OST_TRY(constants_of(ctx, point, m == 0 ? 1.0 : contrast, &hard->material[m].constants));
+        OstOrthotropic constants;
         set_axes(point, &hard->material[m].axes);
+        OST_TRY(constants_of(ctx, point, m == 0 ? 1.0 : contrast, &constants));
+        OST_TRY(ost_material_create(ctx, hard->material[m].region, &constants, 0.0, &hard->material[m].material));
     }
     return OST_SUCCESS;
 }

@@ -112,9 +112,11 @@ static OstStatus read_point(OstContext *ctx, const OstHardPoint *point, OstHardR
     OstMeshChunk *chunk = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;
-    OST_TRY(ost_agree(ctx, ost_hard_make_case(ctx, point, &hard)));
-    OST_TRY(ost_hard_make_chunk(point, &hard.c, &chunk));
-    OstStatus status = ost_scene_create_on(&hard.c, &chunk, &scene);
+    OstStatus status = ost_agree(ctx, ost_hard_make_case(ctx, point, &hard));
+    if (status == OST_SUCCESS)
+        status = ost_hard_make_chunk(point, &hard.c, &chunk);
+    if (status == OST_SUCCESS)
+        status = ost_scene_create_on(&hard.c, &chunk, &scene);
     take_reason(reading, ctx, status);
     if (point->flaw != OST_HARD_SOUND) {
         if (status == OST_SUCCESS)

@@ -2,9 +2,8 @@
 #include "study/verify.h"
 
 #include "core/error.h"
-#include "study/json_file.h"
+#include "core/json_file.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -176,7 +175,5 @@ OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *con
         json_pack("{s:b, s:b, s:i, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx), "cases", cases);
     if (!document)
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
-    const OstStatus status = ost_json_file_write(ctx, document, path);
-    json_decref(document);
-    return status;
+    return ost_json_write(ctx, document, path);
 }
