@@ -7,14 +7,7 @@
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 
-static void gather(const OstMesh *mesh, int count, const OstLocal *nodes, double *x)
-{
-    for (int a = 0; a < count; a++)
-        for (int i = 0; i < 3; i++)
-            x[3 * a + i] = mesh->coordinates[3 * (size_t)nodes[a] + (size_t)i];
-}
-
-/* Adds each node's share of a force at a point to the owned nodes. */
+/* Adds a force at a point to the element's owned nodes, weighted by their shape functions. */
 static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const double *values, const double at_point[3],
                   double *force)
 {
@@ -26,7 +19,7 @@ static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const d
 static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstExactField *exact, double *force)
 {
     double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    gather(mesh, n, nodes, x);
+    ost_gather3(n, nodes, mesh->coordinates, x);
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
         double place[3], area[3], s[6];
@@ -59,7 +52,7 @@ static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField
     const int n = mesh->nodes_per_tet;
     const OstLocal *nodes = mesh->tet_nodes + (size_t)n * (size_t)tet;
     double x[3 * OST_MAX_TET_NODES], values[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
-    gather(mesh, n, nodes, x);
+    ost_gather3(n, nodes, mesh->coordinates, x);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
         double place[3], density[3];

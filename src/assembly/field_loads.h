@@ -5,15 +5,15 @@
 #include "orthostat/exact.h"
 #include "orthostat/mesh.h"
 
-/* Consistent nodal forces of loads that vary from point to point, by quadrature of degree 5; as in assembly/loads.h
- * they are added to `force` and complete on owned nodes. */
+/* Consistent nodal forces of loads that vary in space, by quadrature of degree 5. As in assembly/loads.h they are added
+ * to `force`, and complete on owned nodes. */
 
-/* Local. The traction of the field's stress on the given faces (local nodes, outward), for the faces' own normal.
+/* Local. The traction of the closed-form stress on the given faces (local nodes, outward) with their discrete normals.
  * OST_EFFECT_SURFACE_LOAD. */
 OstStatus ost_load_exact_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
                                   const OstExactField *exact, double *force);
 
-/* Local. The field's force per volume, in a region or (-1) everywhere. OST_EFFECT_BODY_FORCE. */
+/* Local. The closed form's force per volume, in a region or (-1) everywhere. OST_EFFECT_BODY_FORCE. */
 OstStatus ost_load_exact_body_force(const OstMesh *mesh, int region, const OstExactField *exact, double *force);
 
 #endif

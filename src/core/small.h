@@ -26,6 +26,14 @@ static inline void ost_cross3(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* gathered[3 a + i] = component i of vectors' entry nodes[a]. */
+static inline void ost_gather3(int count, const OstLocal *nodes, const double *vectors, double *gathered)
+{
+    for (int a = 0; a < count; a++)
+        for (int i = 0; i < 3; i++)
+            gathered[3 * a + i] = vectors[3 * (size_t)nodes[a] + (size_t)i];
+}
+
 /* y = A x and y = Aᵀ x */
 static inline void ost_apply3(const double a[9], const double x[3], double y[3])
 {

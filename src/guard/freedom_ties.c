@@ -143,7 +143,7 @@ static OstStatus hold(OstContext *ctx, const OstRigidFrame *frame, const OstSupp
         return OST_SUCCESS;
     if (held->rows == 0)
         held->next_look = FIRST_LOOK;
-    for (int k = 0; k < support->held; k++) {
+    for (int k = 0; k < support->constrained; k++) {
         double row[6];
         ost_rows_of_point(frame, point, support->direction + 3 * k, row);
         ost_rows_add(held->triangle, row);

@@ -12,7 +12,7 @@ typedef struct OstLinearity {
 
 /* Local. Raises `largest` to what these tets do under the displacement u. What is no number counts as nothing: another
  * check tells that. */
-void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstLanes *u, const OstMeans *means,
+void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
                        OstLinearity *largest);
 
 /* Collective. The largest over all ranks. */

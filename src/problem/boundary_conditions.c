@@ -50,13 +50,13 @@ static OstStatus hold_node(const OstScene *scene, const OstConstraint *constrain
 {
     double given[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
-        return ost_supports_hold(supports, node, constraint->normal, 0.0);
+        return ost_supports_constrain(supports, node, constraint->normal, 0.0);
     OST_TRY(find_given(scene, constraint, node, given));
     for (int component = 0; component < 3; component++) {
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->held[component])
-            OST_TRY(ost_supports_hold(supports, node, direction, given[component]));
+            OST_TRY(ost_supports_constrain(supports, node, direction, given[component]));
     }
     return OST_SUCCESS;
 }

@@ -128,7 +128,7 @@ MISTAKES = [
         "0.3}", "0.3, axes: {cells: mesh}}"), {"m.veg": veg()},
      ["case.yaml:4:", "but the mesh file has no cell field 'axes' of nine components"]),
     ("nothing free", GOOD.replace("boundary: xmin", "all: true"), {},
-     ["case.yaml:6:16: every vertex is held in all directions"]),
+     ["case.yaml:6:16: every vertex is constrained in all directions"]),
     ("missing axes", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: lost.txt}}"), {},
      ["case.yaml:4:76: lost.txt: cannot be read"]),
     ("a constraint that holds nothing", GOOD.replace("[0, 0, 0]", "[free, free, free]"), {}, ["case.yaml:6:", "holds nothing"]),

@@ -51,7 +51,7 @@ static OstStatus metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx
     return OST_SUCCESS;
 }
 
-OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
 {
     return metis_cut(ctx, graph, parts, PART_IMBALANCE, part);
 }

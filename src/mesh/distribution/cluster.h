@@ -21,6 +21,6 @@ void ost_clusters_clear(Clusters *clusters);
 OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters *clusters, Graph *graph);
 
 /* Local. METIS_PartGraphKway with fixed seed, also for the cases that it does not take. */
-OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part);
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part);
 
 #endif

@@ -71,7 +71,7 @@ static OstStatus cut_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, Ost
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
     if (tets)
-        OST_TRY_DONE(ost_cut_metric_create(chunk, slab, tets, &metric));
+        OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
     OST_TRY_DONE(ost_partition(slab, metric, part));
     OST_FREE(metric);

@@ -144,7 +144,7 @@ static OstStatus cut_on_rank_0(const Slab *slab, Gathering *gathering, int clust
         ost_graph_shrink_weights(gathering->whole.start[gathering->whole.rows], gathering->whole.edge_weight);
         status = OST_NEW(ctx, &part, gathering->whole.rows);
         if (status == OST_SUCCESS)
-            status = ost_metis_cut(ctx, &gathering->whole, ost_size(ctx), part);
+            status = ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), part);
         if (status == OST_SUCCESS)
             status = fill_empty_parts(slab, &gathering->whole, part);
     }
@@ -188,7 +188,7 @@ OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part)
         return raise_too_small(slab);
     status = ost_graph_of_nodes(slab, &nodes);
     if (status == OST_SUCCESS && metric)
-        status = ost_cut_metric_weigh(slab, metric, &nodes);
+        status = ost_graph_weigh_edges(slab, metric, &nodes);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_clusters_create(slab, &nodes, &clusters));
     OST_TRY_DONE(cut_clusters(slab, &nodes, &clusters, part));

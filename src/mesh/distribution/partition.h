@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_DISTRIBUTION_PARTITION_H
 #define ORTHOSTAT_MESH_DISTRIBUTION_PARTITION_H
 
-#include "mesh/distribution/cut_metric.h"
+#include "mesh/distribution/edge_weights.h"
 
 /* Collective. Parts of the slab's nodes and ghosts (node_count + ghost_count numbers of the caller), one part per rank,
  * none of them empty. Where one rank holds all nodes, METIS cuts their graph there. Where they are spread, METIS first

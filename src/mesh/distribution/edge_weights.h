@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_MESH_DISTRIBUTION_CUT_METRIC_H
-#define ORTHOSTAT_MESH_DISTRIBUTION_CUT_METRIC_H
+#ifndef ORTHOSTAT_MESH_DISTRIBUTION_EDGE_WEIGHTS_H
+#define ORTHOSTAT_MESH_DISTRIBUTION_EDGE_WEIGHTS_H
 
 #include "mesh/distribution/graph.h"
 
@@ -12,14 +12,14 @@ typedef struct NodeMetric {
 } NodeMetric;
 
 /* Collective. `nodes` is of node_count + ghost_count entries, the caller's to free. */
-OstStatus ost_cut_metric_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
-                                NodeMetric **nodes);
+OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
+                                  NodeMetric **nodes);
 
 /* Local. Weighs the edges of a slab's graph by what a border costs that runs through them: multigrid works within a
  * rank, so that what is stiff should stay together. An edge weighs the square of its length over that in the metric,
  * which is the ratio of its coupling to one along the softest direction: 1 there, √(E_max / E_min) along the stiffest,
  * and at most HEAVIEST_EDGE, beyond which METIS would have only these to balance. */
 enum { HEAVIEST_EDGE = 1000 };
-OstStatus ost_cut_metric_weigh(const Slab *slab, const NodeMetric *nodes, Graph *graph);
+OstStatus ost_graph_weigh_edges(const Slab *slab, const NodeMetric *nodes, Graph *graph);
 
 #endif

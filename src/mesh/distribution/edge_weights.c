@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/distribution/cut_metric.h"
+#include "mesh/distribution/edge_weights.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -42,8 +42,8 @@ static OstStatus sum_metrics(const OstMeshChunk *chunk, const Slab *slab, const 
     return ost_halo_import(slab->halo, SUMS * sizeof *sums, sums);
 }
 
-OstStatus ost_cut_metric_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
-                                NodeMetric **nodes)
+OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
+                                  NodeMetric **nodes)
 {
     OstContext *ctx = chunk->ctx;
     const size_t n = (size_t)slab->node_count + (size_t)slab->ghost_count;
@@ -89,7 +89,7 @@ static idx_t edge_weight(const NodeMetric *a, const NodeMetric *b)
     return ratio > 1.0 ? (idx_t)lround(fmin(ratio, HEAVIEST_EDGE)) : 1;
 }
 
-OstStatus ost_cut_metric_weigh(const Slab *slab, const NodeMetric *nodes, Graph *graph)
+OstStatus ost_graph_weigh_edges(const Slab *slab, const NodeMetric *nodes, Graph *graph)
 {
     OST_TRY(OST_NEW(slab->ctx, &graph->edge_weight, graph->start[graph->rows]));
     for (OstLocal i = 0; i < graph->rows; i++)
