@@ -218,7 +218,7 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
                                                          : goal->words;
     OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_recipe(solver->strategy), outcome);
     step->iterations = goal->iterations - before;
-    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->pace) : 0.0;
+    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->strategy_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
