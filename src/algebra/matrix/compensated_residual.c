@@ -10,7 +10,7 @@ typedef struct Sum {
     double high, low;
 } Sum;
 
-/* sum - a b; the errors of the product and of the addition are caught in `low`. */
+/* sum -= a b; `low` collects the rounding errors of the product and of the addition. */
 static inline void subtract_product(Sum *sum, double a, double b)
 {
     const double product = -a * b;

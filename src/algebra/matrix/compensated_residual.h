@@ -4,9 +4,9 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* Collective over neighbours. residual = f - A u as if summed in twice the precision and rounded once (Ogita, Rump,
- * Oishi, Accurate sum and dot product, SIAM J. Sci. Comput. 26, 2005, Dot2): what is left is u's own rounding. Some
- * ten times the cost of a product. u has room for 3 × columns numbers, and its ghosts are filled here. */
+/* Collective over neighbours. residual = f - A u by compensated sums, as if computed in twice the precision and rounded
+ * once (Ogita, Rump, Oishi, Accurate sum and dot product, SIAM J. Sci. Comput. 26, 2005, Dot2). Costs about ten products
+ * A u. u has room for 3 × columns numbers; its ghosts are filled here. */
 OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f, double *u, double *residual);
 
 #endif
