@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A mode of which the others leave less than this is no mode of its own. */
+/* A mode is linearly dependent on the others if orthogonalisation leaves less than this of it. */
 static const double dependent = 1e-10;
 
 void ost_tentative_destroy(OstTentative **tentative)
@@ -29,7 +29,7 @@ static double dot(size_t n, const double *restrict a, const double *restrict b)
     return sum;
 }
 
-/* Takes what q shares with the orthonormal vectors before it out of it; twice is enough (Kahan, in Parlett 1980). */
+/* Makes q orthogonal to the orthonormal vectors before it; two passes are enough (Kahan, in Parlett 1980). */
 static void orthogonalise(size_t n, int before, const double *basis, double *restrict q, double *r)
 {
     for (int pass = 0; pass < 2; pass++)
@@ -42,7 +42,7 @@ static void orthogonalise(size_t n, int before, const double *basis, double *res
         }
 }
 
-/* Gram and Schmidt: basis = Q R of n × OST_MODES; column c of R is r + OST_MODES c. */
+/* Gram-Schmidt: basis = Q R, n × OST_MODES; Q overwrites basis, column c of R is r + OST_MODES c. */
 static void factor_modes(size_t n, double *basis, double *r)
 {
     memset(r, 0, OST_MODES * OST_MODES * sizeof *r);
@@ -58,7 +58,7 @@ static void factor_modes(size_t n, double *basis, double *r)
     }
 }
 
-/* The aggregate of nodes member[0 .. count - 1] becomes coarse node a; basis is scratch. */
+/* Makes coarse node a of the aggregate with nodes member[0 .. count - 1]; `basis` is scratch. */
 static void make_coarse_node(const OstDoubleMatrix *matrix, const double *modes, OstLocal a, OstLocal count,
                              const OstLocal *member, double *basis, OstTentative *tentative)
 {
