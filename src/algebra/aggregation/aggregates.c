@@ -157,7 +157,8 @@ static int drop_small(Grouping *g)
     return dropped;
 }
 
-/* Dropping may leave a connected component without seeds: it becomes one aggregate, or is left out if it is too small. */
+/* Dropping may leave a connected component without seeds: it becomes one aggregate, or is left out if it is too small.
+ */
 static OstStatus adopt_orphans(Grouping *g)
 {
     OstPaths *paths = g->paths;

@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/geometry.h"
 
-/* The nodes of one level on this rank and the edges between them, with lengths in the material metric: short along stiff
- * directions. There are no edges to other ranks' nodes, as aggregates do not cross ranks. */
+/* The nodes of one level on this rank and the edges between them, with lengths in the material metric: short along
+ * stiff directions. There are no edges to other ranks' nodes, as aggregates do not cross ranks. */
 typedef struct OstMetricGraph {
     OstContext *ctx;
     OstLocal nodes;

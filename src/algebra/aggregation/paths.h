@@ -31,9 +31,9 @@ typedef struct OstBall {
     double reach; /* distance of the farthest node */
 } OstBall;
 
-/* Settles the nodes within `radius` of `node`, at most `most` of them, nearest first, and sets their source to `source`,
- * a number not used since ost_paths_clear; marks of other sources are overwritten. `settled`, unless NULL, gets a 1 for
- * each settled node. */
+/* Settles the nodes within `radius` of `node`, at most `most` of them, nearest first, and sets their source to
+ * `source`, a number not used since ost_paths_clear; marks of other sources are overwritten. `settled`, unless NULL,
+ * gets a 1 for each settled node. */
 OstStatus ost_paths_ball(OstPaths *paths, OstLocal node, OstLocal source, double radius, OstLocal most,
                          unsigned char *settled, OstBall *ball);
 

@@ -9,8 +9,8 @@ typedef struct OstMumps OstMumps;
 
 /* Collective. Analyses and factors; the matrix is not kept. Its diagonal should be of order 1 (OstScaling). Raises
  * OST_OUT_OF_MEMORY if the analysis foresees more than `memory` bytes over all ranks (0: more than the machines have
- * free), before any is allocated; OST_NOT_CONVERGED if the matrix is singular or indefinite; OST_LIMIT_EXCEEDED if MUMPS
- * cannot number the unknowns; OST_LIBRARY_FAILED with MUMPS's code. */
+ * free), before any is allocated; OST_NOT_CONVERGED if the matrix is singular or indefinite; OST_LIMIT_EXCEEDED if
+ * MUMPS cannot number the unknowns; OST_LIBRARY_FAILED with MUMPS's code. */
 OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps);
 
 /* Collective. The same for S A S^T (A, if scaling is NULL). Unless `shift` is NULL, a matrix that only rounding makes

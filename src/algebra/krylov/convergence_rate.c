@@ -40,12 +40,14 @@ static double window_factor(const OstTrack *track, int count)
 
 double ost_convergence_factor(const OstConvergence *convergence)
 {
-    return fmin(window_factor(&convergence->residual, convergence->count), window_factor(&convergence->energy, convergence->count));
+    return fmin(window_factor(&convergence->residual, convergence->count),
+                window_factor(&convergence->energy, convergence->count));
 }
 
 double ost_convergence_whole_factor(const OstConvergence *convergence)
 {
-    return convergence->count > 0 ? mean(convergence->residual.least / convergence->residual.first, convergence->count) : 1.0;
+    return convergence->count > 0 ? mean(convergence->residual.least / convergence->residual.first, convergence->count)
+                                  : 1.0;
 }
 
 double ost_convergence_remaining(const OstConvergence *convergence, double target)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/energy_error.h"
 
-#include "algebra/matrix/compensated_residual.h"
 #include "algebra/matrix/compensated_step.h"
+#include "algebra/matrix/residual.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
@@ -62,18 +62,6 @@ static OstStatus find_displacement(Work *work)
         work->vector[i] = work->u[i] / size;
     OST_TRY(find_norm(work, work->vector, &norm));
     work->displacement = size * norm;
-    return OST_SUCCESS;
-}
-
-/* f - A u; fills u's ghosts. */
-static OstStatus find_residual(Work *work, const double *f, int compensated)
-{
-    const OstBlockMatrix *matrix = work->system->matrix;
-    if (compensated)
-        return ost_compensated_residual(matrix, f, work->u, work->residual);
-    OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
-    for (size_t i = 0; i < work->n; i++)
-        work->residual[i] = f[i] - work->residual[i];
     return OST_SUCCESS;
 }
 
@@ -195,7 +183,7 @@ static OstStatus estimate(Work *work, const double *f, int compensated, OstEnerg
 {
     const OstEnergyError unknown = {.whole = INFINITY, .energy = INFINITY, .rounding = INFINITY};
     double energy;
-    OST_TRY(find_residual(work, f, compensated));
+    OST_TRY(ost_residual(work->system->matrix, f, work->u, compensated, work->residual));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
     *error = unknown;
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(work->smallest) : 0.0;

@@ -26,13 +26,13 @@
  * Where rounding hides u (`compensated`), the factors may miss the softest mode too. Then each sample is solved by CG
  * preconditioned by them, with compensated products (algebra/matrix/compensated_step.h). */
 typedef struct OstEnergyError {
-    double whole;    /* relative error of u. NAN: M is not positive definite. INFINITY, and `rounding` too: f·u <= 0, or
-                        CG preconditioned by the factors finds A not positive definite or does not converge */
-    double energy;   /* the same in the energy norm alone, as it matters for stresses; equals `whole` if M is factors */
+    double whole;  /* relative error of u. NAN: M is not positive definite. INFINITY, and `rounding` too: f·u <= 0, or
+                      CG preconditioned by the factors finds A not positive definite or does not converge */
+    double energy; /* the same in the energy norm alone, as it matters for stresses; equals `whole` if M is factors */
     double rounding; /* the share of `whole` that rounding of A explains; 0 if `whole` is at most 1e-6 */
     double spread;   /* relative standard error of `rounding`; 0 if it was not sampled */
-    int hidden; /* `whole` is above 1e-6 and far above `energy`: l may be that of the stiff region only, and more
-                   iterations are needed */
+    int hidden;      /* `whole` is above 1e-6 and far above `energy`: l may be that of the stiff region only, and more
+                        iterations are needed */
 } OstEnergyError;
 
 /* The relative error that leaves one digit of a displacement. */

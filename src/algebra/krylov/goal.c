@@ -45,8 +45,8 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
     } else if (goal->patience > 0 && remaining > goal->patience) {
         goal->end = OST_END_SLOW;
         snprintf(goal->words, sizeof goal->words,
-                 "after %d iterations each still multiplies the residual by %.4f: too slow",
-                 goal->convergence.count, ost_convergence_factor(&goal->convergence));
+                 "after %d iterations each still multiplies the residual by %.4f: too slow", goal->convergence.count,
+                 ost_convergence_factor(&goal->convergence));
     }
     return goal->end == OST_END_REACHED;
 }

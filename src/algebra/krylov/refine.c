@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/refine.h"
 
-#include "algebra/matrix/compensated_residual.h"
 #include "algebra/matrix/compensated_step.h"
+#include "algebra/matrix/residual.h"
 #include "algebra/matrix/term_rounding.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
@@ -49,13 +49,7 @@ enum { SQUARE, ENERGY, SUMS };
 static OstStatus examine_candidate(Refinement *work, double sums[SUMS])
 {
     double *left = work->candidate_residual;
-    if (work->goal->compensated) {
-        OST_TRY(ost_compensated_residual(work->matrix, work->f, work->candidate, left));
-    } else {
-        OST_TRY(ost_block_matrix_apply(work->matrix, work->candidate, left));
-        for (size_t i = 0; i < work->n; i++)
-            left[i] = work->f[i] - left[i];
-    }
+    OST_TRY(ost_residual(work->matrix, work->f, work->candidate, work->goal->compensated, left));
     sums[SQUARE] = ost_dot(work->n, left, left);
     sums[ENERGY] = ost_dot(work->n, work->correction, work->residual) + ost_dot(work->n, work->correction, left);
     return ost_sum(work->matrix->ctx, SUMS, sums);

@@ -5,9 +5,9 @@
 #include "algebra/level/simd.h"
 #include "algebra/matrix/scaling.h"
 
-/* A level's matrix in double precision, from which the next level is made. Rows are complete; columns are local numbers,
- * owned ones first, then ghosts. On the finest level it is a view of the stiffness, whose blocks are scaled on access: a
- * copy would take a fifth of the solver's memory. */
+/* A level's matrix in double precision, from which the next level is made. Rows are complete; columns are local
+ * numbers, owned ones first, then ghosts. On the finest level it is a view of the stiffness, whose blocks are scaled on
+ * access: a copy would take a fifth of the solver's memory. */
 typedef struct OstDoubleMatrix {
     OstContext *ctx;
     int size;                  /* of a block (row-major): 3 or 6 */

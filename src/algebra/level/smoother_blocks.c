@@ -75,7 +75,8 @@ static void gather_block(const OstLevelMatrix *matrix, const OstSmootherBlocks *
     }
 }
 
-/* inverse = A^-1 by the Cholesky factor, which overwrites A; returns 0, or the number of the pivot that is not positive.
+/* inverse = A^-1 by the Cholesky factor, which overwrites A; returns 0, or the number of the pivot that is not
+ * positive.
  */
 static int invert_dense(int side, double *a, double *inverse)
 {
@@ -184,8 +185,8 @@ done:
     return status;
 }
 
-/* out = value × in for `count` strips of eight rows that start at offset[]. Even and odd columns are summed apart, as two
- * independent sums hide the latency of the additions. */
+/* out = value × in for `count` strips of eight rows that start at offset[]. Even and odd columns are summed apart, as
+ * two independent sums hide the latency of the additions. */
 OST_UNROLLED void multiply_strips(int count, int side, const float *value, const int *offset, const float *in,
                                   float *out)
 {

@@ -5,9 +5,9 @@
 #include "algebra/matrix/block_matrix.h"
 
 /* Steps of flexible conjugate gradients (Notay, SIAM J. Sci. Comput. 22, 2000) with compensated products A p, for a
- * preconditioner M that is factors of a badly conditioned A. Rounding makes such factors wrong in the few softest modes,
- * so that refinement by them alone may diverge; and p·Ap in double precision is mere rounding. CG with compensated
- * products finds those modes in a few steps. */
+ * preconditioner M that is factors of a badly conditioned A. Rounding makes such factors wrong in the few softest
+ * modes, so that refinement by them alone may diverge; and p·Ap in double precision is mere rounding. CG with
+ * compensated products finds those modes in a few steps. */
 typedef struct OstCompensatedStep {
     const OstBlockMatrix *matrix;
     double *direction; /* p, with room for ghosts */

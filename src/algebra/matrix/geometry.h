@@ -8,11 +8,11 @@
 /* What multigrid needs beyond the matrix. Arrays belong to the caller and outlive the solver. */
 typedef struct OstSolverGeometry {
     const double *coordinates; /* rows × 3 */
-    const double *metric; /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
-                             R^T diag(sqrt(E_min/E_k)) R; or NULL for the Euclidean metric */
-    const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
-                             on the unconstrained directions). The plain method takes NULL for three translations, the
-                             direct method uses nothing of this */
+    const double *metric;      /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
+                                  R^T diag(sqrt(E_min/E_k)) R; or NULL for the Euclidean metric */
+    const double *modes; /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
+                            on the unconstrained directions). The plain method takes NULL for three translations, the
+                            direct method uses nothing of this */
     const struct OstCoarseSpace *coarse; /* METRIC to TWO_LEVEL: a coarser discretisation for corrections, or NULL */
     const OstSolverFacts *facts;         /* for the plan, or NULL */
 } OstSolverGeometry;
@@ -23,7 +23,8 @@ typedef struct OstSolverGeometry {
 typedef struct OstCoarseSpace {
     const OstBlockMatrix *matrix;      /* assembled on its own; unscaled */
     const OstSolverGeometry *geometry; /* of its rows */
-    const OstLocal *parents; /* fine rows × 4: columns of the coarse matrix (owned or ghost); -1: none, or constrained */
+    const OstLocal
+        *parents;          /* fine rows × 4: columns of the coarse matrix (owned or ghost); -1: none, or constrained */
     const double *weights; /* fine rows × 4 */
 } OstCoarseSpace;
 

@@ -9,8 +9,8 @@
 
 static const double sure = 3.0; /* standard errors */
 
-/* Entries (i, j) and (j, i) must get the same sign: a pair of blocks shares nine random bits, and these tables say which
- * bit is each entry's. */
+/* Entries (i, j) and (j, i) must get the same sign: a pair of blocks shares nine random bits, and these tables say
+ * which bit is each entry's. */
 typedef enum { BELOW_DIAGONAL, ABOVE_DIAGONAL, ON_DIAGONAL } Place;
 
 static const int bit_of_entry[][9] = {

@@ -7,8 +7,8 @@
 /* The perturbation of a stiffness K by rounding its entries: each is off by up to 2^-53 of its size, K_ij and K_ji
  * alike. Its effect on a displacement is estimated from random samples of the signs, as their root mean square. */
 
-/* Local. The force (K' - K) u of random sample `which`: every entry of K' is 2^-53 of its size above or below that of K.
- * The signs depend on the nodes' labels alone, so they are the same on any number of ranks. The ghosts of u are set;
+/* Local. The force (K' - K) u of random sample `which`: every entry of K' is 2^-53 of its size above or below that of
+ * K. The signs depend on the nodes' labels alone, so they are the same on any number of ranks. The ghosts of u are set;
  * `force` has 3 × rows numbers. */
 void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force);
 

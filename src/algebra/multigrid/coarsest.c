@@ -9,7 +9,8 @@
 
 enum { SHIFT_TRIES = 5 };
 
-static const double first_shift = 1e-10; /* relative to the largest diagonal entry; each next one is a hundred times larger */
+static const double first_shift =
+    1e-10; /* relative to the largest diagonal entry; each next one is a hundred times larger */
 
 extern void dpotrf_(const char *uplo, const int *n, double *a, const int *leading, int *info, size_t length);
 extern void dpotrs_(const char *uplo, const int *n, const int *columns, const double *a, const int *leading, double *b,

@@ -185,7 +185,8 @@ void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)
             continue;
         smoother->degree += more;
         smoother->ratio = ratio * careful;
-        /* The estimate approaches the eigenvalue from below; a Chebyshev polynomial is indefinite beyond its interval. */
+        /* The estimate approaches the eigenvalue from below; a Chebyshev polynomial is indefinite beyond its interval.
+         */
         smoother->largest *= careful;
     }
 }

@@ -13,11 +13,11 @@
 /* A level is dropped if it has more than this fraction of the unknowns of the finer one. */
 static const double least_gain = 0.8;
 
-/* Up to a ratio of 1000 between Young's moduli (shortening, its root, up to 32) the options are used as they are. Beyond
- * it the stiff direction is nearly inextensible: the six modes of an aggregate represent that over few nodes only, and
- * the smoother's blocks must be as large. Iterations on the tube of cases/tube with a ratio of 1e6, stiff along, through
- * the wall and around: 25, 108 and over 300 with the default options; 12, 18 and 53 with aggregates of 12 nodes and
- * blocks of 10. */
+/* Up to a ratio of 1000 between Young's moduli (shortening, its root, up to 32) the options are used as they are.
+ * Beyond it the stiff direction is nearly inextensible: the six modes of an aggregate represent that over few nodes
+ * only, and the smoother's blocks must be as large. Iterations on the tube of cases/tube with a ratio of 1e6, stiff
+ * along, through the wall and around: 25, 108 and over 300 with the default options; 12, 18 and 53 with aggregates of
+ * 12 nodes and blocks of 10. */
 static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 
 /* The levels under construction, from the finest down. */
@@ -62,7 +62,8 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     return OST_MPI(work->ctx, MPI_Allreduce(MPI_IN_PLACE, unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(work->ctx)));
 }
 
-/* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before. */
+/* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
+ */
 static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
 {
     OstLevels *levels = work->levels;
@@ -73,7 +74,7 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
-    ost_metric_graph_destroy(&levels->graph[l]); 
+    ost_metric_graph_destroy(&levels->graph[l]);
     OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
     const OstGlobal first = tentative->first_coarse;
     OST_FREE(*work->modes);
@@ -115,8 +116,7 @@ done:
 }
 
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
-                                   OstLevels *levels)
+                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels)
 {
     Coarsening work = {
         .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};

@@ -18,12 +18,11 @@ typedef struct OstLevels {
 } OstLevels;
 
 /* Collective. The levels of S A S^T (of A, if scaling is NULL), whose near-null space is `modes`: 6 columns of 3 × rows
- * numbers. Takes over modes and graph, and empties the caller's; matrix and scaling must outlive the levels. A matrix of
- * at most options->coarsest_unknowns, or without anything to aggregate, stays the only level; `coarsest` is then a view
- * of it. */
+ * numbers. Takes over modes and graph, and empties the caller's; matrix and scaling must outlive the levels. A matrix
+ * of at most options->coarsest_unknowns, or without anything to aggregate, stays the only level; `coarsest` is then a
+ * view of it. */
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
-                                   OstLevels *levels);
+                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels);
 void ost_levels_clear(OstLevels *levels);
 
 #endif

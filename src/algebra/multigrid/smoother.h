@@ -4,8 +4,8 @@
 
 #include "algebra/level/smoother_blocks.h"
 
-/* Chebyshev iteration preconditioned by block Jacobi, over the upper end of the spectrum of B^-1 A. From a zero guess it
- * is a symmetric positive definite operator. */
+/* Chebyshev iteration preconditioned by block Jacobi, over the upper end of the spectrum of B^-1 A. From a zero guess
+ * it is a symmetric positive definite operator. */
 typedef struct OstSmoother {
     const OstLevelMatrix *matrix;
     OstSmootherBlocks *blocks;

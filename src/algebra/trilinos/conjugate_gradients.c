@@ -49,8 +49,8 @@ static void precondition(double *z, int *options, int *configuration, double *pa
     note(aztec, aztec->system->precondition(aztec->system->data, aztec->residual, z, &aztec->stopped));
 }
 
-/* AztecOO's convergence test: reports what `precondition` decided. The norm is 1 until then, as with 0 AztecOO would take
- * a breakdown for convergence. */
+/* AztecOO's convergence test: reports what `precondition` decided. The norm is 1 until then, as with 0 AztecOO would
+ * take a breakdown for convergence. */
 static void test(void *data, void *vector, int iteration, double *r, int print, int updated, int *converged,
                  int *not_a_number, double *norm, int *residual_wanted)
 {

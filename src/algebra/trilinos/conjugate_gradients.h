@@ -4,7 +4,8 @@
 
 #include "orthostat/context.h"
 
-/* The callbacks of AztecOO's conjugate gradients for A x = b; collective. Vectors hold the unknowns that this rank owns.
+/* The callbacks of AztecOO's conjugate gradients for A x = b; collective. Vectors hold the unknowns that this rank
+ * owns.
  */
 typedef struct OstAztecSystem {
     void *data;

@@ -20,13 +20,14 @@ typedef struct OstMlLevel {
 /* ML's multigrid cycle (ML_Cycle_MG) over levels whose operators are the caller's. The finest level is visited once;
  * every level between it and the last one is visited twice:
  *     x1 = B b,    x = x1 + 2 B (b - A x1),    B: one cycle on that level.
- * An error component with eigenvalue t of B A is multiplied by (1 - t)(1 - 2t), which is below 1 for 0 < t < 1.5. So the
- * cycle is a fixed, symmetric and positive definite operator, as conjugate gradients need it, without inner products. */
+ * An error component with eigenvalue t of B A is multiplied by (1 - t)(1 - 2t), which is below 1 for 0 < t < 1.5. So
+ * the cycle is a fixed, symmetric and positive definite operator, as conjugate gradients need it, without inner
+ * products. */
 typedef struct OstMlCycle OstMlCycle;
 
 /* Collective. `level` is copied, what its entries point to stays the caller's and outlives the cycle. Raises
- * OST_LIMIT_EXCEEDED if a level has no fewer unknowns than the one before, and OST_OUT_OF_MEMORY if there is no room for
- * ML's vectors: ML would end the process in both cases. */
+ * OST_LIMIT_EXCEEDED if a level has no fewer unknowns than the one before, and OST_OUT_OF_MEMORY if there is no room
+ * for ML's vectors: ML would end the process in both cases. */
 OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *level, OstMlCycle **cycle);
 void ost_ml_cycle_destroy(OstMlCycle **cycle);
 

@@ -30,8 +30,8 @@ void ost_epetra_map_destroy(OstEpetraMap **map)
     OST_FREE(*map);
 }
 
-/* The map is a 32-bit one: in Trilinos 13 the C wrapper for a 64-bit map cannot be called, as the library defines it with
- * other argument types than its header, under a C++ name. */
+/* The map is a 32-bit one: in Trilinos 13 the C wrapper for a 64-bit map cannot be called, as the library defines it
+ * with other argument types than its header, under a C++ name. */
 static OstStatus check_limit(OstContext *ctx, OstLocal count)
 {
     OstGlobal total = count;

@@ -97,7 +97,8 @@ static OstStatus set_smoothers(OstSmoothedAggregation *hierarchy, const OstSolve
         ML_Operator *matrix = &ml->Amat[level];
         ML_Operator_Set_SpectralNormScheme_Calc(matrix);
         ML_Operator_Set_SpectralNorm_Iterations(matrix, EIGENVALUE_STEPS);
-        matrix->lambda_max = -666.666; /* ML's mark for "unknown": discards the prolongator's estimate, which took few steps */
+        matrix->lambda_max =
+            -666.666; /* ML's mark for "unknown": discards the prolongator's estimate, which took few steps */
         if (ML_Gen_Smoother_Cheby(ml, level, ML_BOTH, options->smoother_ratio, options->smoother_degree) != 0)
             return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML has no Chebyshev smoother for level %d", level);
     }
