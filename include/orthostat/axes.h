@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* Material axes as a 3×3 row-major array: rows e1, e2, e3, right-handed and orthonormal. */
 
 typedef enum {
@@ -60,5 +62,7 @@ OstStatus ost_axes_at(OstContext *ctx, const OstAxesSpec *spec, const double poi
 
 /* Local. e1 along g1, e2 along what of g2 is orthogonal to it, e3 = e1 × e2; raises if either is (nearly) zero. */
 OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const double g2[3], double axes[9]);
+
+OST_API_END
 
 #endif

@@ -7,6 +7,8 @@
 #include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
+OST_API_BEGIN
+
 /* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case.
  * Files that a case reads (mesh, axes, .bou lists) are named relative to the case file's folder; the file it writes,
  * relative to the directory the program is called in. */
@@ -81,8 +83,7 @@ typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
     int line;
-    OstOrthotropic constants;
-    double density;
+    OstMaterial material;
     OstAxesSpec axes;
 } OstCaseMaterial;
 
@@ -104,7 +105,14 @@ typedef struct OstWatch {
     char *source;    /* of that formula; or NULL */
 } OstWatch;
 
-typedef enum { OST_MESH_TUBE, OST_MESH_BLOCK, OST_MESH_SECTOR, OST_MESH_OCTANT, OST_MESH_FILE } OstMeshKind;
+typedef enum {
+    OST_MESH_TUBE,
+    OST_MESH_BLOCK,
+    OST_MESH_SECTOR,
+    OST_MESH_OCTANT,
+    OST_MESH_FILE,
+    OST_MESH_FROM_PROGRAM /* the word from_program: whoever creates the scene brings the mesh */
+} OstMeshKind;
 
 typedef struct OstCase {
     OstContext *ctx;
@@ -155,6 +163,10 @@ typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } O
  * the nearest known one). Nothing of the mesh is looked at. */
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
 
+/* Collective. The same for the text of a case, which every rank passes alike: UTF-8 that ends with a zero byte. `path`
+ * stands in messages, and files that the case names are relative to its folder; there need be no such file. */
+OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **out);
+
 /* Local. Puts the place in front of a failure raised further down, as "path:line:column: text"; passes success. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
 void ost_case_destroy(OstCase **c);
@@ -170,5 +182,7 @@ OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelec
  */
 OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces);
+
+OST_API_END
 
 #endif

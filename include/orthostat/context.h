@@ -8,6 +8,8 @@
 #include <mpi.h>
 #include <stdint.h>
 
+OST_API_BEGIN
+
 /* Numbers local to a rank, and numbers over the whole body. */
 typedef int32_t OstLocal;
 typedef int64_t OstGlobal;
@@ -54,5 +56,7 @@ void ost_keep_freed_memory(void);
 
 /* Seconds on a clock that only moves forward. */
 double ost_seconds(void);
+
+OST_API_END
 
 #endif

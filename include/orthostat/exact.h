@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* A displacement field known in closed form, with the stress and the force per volume that belong to it in the scene's
  * material. It stands behind the word `exact` in constraints and loads, and is what the answer is measured against.
  * Every function is local and may be called at any point of the body or (by a little) beside it. */
@@ -16,5 +18,7 @@ typedef struct OstExactField {
     OstStatus (*body_force)(const void *data, const double point[3],
                             double force[3]); /* minus the stress's divergence */
 } OstExactField;
+
+OST_API_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* Conventions, after Li and Barbič, "Stable Orthotropic Materials" (2014), eq. 1-2: strain [e11 e22 e33 2e12 2e23
  * 2e31], stress [s11 s22 s33 s12 s23 s31], shear order 12, 23, 31; nu_ij is the contraction along j when pulled along
  * i, and nu_ij / E_i = nu_ji / E_j. Stiffness C (sigma = C epsilon), compliance S = C^-1, both 6×6 row-major. Units are
@@ -71,6 +73,10 @@ OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *con
  * limits that people write, such as 0.45, so that it is given to 1e-12: rounding does not decide whether one is met. */
 double ost_equivalent_poisson(double least_eigenvalue);
 
+/* Does one mode of the normal strains, and no other, resist more than in an isotropic material of this Poisson's ratio?
+ * Two such modes come with nu below -0.9. From the eigenvalues. */
+int ost_has_one_stiff_mode(const double eigenvalues[3], double nu_limit);
+
 /* The common factor up to which all Poisson's ratios may grow (below 1: they are too large already), from the
  * eigenvalues; INFINITY if all are 0. */
 double ost_orthotropic_stable_scale(const double eigenvalues[3]);
@@ -84,5 +90,7 @@ void ost_orthotropic_stable_range(const OstOrthotropic *constants, double low[3]
  * logarithms, by bisection on the smallest eigenvalue; `ratios` has count × 2. Raises OST_INVALID_INPUT unless -1 < nu
  * < 0.5 and nu is not 0 (where every ratio is stable). */
 OstStatus ost_orthotropic_naive_boundary(OstContext *ctx, double nu, int count, double *ratios);
+
+OST_API_END
 
 #endif

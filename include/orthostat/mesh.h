@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* Tets have 4 or 10 nodes. Vertices 0-3 are positively oriented: (x1-x0)·((x2-x0)×(x3-x0)) > 0. The six mid-edge nodes
  * follow in VTK's order: 01 12 02 03 13 23. Faces have 3 or 6 nodes (vertices, then mid-edges 01 12 20), curves 2 or 3,
  * points 1. */
@@ -120,6 +122,38 @@ OstStatus ost_chunk_create_tube(OstContext *ctx, const OstTubeShape *shape, OstM
 OstStatus ost_chunk_create_block(OstContext *ctx, const OstBlockShape *shape, OstMeshChunk **chunk);
 OstStatus ost_chunk_create_sector(OstContext *ctx, const OstSectorShape *shape, OstMeshChunk **chunk);
 OstStatus ost_chunk_create_octant(OstContext *ctx, const OstOctantShape *shape, OstMeshChunk **chunk);
+
+/* A named group of points, curves or faces in the caller's arrays. A face has 3 nodes in a mesh of linear tets and 6 in
+ * one of quadratic tets, a curve 2 or 3, a point 1. */
+typedef struct OstBoundaryArrays {
+    const char *name;
+    int dimension;          /* 0 points, 1 curves, 2 faces */
+    OstLocal count;         /* of this rank's share of the items */
+    const OstGlobal *nodes; /* count × nodes of an item, numbers over the whole body */
+} OstBoundaryArrays;
+
+/* A mesh as a program holds it: this rank's share of the nodes and tets. Node numbers count from 0 over the whole body:
+ * rank 0's nodes come first, then rank 1's, and so on. All on rank 0 is a share like any other. */
+typedef struct OstMeshArrays {
+    int nodes_per_tet;                   /* 4 or 10, in the order stated above */
+    OstLocal node_count;                 /* of this rank's share */
+    const double *coordinates;           /* node_count × 3, in the user's unit of length */
+    OstLocal tet_count;                  /* of this rank's share */
+    const OstGlobal *tet_nodes;          /* tet_count × nodes_per_tet */
+    const double *tet_axes;              /* tet_count × 9, rows e1 e2 e3 of the material; NULL: none */
+    const int32_t *tet_region;           /* tet_count, from 0 into region_names; NULL: all in region 0 */
+    int region_count;                    /* 0: one region called "body" */
+    const char *const *region_names;     /* region_count different names, the same on every rank */
+    int boundary_count;                  /* may be 0 */
+    const OstBoundaryArrays *boundaries; /* boundary_count, the same list on every rank, with this rank's items */
+} OstMeshArrays;
+
+/* Collective. A mesh of the caller's own; everything is copied. A rank other than 0 that has no share may pass NULL.
+ * Tet t and node n have the labels t + 1 and n + 1: by these, messages name them and a case's `vertices` selects. A
+ * case uses the axes of the tets where its material says `axes: {cells: mesh}`. Raises OST_INVALID_INPUT for a missing
+ * array, a name that is missing, doubled or different between ranks, a coordinate that is not finite, and a node or
+ * region number out of range; ost_mesh_distribute looks for inverted and flat tets and nodes that no tet uses. */
+OstStatus ost_chunk_create_from_arrays(OstContext *ctx, const OstMeshArrays *arrays, OstMeshChunk **chunk);
 void ost_chunk_destroy(OstMeshChunk **chunk);
 
 /* Collective. Checks the chunk (finite coordinates, no inverted or flat tet, node numbers in range, no node used twice
@@ -171,5 +205,7 @@ OstStatus ost_mesh_tet_centroids(const OstMesh *mesh, double *centroids);
 
 /* Collective. The smallest box around all nodes of the body. */
 OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3]);
+
+OST_API_END
 
 #endif

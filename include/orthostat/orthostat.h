@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_H
-#define ORTHOSTAT_H
+#ifndef ORTHOSTAT_ORTHOSTAT_H
+#define ORTHOSTAT_ORTHOSTAT_H
 
 #include "orthostat/analysis.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
 #include "orthostat/context.h"
+#include "orthostat/effect.h"
 #include "orthostat/exact.h"
 #include "orthostat/field.h"
 #include "orthostat/ledger.h"

@@ -4,6 +4,8 @@
 
 #include "orthostat/mesh.h"
 
+OST_API_BEGIN
+
 /* Meshes made of others: quadratic tets of linear ones, eight tets of one, and the way back. The new node of an edge is
  * owned by the owner of the edge's vertex with the lowest global number, so no tet changes its rank. Vertices keep
  * their labels; a new node's follows from the vertices' highest label and the lowest label of the tets around its edge.
@@ -51,5 +53,7 @@ OstStatus ost_mesh_linear(const OstMesh *quadratic, OstMesh **linear, OstLocal *
  * mesh lies: twice the same for vertices. For meshes made of one another by ost_mesh_raise or ost_mesh_linear; raises
  * OST_INVALID_INPUT for others. `parents`: 2 × node_count numbers of the caller. */
 OstStatus ost_mesh_parents(const OstMesh *quadratic, const OstMesh *linear, OstLocal *parents);
+
+OST_API_END
 
 #endif

@@ -6,6 +6,8 @@
 #include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
+OST_API_BEGIN
+
 /* What the checks after the solve found; every number is over the whole body. */
 typedef struct OstChecks {
     double relative_residual;  /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
@@ -78,5 +80,7 @@ typedef struct OstWatchedValue {
     double value;
     double expected; /* not a number where it is not known */
 } OstWatchedValue;
+
+OST_API_END
 
 #endif

@@ -8,11 +8,14 @@
 #include "orthostat/problem.h"
 #include "orthostat/result.h"
 
+OST_API_BEGIN
+
 /* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
 typedef struct OstScene {
     OstContext *ctx;
     const OstCase *c;
-    OstPlan plan;
+    OstPlan plan;           /* its effects are what the work goes by */
+    OstEffect *load_effect; /* of each load of the case */
     OstMesh *mesh;
     OstMaterialField *field;
     const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
@@ -45,5 +48,7 @@ const char *ost_result_status(const OstResult *result);
  * attribute Status of /VTKHDF (as ost_result_status gives it), field data `refused`, the reasons in
  * /Orthostat/Objections. */
 OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path);
+
+OST_API_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "orthostat/context.h"
 
+OST_API_BEGIN
+
 /* How the linear system is solved: the rungs of a ladder, from cheap to safe. */
 typedef enum {
     OST_RECIPE_AUTO,      /* starts where the plan says, and climbs for as long as a rung is too slow or fails */
@@ -107,5 +109,7 @@ const char *ost_recipe_name(OstRecipe recipe);
 
 /* Local. The plan for a system of which these facts are known; a recipe other than AUTO is planned as asked. */
 void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
+
+OST_API_END
 
 #endif

@@ -2,6 +2,21 @@
 #ifndef ORTHOSTAT_STATUS_H
 #define ORTHOSTAT_STATUS_H
 
+/* Around the declarations of every public header: they are what the shared library shows, and C++ may call them. */
+#ifdef __cplusplus
+#define OST_API_BEGIN \
+    extern "C" {      \
+    _Pragma("GCC visibility push(default)")
+#define OST_API_END               \
+    _Pragma("GCC visibility pop") \
+    }
+#else
+#define OST_API_BEGIN _Pragma("GCC visibility push(default)")
+#define OST_API_END _Pragma("GCC visibility pop")
+#endif
+
+OST_API_BEGIN
+
 /* What every fallible function returns. 0 is success; the text of a failure lives in the context (ost_error_text).
  * Columns: name, exit code of the program, meaning. */
 #define OST_STATUS_TABLE(X)                                                          \
@@ -25,5 +40,7 @@ typedef int OstStatus;
 const char *ost_status_name(OstStatus status);
 const char *ost_status_meaning(OstStatus status);
 int ost_status_exit_code(OstStatus status);
+
+OST_API_END
 
 #endif

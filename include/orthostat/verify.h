@@ -4,6 +4,8 @@
 
 #include "orthostat/case.h"
 
+OST_API_BEGIN
+
 /* The `verify` section of a case: a formula, what of the answer it foretells, the ladder of meshes on which that is
  * measured, and what counts as passed. Plain data, owned by the case. */
 
@@ -74,5 +76,7 @@ typedef struct OstVerify {
     int quantity_count;
     OstVerifyQuantity *quantity;
 } OstVerify;
+
+OST_API_END
 
 #endif

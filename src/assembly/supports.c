@@ -2,8 +2,9 @@
 #include "assembly/supports.h"
 
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <string.h>
@@ -172,8 +173,7 @@ done:
 static OstStatus check_anything_held(const OstSupports *supports)
 {
     OstGlobal held = supports->count;
-    OST_TRY(
-        OST_MPI(supports->ctx, MPI_Allreduce(MPI_IN_PLACE, &held, 1, MPI_INT64_T, MPI_SUM, ost_comm(supports->ctx))));
+    OST_TRY(ost_sum_numbers(supports->ctx, 1, &held));
     if (held == 0)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is held: no vertex has a given displacement or slides on a plane, so the body can "
@@ -215,6 +215,7 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
     OstSupports *made = NULL;
     *supports = NULL;
     OST_TRY(ost_supports_create(linear, &made));
+    made->effects = quadratic->effects;
     OstStatus status = OST_SUCCESS;
     for (OstLocal vertex = 0; vertex < linear->node_count && status == OST_SUCCESS; vertex++) {
         const OstLocal index = quadratic->index[node_of_vertex[vertex]];

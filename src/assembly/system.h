@@ -27,6 +27,11 @@ typedef struct OstSystem {
 OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, OstSystem **system);
 void ost_system_destroy(OstSystem **system);
 
+/* Local. With the rows numbered, makes the matrix's row_start, column, diagonal and (zero) values, and the system's
+ * block_of_tet; a step of ost_system_create. Raises OST_LIMIT_EXCEEDED once the blocks are counted, before they are
+ * made. */
+OstStatus ost_system_make_pattern(OstSystem *system);
+
 /* Local. Fills K (OST_LEDGER_STIFFNESS), then applies what partly held nodes may do (OST_LEDGER_SUPPORTS /
  * OST_EFFECT_SLIDING). */
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);

@@ -53,7 +53,7 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
 {
     int massive = c->material_count == 0;
     for (int i = 0; i < c->material_count; i++)
-        massive |= c->materials[i].density > 0.0;
+        massive |= c->materials[i].material.density > 0.0;
     if (massive || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
         return OST_SUCCESS;
     for (int i = 0; i < c->load_count; i++)
@@ -151,24 +151,41 @@ static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
     return ost_copy_string(ctx, path, &(*c)->path);
 }
 
-OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out)
+static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstCase **c)
 {
-    OstCase *made = NULL;
+    OST_TRY(create_empty(ctx, path, c));
+    return read_bytes(*c, bytes, size);
+}
+
+OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **c)
+{
+    OstStatus status = OST_SUCCESS;
+    *c = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_CASE);
+    OST_TRY_DONE(ost_agree(ctx, parse(ctx, path, text, strlen(text), c)));
+    OST_TRY_DONE(read_vertex_files(*c));
+done:
+    if (status != OST_SUCCESS)
+        ost_case_destroy(c);
+    ost_ledger_leave(ctx);
+    return status;
+}
+
+OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
+{
     char *bytes = NULL;
     size_t size = 0;
-    *out = NULL;
-    ost_ledger_enter(ctx, OST_LEDGER_CASE);
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_agree(ctx, create_empty(ctx, path, &made)));
+    *c = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_CASE);
     OST_TRY_DONE(ost_read_file_bytes(ctx, path, OST_YAML_MAX_BYTES, &bytes, &size));
-    OST_TRY_DONE(ost_agree(ctx, read_bytes(made, bytes, size)));
+    status = ost_agree(ctx, parse(ctx, path, bytes, size, c));
     OST_FREE(bytes);
-    OST_TRY_DONE(read_vertex_files(made));
+    if (status == OST_SUCCESS)
+        status = read_vertex_files(*c);
 done:
-    OST_FREE(bytes);
     if (status != OST_SUCCESS)
-        ost_case_destroy(&made);
-    *out = made;
+        ost_case_destroy(c);
     ost_ledger_leave(ctx);
     return status;
 }

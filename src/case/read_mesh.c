@@ -2,6 +2,8 @@
 #include "case/sections.h"
 #include "core/error.h"
 
+#include <string.h>
+
 /* 6 × this³ tets still have 64-bit numbers. */
 static const int64_t most_divisions = 1000000;
 
@@ -130,11 +132,20 @@ static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase
 {
     OST_TRY(ost_read_path(yaml, node, &c->mesh_file));
     c->mesh_place = ost_yaml_at(node);
-    if (ost_has_ending(c->mesh_file, ".msh") || ost_has_ending(c->mesh_file, ".veg") ||
-        ost_has_ending(c->mesh_file, ".vtkhdf"))
-        return OST_SUCCESS;
-    return ost_yaml_raise(yaml, node, "found the mesh file '%s', expected a name that ends with .msh, .veg or .vtkhdf",
+    static const char *const endings[] = {".msh", ".msh.gz", ".veg", ".vtkhdf"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (ost_has_ending(c->mesh_file, endings[i]))
+            return OST_SUCCESS;
+    return ost_yaml_raise(yaml, node,
+                          "found the mesh file '%s', expected a name that ends with .msh, .msh.gz, .veg or .vtkhdf",
                           c->mesh_file);
+}
+
+static int is_from_program(const OstYaml *yaml, const OstYamlNode *node)
+{
+    const char *text;
+    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
+           strcmp(text, "from_program") == 0;
 }
 
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -154,6 +165,10 @@ OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c
         [MERGE] = {"merge", OST_OPTIONAL, NULL},
     };
     int kind;
+    c->mesh_place = ost_yaml_at(node);
+    c->mesh_kind = OST_MESH_FROM_PROGRAM;
+    if (is_from_program(yaml, node))
+        return OST_SUCCESS;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, KIND_COUNT, &kind));
     if (keys[REFINE].value) {

@@ -4,8 +4,9 @@
 #include "assembly/means.h"
 #include "assembly/system.h"
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
@@ -350,7 +351,7 @@ static OstStatus find_common(const OstResult *result, Body *body)
         for (int i = 0; i < 3; i++)
             sums[i] += result->displacement[3 * (size_t)n + (size_t)i];
     }
-    OST_TRY(OST_MPI(result->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, ost_comm(result->ctx))));
+    OST_TRY(ost_sum(result->ctx, 4, sums));
     body->moved = sums[3] > 0.0;
     for (int i = 0; body->moved && i < 3; i++)
         body->common[i] = sums[i] / (double)mesh->global_nodes;
@@ -400,7 +401,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_node(result, &body, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, sums);
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
     draw_conclusions(checks, sums, solved_for->norm);
     estimate_digits(result, &body, sums, solved_for->work);

@@ -11,7 +11,7 @@
 
 /* A motion that the ties resist by no more than this share of it counts as free. The stiffness squares the share: a
  * motion let go by 1e-7 has an eigenvalue 1e-14 of the others, which double precision cannot tell from zero. Rounding
- * of coordinates stays far below (1e-15 or so of a part's size, unless the body lies very far from the origin). */
+ * of coordinates stays far below (1e-15 or so of a component's size, unless the body lies very far from the origin). */
 static const double free_share = 1e-7;
 
 /* Held so little, a motion eats ten of the sixteen digits: directions typed with few digits do this. */
@@ -22,7 +22,7 @@ typedef struct Freedom {
     const OstMesh *mesh;
     const char *where;
     int free_body;
-    OstParts *parts;
+    OstComponents *components;
     OstRigidFrame *frames;
     OstTies ties;
     OstGlobal coincident;
@@ -31,23 +31,25 @@ typedef struct Freedom {
 
 static void release(Freedom *freedom)
 {
-    ost_parts_destroy(&freedom->parts);
+    ost_components_destroy(&freedom->components);
     OST_FREE(freedom->frames);
     ost_ties_release(&freedom->ties);
 }
 
 static OstStatus make_frames(Freedom *freedom)
 {
-    OST_TRY(OST_NEW(freedom->ctx, &freedom->frames, freedom->parts->count));
-    for (OstLocal p = 0; p < freedom->parts->count; p++)
-        freedom->frames[p] = ost_frame_of_box(freedom->parts->part[p].low, freedom->parts->part[p].high);
+    OST_TRY(OST_NEW(freedom->ctx, &freedom->frames, freedom->components->count));
+    for (OstLocal p = 0; p < freedom->components->count; p++)
+        freedom->frames[p] =
+            ost_frame_of_box(freedom->components->component[p].low, freedom->components->component[p].high);
     return OST_SUCCESS;
 }
 
 static OstStatus report_motions(const Freedom *freedom, double tolerance, OstFreedomReport *report)
 {
     OstLinkage *linkage = NULL;
-    OST_TRY(ost_linkage_create(freedom->ctx, freedom->parts, freedom->frames, &freedom->ties, tolerance, &linkage));
+    OST_TRY(
+        ost_linkage_create(freedom->ctx, freedom->components, freedom->frames, &freedom->ties, tolerance, &linkage));
     const OstStatus status = ost_freedom_report(linkage, report);
     ost_linkage_destroy(&linkage);
     return status;
@@ -64,14 +66,14 @@ static void count_rest(const OstFreedomReport *report, char *text, size_t size)
 static void advise(const Freedom *freedom, char *text, size_t size)
 {
     size_t used = 0;
-    const int several = freedom->parts->count > 1;
+    const int several = freedom->components->count > 1;
     if (freedom->free_body)
-        used += (size_t)snprintf(text, size, "free_body takes one body that holds together; join its parts");
+        used += (size_t)snprintf(text, size, "free_body takes one body that holds together; join its components");
     else
         used += (size_t)snprintf(text, size,
                                  "hold each of them with constraints (a displacement, or a slide across "
                                  "the motion)%s",
-                                 several ? ", or join the parts" : "");
+                                 several ? ", or join the components" : "");
     if (freedom->coincident > 0)
         used += (size_t)snprintf(text + used, size - used,
                                  ": %lld vertices coincide with others, and mesh: {merge: %g} joins them",
@@ -98,10 +100,11 @@ static void warn_of_loose(const Freedom *freedom, const OstFreedomReport *report
                  "held, would help):%s",
                  freedom->where, report->text);
     if (report->unsolved > 0)
-        ost_warn(freedom->ctx,
-                 "%s: %d parts hang together in vertices and edges, more than are checked for motions against each "
-                 "other",
-                 freedom->where, report->unsolved);
+        ost_warn(
+            freedom->ctx,
+            "%s: %d components hang together in vertices and edges, more than are checked for motions against each "
+            "other",
+            freedom->where, report->unsolved);
 }
 
 static OstStatus judge(const Freedom *freedom)
@@ -114,18 +117,18 @@ static OstStatus judge(const Freedom *freedom)
     warn_of_loose(freedom, &report);
     if (freedom->coincident > 0)
         ost_warn(freedom->ctx,
-                 "%s: the mesh is %d parts, and %lld vertices coincide with others; mesh: {merge: %g} joins them",
-                 freedom->where, freedom->parts->count, (long long)freedom->coincident, freedom->merge_tolerance);
+                 "%s: the mesh falls into %d components, and %lld vertices coincide with others; mesh: {merge: %g} joins them",
+                 freedom->where, freedom->components->count, (long long)freedom->coincident, freedom->merge_tolerance);
     return OST_SUCCESS;
 }
 
 static OstStatus check(Freedom *freedom, const OstSupports *supports)
 {
     OstContext *ctx = freedom->ctx;
-    OST_TRY(ost_parts_create(freedom->mesh, &freedom->parts));
+    OST_TRY(ost_components_create(freedom->mesh, &freedom->components));
     OST_TRY(ost_agree(ctx, make_frames(freedom)));
-    OST_TRY(ost_ties_create(freedom->mesh, supports, freedom->parts, freedom->frames, &freedom->ties));
-    if (freedom->parts->count > 1)
+    OST_TRY(ost_ties_create(freedom->mesh, supports, freedom->components, freedom->frames, &freedom->ties));
+    if (freedom->components->count > 1)
         OST_TRY(ost_mesh_count_coincident(freedom->mesh, &freedom->coincident, &freedom->merge_tolerance));
     return ost_agree(ctx, judge(freedom));
 }

@@ -26,16 +26,16 @@ void ost_free_motions_release(OstFreeMotions *free)
     free->members = free->count = 0;
 }
 
-OstLocal ost_linkage_neighbour(const OstLinkage *linkage, const OstTie *tie, OstLocal part)
+OstLocal ost_linkage_neighbour(const OstLinkage *linkage, const OstTie *tie, OstLocal component)
 {
     (void)linkage;
-    return tie->body[0] == part ? tie->body[1] : tie->body[0];
+    return tie->body[0] == component ? tie->body[1] : tie->body[0];
 }
 
 static OstStatus list_joints(OstLinkage *linkage)
 {
     const OstTies *ties = linkage->ties;
-    const OstLocal count = linkage->parts->count;
+    const OstLocal count = linkage->components->count;
     OST_TRY(OST_NEW(linkage->ctx, &linkage->joint_start, (size_t)count + 2));
     OstLocal *next = linkage->joint_start + 1; /* one behind, so that filling moves each start to its place */
     for (OstLocal i = 0; i < ties->count; i++)
@@ -50,41 +50,41 @@ static OstStatus list_joints(OstLinkage *linkage)
     return OST_SUCCESS;
 }
 
-void ost_linkage_hold(const OstLinkage *linkage, const OstTie *tie, OstLocal part, double triangle[OST_ROWS])
+void ost_linkage_hold(const OstLinkage *linkage, const OstTie *tie, OstLocal component, double triangle[OST_ROWS])
 {
     double change[OST_ROWS], rows[OST_ROWS];
-    ost_rows_change_frame(&linkage->frames[part], ost_tie_frame(linkage->frames, tie), change);
+    ost_rows_change_frame(&linkage->frames[component], ost_tie_frame(linkage->frames, tie), change);
     ost_rows_multiply(tie->triangle, change, rows);
     for (int r = 0; r < 6; r++)
         ost_rows_add(triangle, rows + 6 * r);
 }
 
-static OstStatus look_at(OstLinkage *linkage, OstLocal part)
+static OstStatus look_at(OstLinkage *linkage, OstLocal component)
 {
     double copy[OST_ROWS], basis[OST_ROWS];
     int loose = 0;
-    memcpy(copy, linkage->held + OST_ROWS * (size_t)part, sizeof copy);
+    memcpy(copy, linkage->held + OST_ROWS * (size_t)component, sizeof copy);
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, copy, linkage->tolerance, &loose, basis));
-    linkage->fixed[part] = loose == 0;
+    linkage->fixed[component] = loose == 0;
     return OST_SUCCESS;
 }
 
-/* A part that is fixed holds its neighbours, which may fix them. */
+/* A component that is fixed holds its neighbours, which may fix them. */
 static OstStatus fix_parts(OstLinkage *linkage)
 {
     OstLocal *stack = NULL;
     OstLocal height = 0;
-    OstStatus status = OST_NEW(linkage->ctx, &stack, linkage->parts->count);
-    for (OstLocal p = 0; p < linkage->parts->count && status == OST_SUCCESS; p++) {
+    OstStatus status = OST_NEW(linkage->ctx, &stack, linkage->components->count);
+    for (OstLocal p = 0; p < linkage->components->count && status == OST_SUCCESS; p++) {
         status = look_at(linkage, p);
         if (linkage->fixed[p])
             stack[height++] = p;
     }
     while (height > 0 && status == OST_SUCCESS) {
-        const OstLocal part = stack[--height];
-        for (OstLocal j = linkage->joint_start[part]; j < linkage->joint_start[part + 1]; j++) {
+        const OstLocal component = stack[--height];
+        for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            const OstLocal other = ost_linkage_neighbour(linkage, tie, part);
+            const OstLocal other = ost_linkage_neighbour(linkage, tie, component);
             if (linkage->fixed[other])
                 continue;
             ost_linkage_hold(linkage, tie, other, linkage->held + OST_ROWS * (size_t)other);
@@ -102,18 +102,18 @@ static OstStatus fix_parts(OstLinkage *linkage)
 static void find_clusters(OstLinkage *linkage)
 {
     const OstTies *ties = linkage->ties;
-    ost_set_start(linkage->cluster, linkage->parts->count);
+    ost_set_start(linkage->cluster, linkage->components->count);
     for (OstLocal i = 0; i < ties->count; i++) {
         const OstLocal *body = ties->tie[i].body;
         if (body[1] != OST_TIE_SUPPORT && !linkage->fixed[body[0]] && !linkage->fixed[body[1]])
             ost_set_join(linkage->cluster, body[0], body[1]);
     }
-    linkage->clusters = ost_set_number(linkage->cluster, linkage->parts->count);
+    linkage->clusters = ost_set_number(linkage->cluster, linkage->components->count);
 }
 
 static OstStatus build(OstLinkage *linkage)
 {
-    const size_t count = (size_t)linkage->parts->count;
+    const size_t count = (size_t)linkage->components->count;
     OST_TRY(OST_NEW(linkage->ctx, &linkage->held, OST_ROWS * count));
     OST_TRY(OST_NEW(linkage->ctx, &linkage->fixed, count));
     OST_TRY(OST_NEW(linkage->ctx, &linkage->cluster, count));
@@ -128,13 +128,13 @@ static OstStatus build(OstLinkage *linkage)
     return OST_SUCCESS;
 }
 
-OstStatus ost_linkage_create(OstContext *ctx, const OstParts *parts, const OstRigidFrame *frames, const OstTies *ties,
-                             double tolerance, OstLinkage **linkage)
+OstStatus ost_linkage_create(OstContext *ctx, const OstComponents *components, const OstRigidFrame *frames,
+                             const OstTies *ties, double tolerance, OstLinkage **linkage)
 {
     OstLinkage *made = NULL;
     *linkage = NULL;
     OST_TRY(OST_NEW(ctx, &made, 1));
-    *made = (OstLinkage){.ctx = ctx, .parts = parts, .frames = frames, .ties = ties, .tolerance = tolerance};
+    *made = (OstLinkage){.ctx = ctx, .components = components, .frames = frames, .ties = ties, .tolerance = tolerance};
     const OstStatus status = build(made);
     if (status != OST_SUCCESS)
         ost_linkage_destroy(&made);
@@ -142,10 +142,10 @@ OstStatus ost_linkage_create(OstContext *ctx, const OstParts *parts, const OstRi
     return status;
 }
 
-static int place_of(const OstFreeMotions *free, OstLocal part)
+static int place_of(const OstFreeMotions *free, OstLocal component)
 {
     for (int i = 0; i < free->members; i++)
-        if (free->member[i] == part)
+        if (free->member[i] == component)
             return i;
     return -1;
 }
@@ -166,9 +166,9 @@ static void fill_joint(const OstLinkage *linkage, const OstFreeMotions *free, co
 }
 
 /* Joints within the cluster, each seen from its lower end. */
-static int is_inner(const OstLinkage *linkage, const OstTie *tie, OstLocal part)
+static int is_inner(const OstLinkage *linkage, const OstTie *tie, OstLocal component)
 {
-    return tie->body[0] == part && !linkage->fixed[tie->body[1]];
+    return tie->body[0] == component && !linkage->fixed[tie->body[1]];
 }
 
 static int count_rows(const OstLinkage *linkage, const OstFreeMotions *free)
@@ -185,12 +185,12 @@ static void fill_matrix(const OstLinkage *linkage, const OstFreeMotions *free, d
     const size_t columns = 6 * (size_t)free->members;
     double *rows = matrix;
     for (int i = 0; i < free->members; i++) {
-        const OstLocal part = free->member[i];
+        const OstLocal component = free->member[i];
         for (size_t r = 0; r < 6; r++, rows += columns)
-            memcpy(rows + 6 * (size_t)i, linkage->held + OST_ROWS * (size_t)part + 6 * r, 6 * sizeof *rows);
-        for (OstLocal j = linkage->joint_start[part]; j < linkage->joint_start[part + 1]; j++) {
+            memcpy(rows + 6 * (size_t)i, linkage->held + OST_ROWS * (size_t)component + 6 * r, 6 * sizeof *rows);
+        for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            if (!is_inner(linkage, tie, part))
+            if (!is_inner(linkage, tie, component))
                 continue;
             fill_joint(linkage, free, tie, rows);
             rows += 6 * columns;

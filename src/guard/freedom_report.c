@@ -11,10 +11,10 @@
 
 enum { NAMES_SHOWN = 6, LINE_SIZE = 700 };
 
-/* "part 2", "parts 2, 3 and 5 together", "parts 2, 3, 5, 6, 8, 9 and 14 more together" */
+/* "component 2", "components 2, 3 and 5 together", "components 2, 3, 5, 6, 8, 9 and 14 more together" */
 static void name_parts(int members, const OstLocal *member, const char *together, char *text, size_t size)
 {
-    size_t used = (size_t)snprintf(text, size, "part%s ", members > 1 ? "s" : "");
+    size_t used = (size_t)snprintf(text, size, "component%s ", members > 1 ? "s" : "");
     const int shown = members <= NAMES_SHOWN + 1 ? members : NAMES_SHOWN;
     for (int i = 0; i < shown; i++) {
         const char *between = i == 0 ? "" : i == members - 1 ? " and " : ", ";
@@ -26,16 +26,16 @@ static void name_parts(int members, const OstLocal *member, const char *together
         snprintf(text + used, size - used, "%s", together);
 }
 
-/* Parts taken as one. */
-static OstPart unite(const OstLinkage *linkage, int members, const OstLocal *member)
+/* Components taken as one. */
+static OstComponent unite(const OstLinkage *linkage, int members, const OstLocal *member)
 {
-    OstPart whole = linkage->parts->part[member[0]];
+    OstComponent whole = linkage->components->component[member[0]];
     for (int i = 1; i < members; i++) {
-        const OstPart *part = &linkage->parts->part[member[i]];
-        whole.tets += part->tets;
+        const OstComponent *component = &linkage->components->component[member[i]];
+        whole.tets += component->tets;
         for (int d = 0; d < 3; d++) {
-            whole.low[d] = fmin(whole.low[d], part->low[d]);
-            whole.high[d] = fmax(whole.high[d], part->high[d]);
+            whole.low[d] = fmin(whole.low[d], component->low[d]);
+            whole.high[d] = fmax(whole.high[d], component->high[d]);
         }
     }
     return whole;
@@ -44,22 +44,22 @@ static OstPart unite(const OstLinkage *linkage, int members, const OstLocal *mem
 /* "48 tets around (0.5, 2, 1)" */
 static void describe_place(const OstLinkage *linkage, int members, const OstLocal *member, char *text, size_t size)
 {
-    const OstPart whole = unite(linkage, members, member);
+    const OstComponent whole = unite(linkage, members, member);
     char middle[96];
     const OstRigidFrame frame = ost_frame_of_box(whole.low, whole.high);
     ost_point_words(frame.centre, frame.radius, middle);
     snprintf(text, size, "%lld tet%s around %s", (long long)whole.tets, whole.tets == 1 ? "" : "s", middle);
 }
 
-static int is_among(int members, const OstLocal *member, OstLocal part)
+static int is_among(int members, const OstLocal *member, OstLocal component)
 {
     for (int i = 0; i < members; i++)
-        if (member[i] == part)
+        if (member[i] == component)
             return 1;
     return 0;
 }
 
-/* The one joint by which parts hang on others, or NULL if there are none or several. */
+/* The one joint by which components hang on others, or NULL if there are none or several. */
 static const OstTie *only_joint(const OstLinkage *linkage, int members, const OstLocal *member, OstLocal *outside)
 {
     const OstTie *found = NULL;
@@ -77,7 +77,7 @@ static const OstTie *only_joint(const OstLinkage *linkage, int members, const Os
     return found;
 }
 
-/* ", joined to part 1 along one line only": a point leaves three rotations, a line one. */
+/* ", joined to component 1 along one line only": a point leaves three rotations, a line one. */
 static OstStatus describe_joint(const OstLinkage *linkage, int members, const OstLocal *member, char *text, size_t size)
 {
     OstLocal outside = 0;
@@ -90,7 +90,7 @@ static OstStatus describe_joint(const OstLinkage *linkage, int members, const Os
     memcpy(triangle, tie->triangle, sizeof triangle);
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, triangle, linkage->tolerance, &loose, basis));
     if (loose == 3 || loose == 1)
-        snprintf(text, size, ", joined to part %d %s only", outside + 1,
+        snprintf(text, size, ", joined to component %d %s only", outside + 1,
                  loose == 3 ? "at one point" : "along one line");
     return OST_SUCCESS;
 }
@@ -115,7 +115,7 @@ OstStatus ost_freedom_report_line(const OstLinkage *linkage, int members, const 
     describe_place(linkage, members, member, place, sizeof place);
     OST_TRY(describe_joint(linkage, members, member, joint, sizeof joint));
     OST_TRY(ost_motion_words(linkage->ctx, frame, count, motions, motion, sizeof motion));
-    snprintf(line, sizeof line, "\n  %s, %s%s: %s", linkage->parts->count == 1 ? "the body" : name, place, joint,
+    snprintf(line, sizeof line, "\n  %s, %s%s: %s", linkage->components->count == 1 ? "the body" : name, place, joint,
              motion);
     add_line(line, report);
     return OST_SUCCESS;
@@ -132,28 +132,28 @@ void ost_freedom_report_rest(const OstLinkage *linkage, int members, const OstLo
     add_line(line, report);
 }
 
-/* A part that could move even if all others were held can move. */
-static OstStatus report_alone(const OstLinkage *linkage, OstLocal part, OstFreedomReport *report)
+/* A component that could move even if all others were held can move. */
+static OstStatus report_alone(const OstLinkage *linkage, OstLocal component, OstFreedomReport *report)
 {
     double triangle[OST_ROWS], basis[OST_ROWS];
     int count = 0;
-    memcpy(triangle, linkage->held + OST_ROWS * (size_t)part, sizeof triangle);
-    for (OstLocal j = linkage->joint_start[part]; j < linkage->joint_start[part + 1]; j++) {
+    memcpy(triangle, linkage->held + OST_ROWS * (size_t)component, sizeof triangle);
+    for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
         const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-        if (!linkage->fixed[ost_linkage_neighbour(linkage, tie, part)])
-            ost_linkage_hold(linkage, tie, part, triangle);
+        if (!linkage->fixed[ost_linkage_neighbour(linkage, tie, component)])
+            ost_linkage_hold(linkage, tie, component, triangle);
     }
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, triangle, linkage->tolerance, &count, basis));
     if (count == 0)
         return OST_SUCCESS;
-    return ost_freedom_report_line(linkage, 1, &part, &linkage->frames[part], count, basis, report);
+    return ost_freedom_report_line(linkage, 1, &component, &linkage->frames[component], count, basis, report);
 }
 
-/* So can parts that could move if they were one. */
+/* So can components that could move if they were one. */
 static OstStatus report_as_one(const OstLinkage *linkage, OstLocal members, const OstLocal *member,
                                OstFreedomReport *report)
 {
-    const OstPart whole = unite(linkage, members, member);
+    const OstComponent whole = unite(linkage, members, member);
     const OstRigidFrame frame = ost_frame_of_box(whole.low, whole.high);
     double triangle[OST_ROWS] = {0.0}, basis[OST_ROWS], change[OST_ROWS], rows[OST_ROWS];
     int count = 0;
@@ -186,18 +186,18 @@ static OstStatus report_cluster(const OstLinkage *linkage, OstLocal members, con
     return status;
 }
 
-/* The parts that are not fixed, cluster by cluster. */
+/* The components that are not fixed, cluster by cluster. */
 static OstStatus sort_by_cluster(const OstLinkage *linkage, OstLocal **start, OstLocal **member)
 {
     OST_TRY(OST_NEW(linkage->ctx, start, (size_t)linkage->clusters + 2));
-    OST_TRY(OST_NEW(linkage->ctx, member, linkage->parts->count));
+    OST_TRY(OST_NEW(linkage->ctx, member, linkage->components->count));
     OstLocal *next = *start + 1; /* one behind, so that filling moves each start to its place */
-    for (OstLocal p = 0; p < linkage->parts->count; p++)
+    for (OstLocal p = 0; p < linkage->components->count; p++)
         if (!linkage->fixed[p])
             next[linkage->cluster[p] + 1]++;
     for (OstLocal c = 0; c < linkage->clusters; c++)
         next[c + 1] += next[c];
-    for (OstLocal p = 0; p < linkage->parts->count; p++)
+    for (OstLocal p = 0; p < linkage->components->count; p++)
         if (!linkage->fixed[p])
             (*member)[next[linkage->cluster[p]]++] = p;
     return OST_SUCCESS;

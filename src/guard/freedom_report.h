@@ -6,10 +6,10 @@
 
 enum { OST_FREEDOM_LINES = 10, OST_FREEDOM_TEXT = 3000 };
 
-/* The free motions in words, a line for each set of parts that moves as one. */
+/* The free motions in words, a line for each set of components that moves as one. */
 typedef struct OstFreedomReport {
-    OstLocal found;    /* sets of parts that can move; the first OST_FREEDOM_LINES have a line */
-    OstLocal unsolved; /* parts in clusters too large to be solved */
+    OstLocal found;    /* sets of components that can move; the first OST_FREEDOM_LINES have a line */
+    OstLocal unsolved; /* components in clusters too large to be solved */
     char text[OST_FREEDOM_TEXT];
 } OstFreedomReport;
 
@@ -19,12 +19,12 @@ OstStatus ost_freedom_report(const OstLinkage *linkage, OstFreedomReport *report
 /* Local. The lines for one cluster's motions (freedom_sets.c). */
 OstStatus ost_freedom_report_sets(const OstLinkage *linkage, const OstFreeMotions *free, OstFreedomReport *report);
 
-/* Local. A line: these parts move as one, by `count` motions (count × 6 numbers in `frame`). */
+/* Local. A line: these components move as one, by `count` motions (count × 6 numbers in `frame`). */
 OstStatus ost_freedom_report_line(const OstLinkage *linkage, int members, const OstLocal *member,
                                   const OstRigidFrame *frame, int count, const double *motions,
                                   OstFreedomReport *report);
 
-/* Local. A line: these parts move against each other, in `count` ways that no set of them shares. */
+/* Local. A line: these components move against each other, in `count` ways that no set of them shares. */
 void ost_freedom_report_rest(const OstLinkage *linkage, int members, const OstLocal *member, int count,
                              OstFreedomReport *report);
 

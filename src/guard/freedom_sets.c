@@ -90,10 +90,10 @@ static void find_groups(Sets *sets)
     }
 }
 
-static int place_of(const Sets *sets, OstLocal part)
+static int place_of(const Sets *sets, OstLocal component)
 {
     int i = 0;
-    while (i < sets->free->members && sets->free->member[i] != part)
+    while (i < sets->free->members && sets->free->member[i] != component)
         i++;
     return i < sets->free->members ? i : -1;
 }
@@ -109,11 +109,11 @@ static void reach(Sets *sets, int from, int cut)
     while (height > 0) {
         const int g = sets->stack[--height];
         for (int i = 0; i < sets->free->members; i++) {
-            const OstLocal part = sets->free->member[i];
-            for (OstLocal j = linkage->joint_start[part]; sets->group[i] == g && j < linkage->joint_start[part + 1];
-                 j++) {
+            const OstLocal component = sets->free->member[i];
+            for (OstLocal j = linkage->joint_start[component];
+                 sets->group[i] == g && j < linkage->joint_start[component + 1]; j++) {
                 const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-                const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, part));
+                const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, component));
                 const int h = other < 0 ? g : sets->group[other];
                 if (sets->in[h] || (g == from && h == cut))
                     continue;
@@ -243,10 +243,10 @@ static OstStatus look_at_sides(Sets *sets, OstFreedomReport *report)
 {
     const OstLinkage *linkage = sets->linkage;
     for (int i = 0; i < sets->free->members; i++) {
-        const OstLocal part = sets->free->member[i];
-        for (OstLocal j = linkage->joint_start[part]; j < linkage->joint_start[part + 1]; j++) {
+        const OstLocal component = sets->free->member[i];
+        for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, part));
+            const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, component));
             if (sets->found_rank == sets->free->count)
                 return OST_SUCCESS;
             if (other > i && sets->group[i] != sets->group[other])

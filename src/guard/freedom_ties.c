@@ -2,30 +2,30 @@
 #include "guard/freedom_ties.h"
 
 #include "core/error.h"
-#include "core/gather.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "core/small.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Once no motion of a part gets by its supports without that much of it, more supports need not be looked at: they can
- * only hold it better. Looked for at 64, 256, 1024, ... rows. */
+/* Once no motion of a component gets by its supports without that much of it, more supports need not be looked at: they
+ * can only hold it better. Looked for at 64, 256, 1024, ... rows. */
 static const double well_held = 0.01;
 enum { FIRST_LOOK = 64, LOOK_FACTOR = 4 };
 
-/* A node where parts meet; `part` is not the lowest of them. */
+/* A node where components meet; `component` is not the lowest of them. */
 typedef struct Meeting {
-    OstLocal low, part;
+    OstLocal low, component;
     OstLocal node;
 } Meeting;
 
-/* Which parts each owned node is in. */
-typedef struct NodeParts {
-    OstLocal *lowest; /* owned_nodes; NULL: there is one part */
+/* Which components each owned node is in. */
+typedef struct NodeComponents {
+    OstLocal *lowest; /* owned_nodes; NULL: there is one component */
     Meeting *meeting;
     OstLocal meetings, capacity;
-} NodeParts;
+} NodeComponents;
 
 OstRigidFrame ost_frame_of_box(const double low[3], const double high[3])
 {
@@ -58,7 +58,7 @@ static int compare_meetings(const void *a, const void *b)
 {
     const OstLocal *x = a;
     const OstLocal *y = b;
-    for (int i = 0; i < 3; i++) /* low, part, node */
+    for (int i = 0; i < 3; i++) /* low, component, node */
         if (x[i] != y[i])
             return x[i] < y[i] ? -1 : 1;
     return 0;
@@ -72,7 +72,7 @@ static int compare_ties(const void *a, const void *b)
     return first ? first : (x->body[1] > y->body[1]) - (x->body[1] < y->body[1]);
 }
 
-static OstStatus add_meeting(OstContext *ctx, NodeParts *of, Meeting meeting)
+static OstStatus add_meeting(OstContext *ctx, NodeComponents *of, Meeting meeting)
 {
     if (of->meetings == of->capacity) {
         const OstLocal capacity = of->capacity / 2 * 3 + 256;
@@ -83,7 +83,7 @@ static OstStatus add_meeting(OstContext *ctx, NodeParts *of, Meeting meeting)
     return OST_SUCCESS;
 }
 
-static void sort_meetings(NodeParts *of)
+static void sort_meetings(NodeComponents *of)
 {
     OstLocal kept = 0;
     if (of->meetings == 0)
@@ -95,32 +95,32 @@ static void sort_meetings(NodeParts *of)
     of->meetings = kept;
 }
 
-static OstStatus find_meetings(const OstMesh *mesh, const OstParts *parts, NodeParts *of)
+static OstStatus find_meetings(const OstMesh *mesh, const OstComponents *components, NodeComponents *of)
 {
     const size_t width = (size_t)mesh->nodes_per_tet;
-    if (parts->count == 1)
+    if (components->count == 1)
         return OST_SUCCESS;
     OST_TRY(OST_NEW(mesh->ctx, &of->lowest, mesh->owned_nodes));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        of->lowest[n] = parts->count;
+        of->lowest[n] = components->count;
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (size_t v = 0; v < width; v++) {
             const OstLocal node = mesh->tet_nodes[(size_t)t * width + v];
-            if (node < mesh->owned_nodes && parts->of_tet[t] < of->lowest[node])
-                of->lowest[node] = parts->of_tet[t];
+            if (node < mesh->owned_nodes && components->of_tet[t] < of->lowest[node])
+                of->lowest[node] = components->of_tet[t];
         }
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (size_t v = 0; v < width; v++) {
             const OstLocal node = mesh->tet_nodes[(size_t)t * width + v];
-            const OstLocal part = parts->of_tet[t];
-            if (node < mesh->owned_nodes && part != of->lowest[node])
-                OST_TRY(add_meeting(mesh->ctx, of, (Meeting){of->lowest[node], part, node}));
+            const OstLocal component = components->of_tet[t];
+            if (node < mesh->owned_nodes && component != of->lowest[node])
+                OST_TRY(add_meeting(mesh->ctx, of, (Meeting){of->lowest[node], component, node}));
         }
     sort_meetings(of);
     return OST_SUCCESS;
 }
 
-/* A part's supports while they are counted. */
+/* A component's supports while they are counted. */
 typedef struct Held {
     int64_t rows, next_look; /* next_look 0: well held, nothing more to look at */
     double triangle[OST_ROWS];
@@ -158,31 +158,32 @@ static const OstSupport *support_of(const OstSupports *supports, OstLocal node)
     return index < 0 ? NULL : &supports->support[index];
 }
 
-static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeParts *of,
+static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeComponents *of,
                                   const OstRigidFrame *frames, Held *held)
 {
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const OstSupport *support = support_of(supports, n);
-        const OstLocal part = of->lowest ? of->lowest[n] : 0;
+        const OstLocal component = of->lowest ? of->lowest[n] : 0;
         if (support)
-            OST_TRY(hold(mesh->ctx, &frames[part], support, mesh->coordinates + 3 * (size_t)n, &held[part]));
+            OST_TRY(hold(mesh->ctx, &frames[component], support, mesh->coordinates + 3 * (size_t)n, &held[component]));
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
         const Meeting *meeting = &of->meeting[m];
         const OstSupport *support = support_of(supports, meeting->node);
         if (support)
-            OST_TRY(hold(mesh->ctx, &frames[meeting->part], support, mesh->coordinates + 3 * (size_t)meeting->node,
-                         &held[meeting->part]));
+            OST_TRY(hold(mesh->ctx, &frames[meeting->component], support, mesh->coordinates + 3 * (size_t)meeting->node,
+                         &held[meeting->component]));
     }
     return OST_SUCCESS;
 }
 
-static int starts_pair(const NodeParts *of, OstLocal m)
+static int starts_pair(const NodeComponents *of, OstLocal m)
 {
-    return m == 0 || of->meeting[m].low != of->meeting[m - 1].low || of->meeting[m].part != of->meeting[m - 1].part;
+    return m == 0 || of->meeting[m].low != of->meeting[m - 1].low ||
+           of->meeting[m].component != of->meeting[m - 1].component;
 }
 
-/* Parts that share a node move alike there, in all three directions. */
+/* Components that share a node move alike there, in all three directions. */
 static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLocal node, OstTie *tie)
 {
     for (int i = 0; i < 3; i++) {
@@ -194,16 +195,16 @@ static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLoc
     }
 }
 
-static OstStatus list_ties(const OstMesh *mesh, const OstParts *parts, const NodeParts *of, const OstRigidFrame *frames,
-                           const Held *held, OstTies *ties)
+static OstStatus list_ties(const OstMesh *mesh, const OstComponents *components, const NodeComponents *of,
+                           const OstRigidFrame *frames, const Held *held, OstTies *ties)
 {
     OstLocal count = 0;
-    for (OstLocal p = 0; p < parts->count; p++)
+    for (OstLocal p = 0; p < components->count; p++)
         count += held[p].rows > 0;
     for (OstLocal m = 0; m < of->meetings; m++)
         count += starts_pair(of, m);
     OST_TRY(OST_NEW(mesh->ctx, &ties->tie, count));
-    for (OstLocal p = 0; p < parts->count; p++) {
+    for (OstLocal p = 0; p < components->count; p++) {
         if (held[p].rows == 0)
             continue;
         OstTie *tie = &ties->tie[ties->count++];
@@ -214,23 +215,23 @@ static OstStatus list_ties(const OstMesh *mesh, const OstParts *parts, const Nod
     for (OstLocal m = 0; m < of->meetings; m++) {
         if (starts_pair(of, m)) {
             ties->tie[ties->count].body[0] = of->meeting[m].low;
-            ties->tie[ties->count++].body[1] = of->meeting[m].part;
+            ties->tie[ties->count++].body[1] = of->meeting[m].component;
         }
         tie_meeting(mesh, frames, of->meeting[m].node, &ties->tie[ties->count - 1]);
     }
     return OST_SUCCESS;
 }
 
-static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, const OstParts *parts,
+static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
                            const OstRigidFrame *frames, OstTies *ties)
 {
-    NodeParts of = {0};
+    NodeComponents of = {0};
     Held *held = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(find_meetings(mesh, parts, &of));
-    OST_TRY_DONE(OST_NEW(mesh->ctx, &held, parts->count));
+    OST_TRY_DONE(find_meetings(mesh, components, &of));
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &held, components->count));
     OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, held));
-    OST_TRY_DONE(list_ties(mesh, parts, &of, frames, held, ties));
+    OST_TRY_DONE(list_ties(mesh, components, &of, frames, held, ties));
 done:
     OST_FREE(held);
     OST_FREE(of.lowest);
@@ -255,16 +256,16 @@ static void unite(OstTies *ties)
     ties->count = kept;
 }
 
-OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstParts *parts,
+OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
                           const OstRigidFrame *frames, OstTies *ties)
 {
     OstTies mine = {0};
     *ties = (OstTies){0};
-    OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, parts, frames, &mine));
+    OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, components, frames, &mine));
     if (status == OST_SUCCESS)
         status = ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
-                                  "the mesh falls into too many parts to tell what holds them", (void **)&ties->tie,
-                                  &ties->count);
+                                  "the mesh falls into too many components to tell what holds them",
+                                  (void **)&ties->tie, &ties->count);
     if (status == OST_SUCCESS)
         unite(ties);
     else

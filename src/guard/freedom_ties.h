@@ -4,12 +4,13 @@
 
 #include "assembly/supports.h"
 #include "guard/freedom_rows.h"
-#include "mesh/part.h"
+#include "mesh/components/component.h"
 
-/* What holds a part, or two parts to each other: all conditions of the same kind in one triangle (freedom_rows.h). For
- * a pair it is on the motion of body[0] relative to body[1], seen in the frame of the smaller one. */
+/* What holds a component, or two components to each other: all conditions of the same kind in one triangle
+ * (freedom_rows.h). For a pair it is on the motion of body[0] relative to body[1], seen in the frame of the smaller
+ * one. */
 typedef struct OstTie {
-    OstLocal body[2]; /* parts, the lower one first; body[1] is OST_TIE_SUPPORT where supports hold body[0] */
+    OstLocal body[2]; /* components, the lower one first; body[1] is OST_TIE_SUPPORT where supports hold body[0] */
     double triangle[OST_ROWS];
 } OstTie;
 
@@ -20,14 +21,14 @@ typedef struct OstTies {
     OstTie *tie; /* by body[0], then body[1] */
 } OstTies;
 
-/* Local. The frame of a part: the middle and half the diagonal of its box. */
+/* Local. The frame of a component: the middle and half the diagonal of its box. */
 OstRigidFrame ost_frame_of_box(const double low[3], const double high[3]);
 
 /* Local. The frame that a tie's triangle is in. */
 const OstRigidFrame *ost_tie_frame(const OstRigidFrame *frames, const OstTie *tie);
 
 /* Collective. The ties of the whole body, on every rank. */
-OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstParts *parts,
+OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
                           const OstRigidFrame *frames, OstTies *ties);
 void ost_ties_release(OstTies *ties);
 

@@ -26,7 +26,7 @@ void ost_point_words(const double point[3], double scale, char text[96])
     snprintf(text, POINT_TEXT, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
 }
 
-/* A direction's text, with its first part positive. */
+/* A direction's text, with its first component positive. */
 static void direction_words(const double direction[3], char text[POINT_TEXT])
 {
     double d[3];
@@ -72,14 +72,14 @@ typedef struct Sorted {
     double with[9]; /* rows: the velocity of the centre that goes with each, orthogonal to the translations */
 } Sorted;
 
-/* Takes from v its part in the span of the orthonormal rows. */
+/* Takes from v its component in the span of the orthonormal rows. */
 static void take_out(int count, const double *rows, double v[3])
 {
     for (int pass = 0; pass < 2; pass++)
         for (int r = 0; r < count; r++) {
-            const double part = ost_dot3(v, rows + 3 * r);
+            const double component = ost_dot3(v, rows + 3 * r);
             for (int i = 0; i < 3; i++)
-                v[i] -= part * rows[3 * r + i];
+                v[i] -= component * rows[3 * r + i];
         }
 }
 
@@ -217,16 +217,16 @@ static void place_words(const OstRigidFrame *frame, const double at[3], char tex
     ost_point_words(x, scale, text);
 }
 
-/* Where a translation has a part along the axis, it may be used up to leave no advance, only a turn. */
+/* Where a translation has a component along the axis, it may be used up to leave no advance, only a turn. */
 static void remove_advance(const Sorted *sorted, const double w[3], double v[3])
 {
     double across[3] = {w[0], w[1], w[2]};
     take_out(sorted->moves, sorted->move, across);
     double within[3] = {w[0] - across[0], w[1] - across[1], w[2] - across[2]};
-    const double part = ost_dot3(within, w);
-    if (part <= same)
+    const double component = ost_dot3(within, w);
+    if (component <= same)
         return;
-    const double factor = ost_dot3(v, w) / part;
+    const double factor = ost_dot3(v, w) / component;
     for (int i = 0; i < 3; i++)
         v[i] -= factor * within[i];
 }

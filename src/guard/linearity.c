@@ -2,6 +2,7 @@
 #include "guard/linearity.h"
 
 #include "core/error.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/strain_lanes.h"
 #include "mesh/tet.h"
@@ -93,7 +94,7 @@ void ost_linearity_add(const OstBatch *batch, const OstElement *element, const O
 OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
 {
     double both[2] = {largest->strain, largest->rotation};
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max(ctx, 2, both));
     *largest = (OstLinearity){both[0], both[1]};
     return OST_SUCCESS;
 }

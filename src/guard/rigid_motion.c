@@ -3,8 +3,9 @@
 
 #include "assembly/batch.h"
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <float.h>
@@ -133,7 +134,7 @@ OstStatus ost_rigid_motion_of_tets(const OstMesh *mesh, const OstMaterialField *
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     const Resistance found = try_tets(mesh, field, every_mode);
     *worst = found.ratio;
-    OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, worst, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx)));
+    OstStatus status = ost_max(ctx, 1, worst);
     if (status == OST_SUCCESS && *worst > limit())
         status = ost_agree(ctx, found.ratio > limit() ? raise_tet(mesh, field, found) : OST_SUCCESS);
     ost_ledger_leave(ctx);
@@ -171,7 +172,7 @@ static OstStatus find_span(Rows *rows)
     rows->span = 0.0;
     for (size_t i = 3 * length; i < MODES * length; i++)
         rows->span = fmax(rows->span, fabs(rows->modes[i]));
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &rows->span, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx)));
+    return ost_max(ctx, 1, &rows->span);
 }
 
 /* A row's force, and the size of its terms. */
@@ -243,7 +244,7 @@ static OstStatus examine_rows(Rows *rows, double *worst)
     OST_TRY(find_span(rows));
     OST_TRY(try_rows(rows, every_mode, &found));
     *worst = found.ratio;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, worst, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max(ctx, 1, worst));
     return *worst > limit() ? ost_agree(ctx, raise_row(rows, found)) : OST_SUCCESS;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh/names.h"
 
+#include "core/error.h"
 #include "core/memory.h"
 
 #include <stdio.h>
@@ -29,6 +30,23 @@ int ost_names_find(const OstNames *names, const char *name)
         if (strcmp(names->name[i], name) == 0)
             return i;
     return -1;
+}
+
+OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text)
+{
+    OST_TRY(OST_RESIZE(ctx, &names->name, names->count + 1));
+    OST_TRY(ost_copy_string(ctx, text, &names->name[names->count]));
+    names->count++;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text)
+{
+    char numbered[64];
+    snprintf(numbered, sizeof numbered, "%s", text);
+    for (int number = 2; ost_names_find(names, numbered) >= 0; number++)
+        snprintf(numbered, sizeof numbered, "%.40s-%d", text, number);
+    return ost_names_add(ctx, names, numbered);
 }
 
 int ost_mesh_find_region(const OstMesh *mesh, const char *name)

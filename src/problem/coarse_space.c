@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "orthostat/refine.h"
 #include "problem/coarse_parents.h"
 
@@ -29,7 +30,7 @@ static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
         const OstLocal index = space->supports->index[vertex];
         *has = index < 0 || space->supports->support[index].held < 3;
     }
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, has, 1, MPI_INT, MPI_MAX, ost_comm(ctx)));
+    return ost_max_ints(ctx, 1, has);
 }
 
 static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, const OstMaterialField *field,
@@ -62,9 +63,7 @@ OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialF
     OstLinearSpace *made = NULL;
     int has_rows = 0;
     *space = NULL;
-    if (quadratic->mesh->nodes_per_tet == 4)
-        return OST_SUCCESS;
-    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
+    ost_ledger_enter(ctx, OST_EFFECT_LINEAR_SPACE);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
     if (status == OST_SUCCESS)
         status = take_vertices(made, quadratic);

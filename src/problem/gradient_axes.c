@@ -5,6 +5,7 @@
 #include "assembly/laplacian.h"
 #include "assembly/supports.h"
 #include "assembly/system.h"
+#include "case/regions.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -43,17 +44,9 @@ static OstStatus hold_boundary(const OstScene *scene, const char *name, int pote
     return ost_agree(scene->ctx, status);
 }
 
-/* Specs borrow their names from the case. */
-static OstPlace place_of(const OstCase *c, const OstAxesSpec *spec)
-{
-    for (int i = 0; i < c->material_count; i++)
-        if (c->materials[i].axes.from[0] == spec->from[0])
-            return c->materials[i].axes_place;
-    return (OstPlace){0, 0};
-}
-
 /* The lowest label of the vertices that both boundaries hold, or none_shared. */
-static OstStatus find_shared(const OstScene *scene, const OstAxesSpec *spec, int potential, OstGlobal *shared)
+static OstStatus find_shared(const OstScene *scene, OstPlace place, const OstAxesSpec *spec, int potential,
+                             OstGlobal *shared)
 {
     const OstMesh *mesh = scene->mesh;
     unsigned char *flags[2] = {NULL, NULL};
@@ -61,10 +54,8 @@ static OstStatus find_shared(const OstScene *scene, const OstAxesSpec *spec, int
     OstStatus status = OST_SUCCESS;
     for (int side = 0; side < 2; side++) {
         char *names[1] = {side == 0 ? spec->from[potential] : spec->to[potential]};
-        const OstSelection boundary = {.kind = OST_SELECT_BOUNDARY,
-                                       .place = place_of(scene->c, spec),
-                                       .boundaries = {1, names},
-                                       .tolerance = -1.0};
+        const OstSelection boundary = {
+            .kind = OST_SELECT_BOUNDARY, .place = place, .boundaries = {1, names}, .tolerance = -1.0};
         OST_TRY_DONE(ost_select_flags(scene->c, mesh, &boundary, &flags[side]));
     }
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
@@ -79,10 +70,10 @@ done:
 
 static OstStatus check_apart(const OstScene *scene, int region, const OstAxesSpec *spec)
 {
+    const OstPlace place = ost_case_material_of(scene->c, scene->mesh->regions.name[region])->axes_place;
     for (int potential = 0; potential < 2; potential++) {
         OstGlobal shared;
-        OST_TRY(find_shared(scene, spec, potential, &shared));
-        const OstPlace place = place_of(scene->c, spec);
+        OST_TRY(find_shared(scene, place, spec, potential, &shared));
         if (shared != none_shared)
             return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                              "%s:%d:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "

@@ -2,8 +2,8 @@
 #include "problem/scene_mesh.h"
 
 #include "core/error.h"
-#include "core/free_memory.h"
-#include "mesh/merge.h"
+#include "core/parallel/free_memory.h"
+#include "mesh/distribution/merge.h"
 #include "orthostat/plan.h"
 #include "orthostat/refine.h"
 #include "problem/scene_partition.h"
@@ -14,7 +14,7 @@ static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
 {
     OstPlan plan;
     double left = 0.0;
-    ost_plan_make(c, nodes, tets, NULL, ost_size(c->ctx), &plan);
+    ost_plan_make(c, &(OstPlanMesh){.nodes = nodes, .tets = tets, .quadratic = c->order == 2}, ost_size(c->ctx), &plan);
     OST_TRY(ost_memory_free(c->ctx, &left));
     const double wanted = plan.bytes_mesh + plan.bytes_matrix;
     if (wanted > left)
@@ -43,6 +43,8 @@ static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMater
         return ost_chunk_create_octant(c->ctx, &c->octant, chunk);
     case OST_MESH_FILE:
         return ost_case_located(c, c->mesh_place, ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials));
+    case OST_MESH_FROM_PROGRAM: /* refused by ost_plan_check_size */
+        break;
     }
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
 }

@@ -16,7 +16,7 @@ by_cmake=$("$folder/build/consumer" "$ORTHOSTAT_SOURCE/cases/block/sliding.yaml"
 PKG_CONFIG_PATH=$(dirname "$(find "$folder/usr" -name orthostat.pc)")
 export PKG_CONFIG_PATH
 # shellcheck disable=SC2046
-cc "$consumer/main.c" -o "$folder/consumer" "${sanitizers[@]}" $(pkg-config --cflags --libs --static orthostat)
+cc "$consumer/main.c" -o "$folder/consumer" "${sanitizers[@]}" $(pkg-config --cflags --libs orthostat)
 by_pkg_config=$("$folder/consumer" "$ORTHOSTAT_SOURCE/cases/block/sliding.yaml")
 
 "$folder/usr/bin/orthostat" --version | grep -q '^orthostat '

@@ -212,7 +212,7 @@ static void a_loose_block_is_named_and_a_held_one_is_not(void **state)
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 8);
     assert_free(mesh, supports,
-                LINES("part 2, 12 tets around (5, 0.5, 0.5): can move in any direction, and turn about any axis"));
+                LINES("component 2, 12 tets around (5, 0.5, 0.5): can move in any direction, and turn about any axis"));
     ost_mesh_destroy(&mesh);
 }
 
@@ -220,12 +220,13 @@ static void a_block_on_an_edge_turns_about_it_at_any_scale(void **state)
 {
     (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}};
-    const char *line[] = {"part 2, 6 tets around (1.5e-06, 1.5e-06, 5e-07), joined to part 1 along one line only: can "
-                          "turn about the line through (1e-06, 1e-06, 5e-07) along (0, 0, 1)",
-                          "part 2, 6 tets around (1.5, 1.5, 0.5), joined to part 1 along one line only: can turn about "
-                          "the line through (1, 1, 0.5) along (0, 0, 1)",
-                          "part 2, 6 tets around (1.5e+06, 1.5e+06, 500000), joined to part 1 along one line only: can "
-                          "turn about the line through (1e+06, 1e+06, 500000) along (0, 0, 1)"};
+    const char *line[] = {
+        "component 2, 6 tets around (1.5e-06, 1.5e-06, 5e-07), joined to component 1 along one line only: can "
+        "turn about the line through (1e-06, 1e-06, 5e-07) along (0, 0, 1)",
+        "component 2, 6 tets around (1.5, 1.5, 0.5), joined to component 1 along one line only: can turn about "
+        "the line through (1, 1, 0.5) along (0, 0, 1)",
+        "component 2, 6 tets around (1.5e+06, 1.5e+06, 500000), joined to component 1 along one line only: can "
+        "turn about the line through (1e+06, 1e+06, 500000) along (0, 0, 1)"};
     for (int i = 0; i < 3; i++) {
         OstMesh *mesh = lattice_mesh(2, cell, pow(10.0, 6 * (i - 1)));
         OstSupports *supports = new_supports(mesh);
@@ -235,7 +236,7 @@ static void a_block_on_an_edge_turns_about_it_at_any_scale(void **state)
         hold_labels(supports, 9, 14);
         assert_int_equal(mesh->global_nodes, 14);
         assert_success(ost_supports_complete(supports));
-        assert_failure(ost_freedom_check(mesh, supports, "case.yaml", 0), OST_INVALID_INPUT, "\n  part 1, 6 tets");
+        assert_failure(ost_freedom_check(mesh, supports, "case.yaml", 0), OST_INVALID_INPUT, "\n  component 1, 6 tets");
         ost_supports_destroy(&supports);
         supports = new_supports(mesh);
         hold_labels(supports, 1, 9); /* one vertex of the second is enough to stop it */
@@ -251,9 +252,10 @@ static void a_block_on_a_vertex_turns_about_any_line_through_it(void **state)
     OstMesh *mesh = lattice_mesh(2, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 8);
-    assert_free(mesh, supports,
-                LINES("part 2, 6 tets around (1.5, 1.5, 1.5), joined to part 1 at one point only: can turn about any "
-                      "line through (1, 1, 1)"));
+    assert_free(
+        mesh, supports,
+        LINES("component 2, 6 tets around (1.5, 1.5, 1.5), joined to component 1 at one point only: can turn about any "
+              "line through (1, 1, 1)"));
     ost_mesh_destroy(&mesh);
 }
 
@@ -264,11 +266,13 @@ static void of_a_chain_each_hinge_is_named_with_what_hangs_on_it(void **state)
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 8);
-    assert_free(mesh, supports,
-                LINES("parts 2 and 3 together, 12 tets around (2, 2, 0.5), joined to part 1 along one line only: can "
-                      "turn about the line through (1, 1, 0.5) along (0, 0, 1)",
-                      "part 3, 6 tets around (2.5, 2.5, 0.5), joined to part 2 along one line only: can turn about the "
-                      "line through (2, 2, 0.5) along (0, 0, 1)"));
+    assert_free(
+        mesh, supports,
+        LINES(
+            "components 2 and 3 together, 12 tets around (2, 2, 0.5), joined to component 1 along one line only: can "
+            "turn about the line through (1, 1, 0.5) along (0, 0, 1)",
+            "component 3, 6 tets around (2.5, 2.5, 0.5), joined to component 2 along one line only: can turn about the "
+            "line through (2, 2, 0.5) along (0, 0, 1)"));
     ost_mesh_destroy(&mesh);
 }
 
@@ -279,13 +283,15 @@ static void a_floating_chain_moves_as_a_whole_and_at_its_hinges(void **state)
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 1);
-    assert_free(mesh, supports,
-                LINES("parts 1, 2 and 3 together, 18 tets around (1.5, 1.5, 0.5): can turn about any line through "
-                      "(0, 0, 0)",
-                      "parts 2 and 3 together, 12 tets around (2, 2, 0.5), joined to part 1 along one line only: can "
-                      "turn about the line through (1, 1, 0.5) along (0, 0, 1)",
-                      "part 3, 6 tets around (2.5, 2.5, 0.5), joined to part 2 along one line only: can turn about the "
-                      "line through (2, 2, 0.5) along (0, 0, 1)"));
+    assert_free(
+        mesh, supports,
+        LINES(
+            "components 1, 2 and 3 together, 18 tets around (1.5, 1.5, 0.5): can turn about any line through "
+            "(0, 0, 0)",
+            "components 2 and 3 together, 12 tets around (2, 2, 0.5), joined to component 1 along one line only: can "
+            "turn about the line through (1, 1, 0.5) along (0, 0, 1)",
+            "component 3, 6 tets around (2.5, 2.5, 0.5), joined to component 2 along one line only: can turn about the "
+            "line through (2, 2, 0.5) along (0, 0, 1)"));
     ost_mesh_destroy(&mesh);
 }
 
@@ -297,9 +303,10 @@ static void a_ring_of_four_hinges_is_a_linkage(void **state)
     OstMesh *mesh = lattice_mesh(4, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 8);
-    assert_free(mesh, supports,
-                LINES("parts 2, 3 and 4, 18 tets around (1.5, 2, 0.5): can move against each other, as a linkage, in 1 "
-                      "way"));
+    assert_free(
+        mesh, supports,
+        LINES("components 2, 3 and 4, 18 tets around (1.5, 2, 0.5): can move against each other, as a linkage, in 1 "
+              "way"));
     ost_mesh_destroy(&mesh);
 }
 
@@ -324,7 +331,7 @@ static void coincident_vertices_are_the_way_out_that_is_offered(void **state)
     hold_labels(supports, 1, 8);
     assert_success(ost_supports_complete(supports));
     assert_failure(ost_freedom_check(mesh, supports, "case.yaml", 0), OST_INVALID_INPUT,
-                   "or join the parts: 4 vertices coincide with others, and mesh: {merge: 0.01} joins them");
+                   "or join the components: 4 vertices coincide with others, and mesh: {merge: 0.01} joins them");
     ost_supports_destroy(&supports);
     ost_mesh_destroy(&mesh);
 }
@@ -362,9 +369,10 @@ static void a_great_many_hinged_parts_are_still_asked_whether_all_can_move_as_on
     OstMesh *mesh = lattice_mesh(cells, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
     hold_fully(supports, 1);
-    assert_free(mesh, supports,
-                LINES("parts 1, 2, 3, 4, 5, 6 and 250 more together, 1536 tets around (4, 4, 4): can turn about any "
-                      "line through (0, 0, 0)"));
+    assert_free(
+        mesh, supports,
+        LINES("components 1, 2, 3, 4, 5, 6 and 250 more together, 1536 tets around (4, 4, 4): can turn about any "
+              "line through (0, 0, 0)"));
     free(cell);
     ost_mesh_destroy(&mesh);
 }

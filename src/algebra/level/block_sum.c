@@ -4,6 +4,7 @@
 #include "algebra/level/fetched_rows.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <string.h>
 
@@ -15,9 +16,9 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
 {
     OST_TRY(OST_NEW(ctx, sum, 1));
     **sum = (OstBlockSum){.ctx = ctx, .first = first, .owned = owned};
-    OstStatus status = ost_index_create(ctx, &(*sum)->ghost);
+    OstStatus status = ost_index_create(ctx, 1, &(*sum)->ghost);
     if (status == OST_SUCCESS)
-        status = ost_index_create(ctx, &(*sum)->entry);
+        status = ost_index_create(ctx, 1, &(*sum)->entry);
     (*sum)->room = LIKELY_ENTRIES * owned + 64;
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &(*sum)->value, BLOCK * (size_t)(*sum)->room);
@@ -42,15 +43,16 @@ OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *nod
         *node = (OstLocal)(number - sum->first);
         return OST_SUCCESS;
     }
-    OST_TRY(ost_index_place(sum->ghost, number, node));
+    OST_TRY(ost_index_place(sum->ghost, &number, node));
     *node += sum->owned;
     return OST_SUCCESS;
 }
 
 OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block)
 {
+    const OstGlobal key = (OstGlobal)row << 32 | column;
     OstLocal place;
-    OST_TRY(ost_index_place(sum->entry, (OstGlobal)row << 32 | column, &place));
+    OST_TRY(ost_index_place(sum->entry, &key, &place));
     if (place >= sum->room) {
         const OstLocal room = sum->room + sum->room / 4;
         OST_TRY(OST_RESIZE(sum->ctx, &sum->value, BLOCK * (size_t)room));

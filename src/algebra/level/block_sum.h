@@ -3,8 +3,8 @@
 #define ORTHOSTAT_ALGEBRA_LEVEL_BLOCK_SUM_H
 
 #include "algebra/level/double_matrix.h"
-#include "algebra/level/index_map.h"
 #include "algebra/level/simd.h"
+#include "core/index_map.h"
 
 /* A coarse matrix under construction: 6 × 6 blocks, found by row and column, to which contributions are added. Rows and
  * columns are this rank's coarse nodes, then those of other ranks in the order in which they appear. The matrix is

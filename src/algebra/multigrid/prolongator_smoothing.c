@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/multigrid/prolongator_smoothing.h"
 
-#include "algebra/level/index_map.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <string.h>
 

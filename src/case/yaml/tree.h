@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_YAML_TREE_H
+#define ORTHOSTAT_CASE_YAML_TREE_H
+
+#include "orthostat/context.h"
+
+/* A YAML document as a flat tree in the order of the text: a node's children follow it, `next` is the node after all
+ * of them. libyaml parses; the tree is ours, as yaml_document_t takes 160 times the text where it is all structure
+ * (ours at most six times), takes minutes on a megabyte of deep nesting, and does not keep where an alias stands. */
+
+typedef enum { OST_YAML_SCALAR, OST_YAML_SEQUENCE, OST_YAML_MAPPING, OST_YAML_ALIAS } OstYamlKind;
+
+typedef struct OstYamlNode {
+    uint64_t line : 24; /* from 0 */
+    uint64_t column : 24;
+    uint64_t kind : 2;
+    uint64_t quoted : 1; /* SCALAR: stands in quotes, so it is text even if it reads as a number */
+    uint32_t value;      /* SCALAR: where its text starts; SEQUENCE: items; MAPPING: pairs; ALIAS: node it stands for */
+    uint32_t next;
+} OstYamlNode;
+
+typedef struct OstYaml {
+    OstContext *ctx;
+    const char *path; /* for messages; not owned */
+    uint32_t count;
+    OstYamlNode *node; /* node[0] is the document */
+    char *text;        /* the scalars, each ended by 0 */
+} OstYaml;
+
+/* What is accepted; beyond it a file is refused in words. */
+enum { OST_YAML_MAX_BYTES = 1 << 24, OST_YAML_MAX_DEPTH = 32, OST_YAML_MAX_ANCHORS = 256 };
+
+/* Local. Parses `size` bytes of UTF-8. Raises OST_INVALID_INPUT as "path:line:column: ..." for text that is not YAML,
+ * an empty file, more than one document, nesting beyond OST_YAML_MAX_DEPTH, an alias within the value it stands for, or
+ * aliases that multiply the file. */
+OstStatus ost_yaml_parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstYaml **yaml);
+void ost_yaml_destroy(OstYaml **yaml);
+
+/* Local. The node an alias stands for, or the node itself; its line from 1; is it (or what it stands for) of a kind? */
+const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node);
+int ost_yaml_line(const OstYamlNode *node);
+int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
+
+/* Local. The first child of a sequence or mapping; what comes behind a node and its children. */
+const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
+const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
+
+#endif

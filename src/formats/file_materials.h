@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_FORMATS_FILE_MATERIALS_H
+#define ORTHOSTAT_FORMATS_FILE_MATERIALS_H
+
+#include "orthostat/mesh_file.h"
+
+/* Collective. Gives rank 0's materials to all. */
+OstStatus ost_file_materials_share(OstContext *ctx, OstFileMaterials **materials);
+
+#endif
