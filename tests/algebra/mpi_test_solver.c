@@ -187,7 +187,7 @@ static void the_report_tells_what_was_done(void **state)
         assert_int_equal(report.step[0].rung, used);
         assert_int_equal(report.step[0].iterations, report.iterations);
         assert_true(report.step[0].factor > 0.0 && report.step[0].factor < 0.9);
-        assert_string_equal(report.step[0].outcome, "reached the residual asked for");
+        assert_string_equal(report.step[0].outcome, "reached the requested residual");
         assert_true(used != OST_RECIPE_TWO_LEVEL || report.levels == 2);
         assert_true(report.iterations >= 1 && report.iterations <= (used == OST_RECIPE_DIRECT ? 2 : 60));
         assert_int_equal(report.level_unknowns[0], unknowns);

@@ -88,7 +88,7 @@ static double *reference(const ElasticProblem *problem)
     return u;
 }
 
-static void a_slow_rung_is_left_for_a_stronger_one(void **state)
+static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -116,7 +116,7 @@ static void a_slow_rung_is_left_for_a_stronger_one(void **state)
     destroy_misled(&problem, &metric);
 }
 
-/* With the smoother given, no rung but a factorisation helps; both are reached. */
+/* With the smoother given, only a factorisation helps; the solver gets there. */
 static void given_parameters_are_left_alone_up_to_the_top(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     destroy_misled(&problem, &metric);
 }
 
-static void a_pinned_rung_does_not_climb(void **state)
+static void a_chosen_method_is_never_changed(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -160,7 +160,7 @@ static void a_pinned_rung_does_not_climb(void **state)
     elastic_destroy(&problem);
 }
 
-static void what_was_reached_is_kept_for_the_next_rung(void **state)
+static void the_next_strategy_starts_from_what_was_reached(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -174,7 +174,7 @@ static void what_was_reached_is_kept_for_the_next_rung(void **state)
     assert_success(ost_solver_solve(solver, problem.force, u, &report));
     const OstRecipe reached = report.recipe;
     assert_true(reached > OST_RECIPE_METRIC);
-    /* and so is the rung for the next right-hand side */
+    /* the next right-hand side starts with the strategy reached */
     for (OstLocal i = 0; i < 3 * problem.matrix->rows; i++)
         problem.force[i] = 1.0 + i % 5;
     assert_success(ost_solver_solve(solver, problem.force, u, &report));
@@ -199,8 +199,8 @@ static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void *
     elastic_destroy(&problem);
 }
 
-/* Where the top is out of reach the fastest rung below goes on without a look at the clock. */
-static void without_memory_for_the_top_the_fastest_rung_goes_on(void **state)
+/* If memory does not allow factors, the fastest strategy goes on, without patience. */
+static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -228,7 +228,7 @@ static void without_memory_for_the_top_the_fastest_rung_goes_on(void **state)
     destroy_misled(&problem, &metric);
 }
 
-static void rounding_is_told_apart_and_nothing_is_climbed_for(void **state)
+static void no_other_strategy_is_tried_against_rounding(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -332,13 +332,13 @@ static void a_large_coarse_level_is_factored(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_slow_rung_is_left_for_a_stronger_one),
+    cmocka_unit_test(a_slow_strategy_is_left_for_a_stronger_one),
     cmocka_unit_test(given_parameters_are_left_alone_up_to_the_top),
-    cmocka_unit_test(a_pinned_rung_does_not_climb),
-    cmocka_unit_test(what_was_reached_is_kept_for_the_next_rung),
+    cmocka_unit_test(a_chosen_method_is_never_changed),
+    cmocka_unit_test(the_next_strategy_starts_from_what_was_reached),
     cmocka_unit_test(a_factorisation_that_does_not_fit_is_refused_before_it_begins),
-    cmocka_unit_test(without_memory_for_the_top_the_fastest_rung_goes_on),
-    cmocka_unit_test(rounding_is_told_apart_and_nothing_is_climbed_for),
+    cmocka_unit_test(without_memory_for_factors_the_fastest_strategy_goes_on),
+    cmocka_unit_test(no_other_strategy_is_tried_against_rounding),
     cmocka_unit_test(an_indefinite_matrix_never_passes),
     cmocka_unit_test(units_make_no_difference),
     cmocka_unit_test(a_large_coarse_level_is_factored),
