@@ -2,14 +2,16 @@
 #include "algebra/rung.h"
 
 #include "algebra/direct/direct.h"
+#include "algebra/krylov/cg.h"
 #include "algebra/multigrid/metric.h"
-#include "algebra/trilinos/plain.h"
+#include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 struct OstRung {
     OstRecipe recipe;
-    OstPlain *plain; /* one of these three */
+    const OstBlockMatrix *matrix;
+    OstSmoothedAggregation *plain; /* one of these three */
     OstMetric *metric;
     OstDirect *direct;
 };
@@ -18,7 +20,7 @@ void ost_rung_destroy(OstRung **rung)
 {
     if (!*rung)
         return;
-    ost_plain_destroy(&(*rung)->plain);
+    ost_smoothed_aggregation_destroy(&(*rung)->plain);
     ost_metric_destroy(&(*rung)->metric);
     ost_direct_destroy(&(*rung)->direct);
     OST_FREE(*rung);
@@ -34,7 +36,7 @@ static OstStatus build(const OstBlockMatrix *matrix, const OstSolverGeometry *ge
 {
     switch (options->recipe) {
     case OST_RECIPE_PLAIN:
-        return ost_plain_create(matrix, geometry, options, &rung->plain);
+        return ost_smoothed_aggregation_create(matrix, geometry, options, &rung->plain);
     case OST_RECIPE_DIRECT:
         return ost_direct_create(matrix, options->factor_memory, &rung->direct);
     default:
@@ -55,6 +57,7 @@ OstStatus ost_rung_stand(const OstBlockMatrix *matrix, const OstSolverGeometry *
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, rung, 1));
     if (status == OST_SUCCESS) {
         (*rung)->recipe = options->recipe;
+        (*rung)->matrix = matrix;
         status = build(matrix, geometry, options, *rung);
     }
     if (status != OST_SUCCESS)
@@ -64,8 +67,12 @@ OstStatus ost_rung_stand(const OstBlockMatrix *matrix, const OstSolverGeometry *
 
 OstStatus ost_rung_work(OstRung *rung, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    if (rung->plain)
-        return ost_plain_solve(rung->plain, f, u, goal, report);
+    if (rung->plain) {
+        const OstPreconditioner cycle = {.data = rung->plain, .apply = ost_smoothed_aggregation_apply};
+        const OstCgSystem system = {.matrix = rung->matrix};
+        ost_smoothed_aggregation_report(rung->plain, report);
+        return ost_cg_solve(&system, &cycle, f, u, goal, report);
+    }
     if (rung->metric)
         return ost_metric_improve(rung->metric, f, u, goal, report);
     return ost_direct_solve(rung->direct, f, u, goal, report);

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The number behind `key` in a file of lines "key value", or the file's first number where key is NULL; INFINITY if
@@ -87,4 +88,17 @@ OstStatus ost_memory_free(OstContext *ctx, double *bytes)
     MPI_Comm_free(&machine);
     *bytes = rank == 0 ? free_here() : 0.0;
     return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, bytes, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+}
+
+OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who)
+{
+    void *tried = malloc((size_t)bytes + 1);
+    const int fits = tried && bytes <= free_here();
+    free(tried);
+    if (fits)
+        return ost_agree(ctx, OST_SUCCESS);
+    return ost_agree(ctx, OST_RAISE(ctx, OST_OUT_OF_MEMORY,
+                                    "%s would need another %.1f MiB on rank %d, which are not free; use more machines "
+                                    "or a smaller mesh",
+                                    who, bytes / 0x1p20, ost_rank(ctx)));
 }

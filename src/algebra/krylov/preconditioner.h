@@ -5,12 +5,10 @@
 #include "algebra/matrix/scaling.h"
 
 /* z = M^-1 r, M symmetric positive definite, on scaled vectors of 3 × rows numbers; collective, all ranks succeed or
- * fail together. `flexible`: M differs from one application to the next (inner iterations). `factors`: M is A, but for
- * rounding. `apply` must not write r. */
+ * fail together. `factors`: M is A, but for rounding. `apply` must not write r. */
 typedef struct OstPreconditioner {
     void *data;
     OstStatus (*apply)(void *data, const double *r, double *z);
-    int flexible;
     int factors;
 } OstPreconditioner;
 

@@ -4,8 +4,10 @@
 #include "algebra/matrix/exact_residual.h"
 #include "algebra/matrix/exact_step.h"
 #include "algebra/matrix/term_rounding.h"
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 
 #include <float.h>
 #include <math.h>
@@ -90,30 +92,16 @@ OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy)
                      goal->iterations + 1, energy, what_is_wrong(energy));
 }
 
-static OstStatus sum(OstContext *ctx, int count, double *values)
-{
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
-}
-
-static double dot(size_t n, const double *restrict a, const double *restrict b)
-{
-    double total = 0.0;
-#pragma omp simd reduction(+ : total)
-    for (size_t i = 0; i < n; i++)
-        total += a[i] * b[i];
-    return total;
-}
-
 OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal)
 {
     OstContext *ctx = matrix->ctx;
     const size_t n = 3 * (size_t)matrix->rows;
-    double square = dot(n, f, f);
+    double square = ost_dot(n, f, f);
     memset(goal, 0, sizeof *goal);
     goal->ctx = ctx;
     goal->most_iterations = options->max_iterations;
     goal->attainable_will_do = options->accept_attainable;
-    OST_TRY(sum(ctx, 1, &square));
+    OST_TRY(ost_sum(ctx, 1, &square));
     goal->start = goal->norm = sqrt(square);
     goal->target = options->relative_residual * goal->start;
     ost_pace_start(&goal->pace, goal->start);
@@ -135,9 +123,9 @@ static OstStatus examine(Refinement *work, double sums[SUMS])
         for (size_t i = 0; i < work->n; i++)
             work->left[i] = work->f[i] - work->left[i];
     }
-    sums[SQUARE] = dot(work->n, work->left, work->left);
-    sums[ENERGY] = dot(work->n, work->correction, work->residual) + dot(work->n, work->correction, work->left);
-    return sum(work->matrix->ctx, SUMS, sums);
+    sums[SQUARE] = ost_dot(work->n, work->left, work->left);
+    sums[ENERGY] = ost_dot(work->n, work->correction, work->residual) + ost_dot(work->n, work->correction, work->left);
+    return ost_sum(work->matrix->ctx, SUMS, sums);
 }
 
 static OstStatus first_residual(Refinement *work)
@@ -201,8 +189,8 @@ static OstStatus find_limit(Refinement *work)
     memcpy(work->candidate, work->u, work->n * sizeof(double));
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), work->candidate));
     ost_term_rounding(matrix, work->candidate, work->left);
-    double square = dot(work->n, work->left, work->left);
-    OST_TRY(sum(matrix->ctx, 1, &square));
+    double square = ost_dot(work->n, work->left, work->left);
+    OST_TRY(ost_sum(matrix->ctx, 1, &square));
     work->goal->limit = sqrt(square);
     return OST_SUCCESS;
 }

@@ -14,19 +14,8 @@ void ost_level_matrix_destroy(OstLevelMatrix **matrix)
     OST_FREE((*matrix)->column);
     OST_FREE((*matrix)->diagonal);
     OST_FREE((*matrix)->value);
-    ost_halo_destroy(&(*matrix)->halo);
+    ost_exchange_destroy(&(*matrix)->exchange);
     OST_FREE(*matrix);
-}
-
-static OstStatus copy_halo(const OstExactMatrix *exact, OstHalo **halo)
-{
-    OstLocal *same = NULL;
-    OST_TRY(OST_NEW(exact->ctx, &same, exact->columns));
-    for (OstLocal i = 0; i < exact->columns; i++)
-        same[i] = i;
-    const OstStatus status = ost_halo_subset(exact->halo, same, halo);
-    OST_FREE(same);
-    return status;
 }
 
 static void round_block(size_t count, const double *exact, float *rounded)
@@ -91,9 +80,9 @@ OstStatus ost_level_matrix_create(const OstExactMatrix *exact, OstLevelMatrix **
         (*matrix)->nonzeros = (OstGlobal)(exact->size * exact->size) * exact->row_start[exact->rows];
         status = copy_upper_half(exact, *matrix);
     }
-    if (status == OST_SUCCESS)
-        status = copy_halo(exact, &(*matrix)->halo);
     status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS)
+        status = ost_exchange_create(exact->halo, exact->size, &(*matrix)->exchange);
     if (status != OST_SUCCESS)
         ost_level_matrix_destroy(matrix);
     return status;
@@ -172,7 +161,7 @@ static void add6(const OstLevelMatrix *matrix, double scale, const double *restr
 
 OstStatus ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
 {
-    OST_TRY(ost_halo_import(matrix->halo, (size_t)matrix->size * sizeof *x, x));
+    ost_exchange_import(matrix->exchange, x);
     if (matrix->size == 3)
         add3(matrix, scale, x, y);
     else

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_LEVEL_LEVEL_MATRIX_H
 
 #include "algebra/level/double_matrix.h"
+#include "algebra/trilinos/exchange.h"
 
 /* A level's matrix as the cycle uses it: symmetric, so that of its own part only what lies right of the diagonal is
  * kept, and in single precision: a quarter of the traffic of what is only a preconditioner. Vectors are in double
@@ -11,13 +12,13 @@ typedef struct OstLevelMatrix {
     OstContext *ctx;
     int size; /* of a block: 3 or 6 */
     OstLocal rows, columns;
-    OstLocal *row_start; /* rows + 1 */
-    OstLocal *own_end;   /* rows: where a row's owned columns end and its ghosts begin */
-    OstLocal *column;    /* row_start[rows], ascending within a row, > row */
-    float *diagonal;     /* rows × size × size, row by row, and padding */
-    float *value;        /* row_start[rows] × size × size, row by row, and padding */
-    OstHalo *halo;
-    OstGlobal nonzeros; /* of this rank's rows, both halves */
+    OstLocal *row_start;   /* rows + 1 */
+    OstLocal *own_end;     /* rows: where a row's owned columns end and its ghosts begin */
+    OstLocal *column;      /* row_start[rows], ascending within a row, > row */
+    float *diagonal;       /* rows × size × size, row by row, and padding */
+    float *value;          /* row_start[rows] × size × size, row by row, and padding */
+    OstExchange *exchange; /* of ghosts of x */
+    OstGlobal nonzeros;    /* of this rank's rows, both halves */
 } OstLevelMatrix;
 
 /* Collective. The exact matrix is not kept. */

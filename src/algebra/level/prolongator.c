@@ -14,6 +14,7 @@ void ost_prolongator_destroy(OstProlongator **prolongator)
     OST_FREE((*prolongator)->column);
     OST_FREE((*prolongator)->value);
     ost_halo_destroy(&(*prolongator)->halo);
+    ost_exchange_destroy(&(*prolongator)->exchange);
     OST_FREE(*prolongator);
 }
 
@@ -48,7 +49,7 @@ OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const doubl
 
 OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
 {
-    OST_TRY(ost_halo_import(prolongator->halo, OST_MODES * sizeof *c, c));
+    ost_exchange_import(prolongator->exchange, c);
     if (prolongator->height == 3)
         add_rows(prolongator, 3, c, x);
     else
@@ -63,5 +64,6 @@ OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const doub
         restrict_rows(prolongator, 3, x, c);
     else
         restrict_rows(prolongator, 6, x, c);
-    return ost_halo_add_to_owners(prolongator->halo, OST_MODES, c);
+    ost_exchange_add_to_owners(prolongator->exchange, c);
+    return OST_SUCCESS;
 }

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_LEVEL_PROLONGATOR_H
 
 #include "algebra/level/lanes.h"
-#include "core/halo.h"
+#include "algebra/trilinos/exchange.h"
 
 /* From a coarse level to the next finer one, in single precision. Columns are coarse nodes: this rank's, then those of
  * others that its rows reach, by ascending global number. */
@@ -14,6 +14,7 @@ typedef struct OstProlongator {
     OstLocal *row_start, *column; /* columns ascend within a row */
     float *value;                 /* row_start[rows] × height × OST_MODES, row by row, and padding */
     OstHalo *halo;                /* over columns */
+    OstExchange *exchange;        /* of coarse vectors along it */
 } OstProlongator;
 
 void ost_prolongator_destroy(OstProlongator **prolongator);

@@ -2,16 +2,24 @@
 #include "algebra/matrix/vector.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 
 #include <float.h>
 #include <math.h>
 
+double ost_dot(size_t n, const double *restrict a, const double *restrict b)
+{
+    double total = 0.0;
+#pragma omp simd reduction(+ : total)
+    for (size_t i = 0; i < n; i++)
+        total += a[i] * b[i];
+    return total;
+}
+
 OstStatus ost_vector_dot(OstContext *ctx, size_t n, const double *a, const double *b, double *product)
 {
-    *product = 0.0;
-    for (size_t i = 0; i < n; i++)
-        *product += a[i] * b[i];
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, product, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+    *product = ost_dot(n, a, b);
+    return ost_sum(ctx, 1, product);
 }
 
 OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size)

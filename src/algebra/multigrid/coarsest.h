@@ -18,8 +18,8 @@ typedef struct OstCoarsest {
     double *vector;   /* order */
 } OstCoarsest;
 
-/* The largest order that is factored as a dense matrix: 128 MiB a rank. */
-enum { OST_COARSEST_LIMIT = 4096 };
+/* The largest order that is factored as a dense matrix: beyond it MUMPS is faster. */
+enum { OST_COARSEST_LIMIT = 2000 };
 
 /* Collective. The matrix is not kept; up to OST_COARSEST_LIMIT unknowns the factor is dense. Raises OST_NOT_CONVERGED
  * if it cannot be factored (the dense one: even with a small shift, which a positive semidefinite one gets), and what

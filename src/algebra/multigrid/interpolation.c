@@ -39,7 +39,7 @@ void ost_interpolation_destroy(OstInterpolation **interpolation)
     OST_FREE(*interpolation);
 }
 
-OstStatus ost_interpolation_add(OstInterpolation *interpolation, const double *c, double *x)
+OstStatus ost_interpolation_add(const OstInterpolation *interpolation, const double *c, double *x)
 {
     const OstLocal rows = interpolation->quadratic->rows;
     double *fine = interpolation->fine, *coarse = interpolation->coarse;
@@ -58,7 +58,7 @@ OstStatus ost_interpolation_add(OstInterpolation *interpolation, const double *c
     return OST_SUCCESS;
 }
 
-OstStatus ost_interpolation_restrict(OstInterpolation *interpolation, const double *x, double *c)
+OstStatus ost_interpolation_restrict(const OstInterpolation *interpolation, const double *x, double *c)
 {
     const OstLocal rows = interpolation->quadratic->rows;
     const OstHalo *halo = interpolation->halo;

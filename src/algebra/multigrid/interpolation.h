@@ -22,7 +22,7 @@ OstStatus ost_interpolation_create(const OstCoarseSpace *space, const OstScaling
 void ost_interpolation_destroy(OstInterpolation **interpolation);
 
 /* Collective over neighbours. x += P' c, and c = P'ᵀ x; 3 × quadratic rows, 3 × linear rows. */
-OstStatus ost_interpolation_add(OstInterpolation *interpolation, const double *c, double *x);
-OstStatus ost_interpolation_restrict(OstInterpolation *interpolation, const double *x, double *c);
+OstStatus ost_interpolation_add(const OstInterpolation *interpolation, const double *c, double *x);
+OstStatus ost_interpolation_restrict(const OstInterpolation *interpolation, const double *x, double *c);
 
 #endif

@@ -10,17 +10,13 @@
 
 #include <string.h>
 
-static const double careful = 1.2; /* of an eigenvalue estimate that may have been too low */
-
 struct OstMetric {
     OstContext *ctx;
     OstSolverOptions options;
     const OstBlockMatrix *matrix;
     OstScaling *scaling;
     OstCycle *cycle;
-    /* quadratic tets: the cycle is that of the linear ones under them */
-    OstQuadraticLevel *quadratic;
-    OstScaling *linear_scaling;
+    OstScaling *linear_scaling; /* of the linear tets under quadratic ones */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -30,7 +26,6 @@ void ost_metric_destroy(OstMetric **metric)
 {
     if (!*metric)
         return;
-    ost_quadratic_level_destroy(&(*metric)->quadratic);
     ost_cycle_destroy(&(*metric)->cycle);
     ost_scaling_destroy(&(*metric)->linear_scaling);
     ost_scaling_destroy(&(*metric)->scaling);
@@ -73,25 +68,20 @@ static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels
     return OST_SUCCESS;
 }
 
-/* The cycle of a matrix on aggregates of its graph. */
-static OstStatus build_cycle(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
-                             const OstSolverGeometry *geometry)
+/* The levels of a matrix of linear tets, on aggregates of its graph. */
+static OstStatus build_levels(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
+                              const OstSolverGeometry *geometry, OstMetricLevels *levels)
 {
-    OstContext *ctx = metric->ctx;
     OstMetricGraph *graph = NULL;
-    OstMetricLevels levels = {0};
     double *modes = NULL;
-    OstStatus status = ost_metric_graph_create(matrix, geometry, &graph);
-    if (status != OST_SUCCESS)
-        goto done;
+    OstStatus status;
+    OST_TRY_DONE(ost_metric_graph_create(matrix, geometry, &graph));
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
-    OST_TRY_DONE(ost_metric_levels_create(matrix, scaling, &modes, &graph, &metric->options, &levels));
-    OST_TRY_DONE(measure_levels(metric, &levels));
-    OST_TRY_DONE(ost_cycle_create(ctx, &levels, &metric->options, &metric->cycle));
+    OST_TRY_DONE(ost_metric_levels_create(matrix, scaling, &modes, &graph, &metric->options, levels));
+    OST_TRY_DONE(measure_levels(metric, levels));
 done:
     OST_FREE(modes);
     ost_metric_graph_destroy(&graph);
-    ost_metric_levels_clear(&levels);
     return status;
 }
 
@@ -109,19 +99,20 @@ static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear
     return OST_SUCCESS;
 }
 
-static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry)
+/* The same of the linear tets under quadratic ones, and the level of the quadratic ones. */
+static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry, OstMetricLevels *levels,
+                                 OstQuadraticLevel **quadratic)
 {
     const OstCoarseSpace *space = geometry->coarse;
     OstMetricGraph *graph = NULL;
     metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
-    OstStatus status = ost_scaling_create(space->matrix, &metric->linear_scaling);
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(build_cycle(metric, space->matrix, metric->linear_scaling, space->geometry));
+    OstStatus status;
+    OST_TRY_DONE(ost_scaling_create(space->matrix, &metric->linear_scaling));
+    OST_TRY_DONE(build_levels(metric, space->matrix, metric->linear_scaling, space->geometry, levels));
     OST_TRY_DONE(count_quadratic(metric, space->matrix));
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
     OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
-                                            metric->cycle, &metric->options, &metric->quadratic));
+                                            &metric->options, quadratic));
 done:
     ost_metric_graph_destroy(&graph);
     return status;
@@ -131,6 +122,8 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
                             const OstSolverOptions *options, OstMetric **metric)
 {
     OstMetric *made = NULL;
+    OstMetricLevels levels = {0};
+    OstQuadraticLevel *quadratic = NULL;
     *metric = NULL;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
     if (status != OST_SUCCESS)
@@ -140,25 +133,17 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->matrix = matrix;
     OST_TRY_DONE(ost_scaling_create(matrix, &made->scaling));
     if (geometry->coarse)
-        OST_TRY_DONE(build_quadratic(made, geometry));
+        OST_TRY_DONE(build_quadratic(made, geometry, &levels, &quadratic));
     else
-        OST_TRY_DONE(build_cycle(made, matrix, made->scaling, geometry));
+        OST_TRY_DONE(build_levels(made, matrix, made->scaling, geometry, &levels));
+    OST_TRY_DONE(ost_cycle_create(ctx, &levels, &quadratic, &made->options, &made->cycle));
 done:
+    ost_quadratic_level_destroy(&quadratic);
+    ost_metric_levels_clear(&levels);
     if (status != OST_SUCCESS)
         ost_metric_destroy(&made);
     *metric = made;
     return status;
-}
-
-/* The estimate of the largest eigenvalue is from below, and a polynomial that ends short of the spectrum is not
- * definite: a stronger smoother also takes more care. */
-static void strengthen(OstSmoother *smoother, int more, double ratio)
-{
-    if (!smoother)
-        return;
-    smoother->degree += more;
-    smoother->ratio = ratio * careful;
-    smoother->largest *= careful;
 }
 
 static OstStatus apply_cycle(void *data, const double *r, double *z)
@@ -166,33 +151,23 @@ static OstStatus apply_cycle(void *data, const double *r, double *z)
     return ost_cycle_apply(data, r, z);
 }
 
-static OstStatus apply_quadratic(void *data, const double *r, double *z)
-{
-    return ost_quadratic_level_apply(data, r, z);
-}
-
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 {
-    const int more = options->smoother_degree - metric->options.smoother_degree;
-    OstCycle *cycle = metric->cycle;
-    for (int l = 0; l < cycle->levels.count; l++)
-        strengthen(cycle->level[l].smoother, more, options->smoother_ratio);
-    if (metric->quadratic)
-        strengthen(metric->quadratic->smoother, more, options->smoother_ratio);
+    ost_cycle_strengthen(metric->cycle, options->smoother_degree - metric->options.smoother_degree,
+                         options->smoother_ratio);
     metric->options.smoother_degree = options->smoother_degree;
     metric->options.smoother_ratio = options->smoother_ratio;
 }
 
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner linear = {.data = metric->cycle, .apply = apply_cycle, .flexible = 1};
-    const OstPreconditioner quadratic = {.data = metric->quadratic, .apply = apply_quadratic, .flexible = 1};
+    const OstPreconditioner cycle = {.data = metric->cycle, .apply = apply_cycle};
     const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];
     report->operator_complexity = metric->operator_complexity;
-    return ost_cg_solve(&system, metric->quadratic ? &quadratic : &linear, f, u, goal, report);
+    return ost_cg_solve(&system, &cycle, f, u, goal, report);
 }
 
 OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)

@@ -206,6 +206,7 @@ OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatr
         goto done;
     OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse,
                                  s.p->columns - tentative->coarse_nodes, ghost, &s.p->halo));
+    OST_TRY_DONE(ost_exchange_create(s.p->halo, OST_MODES, &s.p->exchange));
     OST_TRY_DONE(ost_agree(ctx, smooth_blocks(&s)));
 done:
     OST_FREE(ghost);

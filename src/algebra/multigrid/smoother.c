@@ -62,11 +62,15 @@ OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, 
     const double half_width = 0.5 * (upper - lower);
     const double sigma = centre / half_width;
     double rho = 1.0 / sigma;
-    memcpy(smoother->residual, b, n * sizeof(double));
-    if (from_zero)
+    if (n > 0)
+        memcpy(smoother->residual, b, n * sizeof(double));
+    if (from_zero && n > 0)
         memset(x, 0, n * sizeof(double));
-    else
-        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, x, smoother->residual));
+    if (!from_zero) {
+        if (n > 0)
+            memcpy(smoother->direction, x, n * sizeof(double));
+        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
+    }
     OstBlockStep step = {.keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x};
     ost_metric_blocks_step(smoother->blocks, &step, smoother->residual);
     for (int k = 1; k < smoother->degree; k++) {

@@ -20,8 +20,7 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
                               const OstSolverOptions *options, OstSmoother **smoother);
 void ost_smoother_destroy(OstSmoother **smoother);
 
-/* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken to be 0. x is a level vector
- * over the columns. */
+/* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken to be 0. */
 OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero);
 
 #endif

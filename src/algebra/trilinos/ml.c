@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/trilinos/ml_matrix.h"
+#include "algebra/trilinos/ml.h"
 
 #include "core/error.h"
 #include "core/memory.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ALGEBRA_TRILINOS_ML_MATRIX_H
-#define ORTHOSTAT_ALGEBRA_TRILINOS_ML_MATRIX_H
+#ifndef ORTHOSTAT_ALGEBRA_TRILINOS_ML_H
+#define ORTHOSTAT_ALGEBRA_TRILINOS_ML_H
 
 #include "algebra/matrix/block_matrix.h"
 

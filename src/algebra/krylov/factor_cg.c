@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/krylov/cg_run.h"
+#include "algebra/matrix/vector.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/reduce.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Conjugate gradients preconditioned by factors of A itself: one to three steps, most of them near rounding. AztecOO's
+ * do not serve here. Where rounding hides p·Ap they break down, while the step that the factors give is right all the
+ * same; and residuals summed in twice the precision decide when u is good enough. */
+typedef struct FactorRun {
+    OstCgRun *run;
+    OstGoal *goal;
+    double *direction; /* p */
+    double *product;   /* A' p */
+    double *corrected; /* z */
+    double weight;     /* r·z of the last direction */
+    int blind;         /* rounding hides p·Ap: p does not lead to a next direction */
+} FactorRun;
+
+/* z = M^-1 r, and the next direction p = z + beta p. */
+static OstStatus next_direction(FactorRun *work, int first, double *beta)
+{
+    const OstCgRun *run = work->run;
+    OST_TRY(run->preconditioner->apply(run->preconditioner->data, run->residual, work->corrected));
+    double weight = ost_dot(run->n, run->residual, work->corrected);
+    OST_TRY(ost_sum(run->ctx, 1, &weight));
+    if (!ost_goal_accepts(work->goal, weight))
+        return OST_SUCCESS;
+    *beta = first ? 0.0 : weight / work->weight;
+    work->weight = weight;
+    for (size_t i = 0; i < run->n; i++)
+        work->direction[i] = work->corrected[i] + (first ? 0.0 : *beta * work->direction[i]);
+    return OST_SUCCESS;
+}
+
+/* Is p·Ap no more than rounding, or rounding so near that the caller finds the step? */
+static OstStatus look_for_rounding(FactorRun *work, double energy)
+{
+    double scale;
+    work->blind = 1;
+    if (work->goal->exact)
+        return OST_SUCCESS;
+    OST_TRY(ost_cg_rounding_scale(work->run, &scale));
+    work->blind = fabs(energy) <= ost_cg_rounding * scale;
+    return OST_SUCCESS;
+}
+
+/* The step along p that leaves the least energy; all of p, where the energy is hidden. */
+static OstStatus step(FactorRun *work, double *u, double *alpha)
+{
+    OstCgRun *run = work->run;
+    OST_TRY(ost_cg_multiply(run, work->direction, work->product));
+    double sums[2] = {ost_dot(run->n, work->direction, work->product), ost_dot(run->n, work->direction, run->residual)};
+    OST_TRY(ost_sum(run->ctx, 2, sums));
+    OST_TRY(look_for_rounding(work, sums[0]));
+    if (!work->blind && !(sums[0] > 0.0 && isfinite(sums[0])))
+        return ost_cg_judge_energy(run, sums[0], work->goal);
+    *alpha = work->blind ? 1.0 : sums[1] / sums[0];
+    for (size_t i = 0; i < run->n; i++) {
+        u[i] += *alpha * work->direction[i];
+        run->residual[i] -= *alpha * work->product[i];
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus find_norm(const OstCgRun *run, double *norm)
+{
+    double square = ost_cg_square(run, run->residual);
+    OST_TRY(ost_sum(run->ctx, 1, &square));
+    *norm = run->size * sqrt(square);
+    return OST_SUCCESS;
+}
+
+static OstStatus iterate(FactorRun *work, double *u)
+{
+    OstCgRun *run = work->run;
+    OstGoal *goal = work->goal;
+    double norm;
+    OST_TRY(find_norm(run, &norm));
+    int on = (norm > goal->target || goal->settled > 0.0) && goal->iterations < goal->most_iterations;
+    for (int first = 1; on; first = 0) {
+        double alpha = 0.0, beta = 0.0;
+        OST_TRY(next_direction(work, first, &beta));
+        if (goal->end == OST_END_REACHED)
+            OST_TRY(step(work, u, &alpha));
+        if (goal->end != OST_END_REACHED)
+            return OST_SUCCESS;
+        if (run->runs == 0)
+            ost_lanczos_add(&run->lanczos, alpha, beta);
+        OST_TRY(find_norm(run, &norm));
+        on = ost_goal_count(goal, norm, run->size * run->size * work->weight) && !work->blind;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal)
+{
+    FactorRun work = {.run = run, .goal = goal};
+    OstStatus status = OST_NEW(run->ctx, &work.direction, run->n);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(run->ctx, &work.product, run->n);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(run->ctx, &work.corrected, run->n);
+    status = ost_agree(run->ctx, status);
+    if (status == OST_SUCCESS)
+        status = iterate(&work, u);
+    OST_FREE(work.direction);
+    OST_FREE(work.product);
+    OST_FREE(work.corrected);
+    return status;
+}

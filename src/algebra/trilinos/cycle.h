@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_TRILINOS_CYCLE_H
+#define ORTHOSTAT_ALGEBRA_TRILINOS_CYCLE_H
+
+#include "orthostat/context.h"
+
+/* One level as ML's cycle calls it back. Vectors hold the unknowns that this rank owns. */
+typedef struct OstMlLevel {
+    void *data;
+    OstLocal unknowns; /* of this rank */
+    /* y = A x */
+    OstStatus (*multiply)(void *data, const double *x, double *y);
+    /* Improves x towards A x = b, from x = 0 if `from_zero`; the last level solves. */
+    OstStatus (*smooth)(void *data, const double *b, double *x, int from_zero);
+    /* To and from the next level: coarse = Pᵀ fine, fine = P coarse; not called on the last one. */
+    OstStatus (*restrict_to)(void *data, const double *fine, double *coarse);
+    OstStatus (*prolong)(void *data, const double *coarse, double *fine);
+} OstMlLevel;
+
+/* ML's multigrid cycle (ML_Cycle_MG) over levels whose operators are the caller's. The finest level is visited once;
+ * every level between it and the last one is visited twice, which solves its problem by
+ *     x1 = B b,    x = x1 + 2 B (b - A x1),    B: one cycle on that level.
+ * What this leaves of an error is (1 - t)(1 - 2t), t being the eigenvalues of B A. For 0 < t < 1.5 that is less than 1:
+ * the cycle is a fixed, symmetric and positive definite operator, as conjugate gradients want it, without an inner
+ * product. */
+typedef struct OstMlCycle OstMlCycle;
+
+/* Collective. `level` is copied, what its entries point to stays the caller's and outlives the cycle. Raises
+ * OST_OUT_OF_MEMORY where there is no room for ML's vectors, as it would end the process. */
+OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *level, OstMlCycle **cycle);
+void ost_ml_cycle_destroy(OstMlCycle **cycle);
+
+/* Collective. z = one cycle from zero for A z = r on level 0. */
+OstStatus ost_ml_cycle_apply(OstMlCycle *cycle, const double *r, double *z);
+
+#endif
