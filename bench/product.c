@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/scene.h"
-#include "solve/boundary_conditions.h"
+#include "problem/problem.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -65,18 +63,15 @@ static OstStatus run(OstContext *ctx, const char *path, int repetitions)
 {
     OstCase *c = NULL;
     OstScene *scene = NULL;
-    OstSupports *supports = NULL;
-    OstSystem *system = NULL;
+    OstProblem *problem = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_case_read(ctx, path, &c));
     OST_TRY_DONE(ost_scene_create(c, &scene));
-    OST_TRY_DONE(ost_scene_supports(scene, &supports));
-    OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
-    OST_TRY_DONE(ost_system_fill(system, scene->field));
-    OST_TRY_DONE(time_product(ctx, system->matrix, repetitions));
+    OST_TRY_DONE(ost_scene_problem(scene, &problem));
+    OST_TRY_DONE(ost_problem_stiffness(problem, NULL, NULL));
+    OST_TRY_DONE(time_product(ctx, problem->system->matrix, repetitions));
 done:
-    ost_system_destroy(&system);
-    ost_supports_destroy(&supports);
+    ost_problem_destroy(&problem);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
     return status;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "system_matrix.h"
 
-#include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/scene.h"
-#include "solve/boundary_conditions.h"
+#include "problem/problem.h"
+#include "problem/row_geometry.h"
 
 #include <string.h>
 
@@ -13,24 +12,21 @@
 typedef struct Writing {
     OstCase *c;
     OstScene *scene;
-    OstSupports *supports;
-    OstSystem *system;
-    double *force, *right_side, *coordinates, *metric, *modes;
+    OstProblem *problem;
+    OstSystem *system; /* the problem's */
+    OstRowGeometry rows;
+    double *right_side;
     OstGlobal *row_number; /* of every column */
     OstGlobal *label;
 } Writing;
 
 static void release(Writing *w)
 {
-    OST_FREE(w->force);
     OST_FREE(w->right_side);
-    OST_FREE(w->coordinates);
-    OST_FREE(w->metric);
-    OST_FREE(w->modes);
+    ost_row_geometry_release(&w->rows);
     OST_FREE(w->row_number);
     OST_FREE(w->label);
-    ost_system_destroy(&w->system);
-    ost_supports_destroy(&w->supports);
+    ost_problem_destroy(&w->problem);
     ost_scene_destroy(&w->scene);
     ost_case_destroy(&w->c);
 }
@@ -39,30 +35,21 @@ static OstStatus assemble(OstContext *ctx, const char *case_path, Writing *w)
 {
     OST_TRY(ost_case_read(ctx, case_path, &w->c));
     OST_TRY(ost_scene_create(w->c, &w->scene));
-    OST_TRY(ost_scene_supports(w->scene, &w->supports));
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &w->force, 3 * (size_t)w->scene->mesh->node_count)));
-    OST_TRY(ost_scene_loads(w->scene, w->force));
-    OST_TRY(ost_system_create(w->scene->mesh, w->supports, &w->system));
-    OST_TRY(ost_agree(ctx, ost_system_fill(w->system, w->scene->field)));
+    OST_TRY(ost_scene_problem(w->scene, &w->problem));
+    OST_TRY(ost_problem_stiffness(w->problem, NULL, NULL));
+    w->system = w->problem->system;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &w->right_side, 3 * (size_t)w->system->matrix->rows)));
-    return ost_agree(ctx, ost_system_right_hand_side(w->system, w->scene->field, w->force, w->right_side));
-}
-
-static OstStatus allocate_geometry(OstContext *ctx, Writing *w)
-{
-    const size_t rows = (size_t)w->system->matrix->rows;
-    OST_TRY(OST_NEW(ctx, &w->coordinates, 3 * rows));
-    OST_TRY(OST_NEW(ctx, &w->modes, 18 * rows));
-    OST_TRY(OST_NEW(ctx, &w->label, rows));
-    OST_TRY(OST_NEW(ctx, &w->row_number, (size_t)w->system->matrix->columns));
-    return w->scene->plan.effect[OST_PLAN_ORTHOTROPY].on ? OST_NEW(ctx, &w->metric, 6 * rows) : OST_SUCCESS;
+    return ost_agree(ctx, ost_problem_right_hand_side(w->problem, 1.0, w->right_side));
 }
 
 static OstStatus describe_rows(OstContext *ctx, Writing *w)
 {
     const OstBlockMatrix *matrix = w->system->matrix;
-    OST_TRY(ost_agree(ctx, allocate_geometry(ctx, w)));
-    OST_TRY(ost_system_geometry(w->system, w->scene->field, w->coordinates, w->metric, w->modes));
+    OstStatus status = OST_NEW(ctx, &w->label, (size_t)matrix->rows);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &w->row_number, (size_t)matrix->columns);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_row_geometry_create(w->system, w->scene->field, w->problem->with_metric, &w->rows));
     for (OstLocal row = 0; row < matrix->rows; row++) {
         w->row_number[row] = matrix->first_row + row;
         w->label[row] = w->scene->mesh->node_label[w->system->node_of_row[row]];
@@ -79,7 +66,7 @@ static OstStatus write_rows(OstContext *ctx, const Writing *w, const char *folde
                              .rows = matrix->rows,
                              .ghosts = matrix->columns - matrix->rows,
                              .blocks = matrix->row_start[matrix->rows],
-                             .has_metric = w->metric != NULL,
+                             .has_metric = w->rows.metric != NULL,
                              .first_row = matrix->first_row,
                              .global_rows = matrix->global_rows,
                              .row_start = matrix->row_start,
@@ -88,9 +75,9 @@ static OstStatus write_rows(OstContext *ctx, const Writing *w, const char *folde
                              .label = w->label,
                              .value = matrix->value,
                              .right_side = w->right_side,
-                             .coordinates = w->coordinates,
-                             .modes = w->modes,
-                             .metric = w->metric};
+                             .coordinates = w->rows.coordinates,
+                             .modes = w->rows.modes,
+                             .metric = w->rows.metric};
     if (system_file_write(&file, folder, failure) != 0)
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s", failure);
     return OST_SUCCESS;

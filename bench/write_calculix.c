@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
-#include "solve/boundary_conditions.h"
+#include "problem/problem.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -96,20 +96,16 @@ static void write_step(const OstMesh *mesh, const double *force, const char *sol
 
 static OstStatus write_scene(const OstScene *scene, const char *solver, FILE *out)
 {
-    OstSupports *supports = NULL;
-    double *force = NULL;
+    OstProblem *problem = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(check_scene(scene));
-    OST_TRY_DONE(ost_scene_supports(scene, &supports));
-    OST_TRY_DONE(OST_NEW(scene->ctx, &force, 3 * (size_t)scene->mesh->node_count));
-    OST_TRY_DONE(ost_scene_loads(scene, force));
+    OST_TRY_DONE(ost_scene_problem(scene, &problem));
     write_mesh(scene->mesh, out);
     write_material(scene, out);
-    OST_TRY_DONE(write_supports(scene, supports, out));
-    write_step(scene->mesh, force, solver, out);
+    OST_TRY_DONE(write_supports(scene, problem->supports, out));
+    write_step(scene->mesh, problem->force, solver, out);
 done:
-    OST_FREE(force);
-    ost_supports_destroy(&supports);
+    ost_problem_destroy(&problem);
     return status;
 }
 

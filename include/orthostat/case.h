@@ -83,8 +83,7 @@ typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
     int line;
-    OstOrthotropic constants;
-    double density;
+    OstMaterial material;
     OstAxesSpec axes;
 } OstCaseMaterial;
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_H
-#define ORTHOSTAT_H
+#ifndef ORTHOSTAT_ORTHOSTAT_H
+#define ORTHOSTAT_ORTHOSTAT_H
 
+#include "orthostat/analysis.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
 #include "orthostat/context.h"
@@ -12,6 +13,7 @@
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"
 #include "orthostat/plan.h"
+#include "orthostat/problem.h"
 #include "orthostat/refine.h"
 #include "orthostat/result.h"
 #include "orthostat/scene.h"

@@ -22,9 +22,11 @@ typedef struct OstChecks {
     double load[3], reaction[3];
     double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
     double moment_imbalance; /* likewise about the body's centre */
-    double strain_energy;    /* ½ u·K u */
-    double work;             /* of loads and reactions: ½ (f·u + r·g) */
-    double energy_imbalance; /* |strain_energy - work| over ½ the sum of |load + reaction| |u| by component */
+    int linear;              /* is the problem? The next two are only compared if so */
+    double strain_energy;    /* if linear, ½ u·K u */
+    double work;             /* ½ (f·u + r·g), of loads and reactions: the whole work if linear */
+    double energy_imbalance; /* |strain_energy - work| over ½ the sum of |load + reaction| |u| by component; 0 if not
+                                linear */
     int finite;
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
@@ -41,13 +43,15 @@ static inline double ost_linear_error(const OstChecks *checks)
     return turned > strained ? turned : strained;
 }
 
-/* Why a result is no answer; one of them may be all that a ladder tried. */
+/* What speaks against solving a problem, or against an answer, in words. One objection may be all that a solver tried.
+ */
 enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = OST_ERROR_TEXT_SIZE };
 
-typedef struct OstObjections {
-    int count;
+typedef struct OstVerdict {
+    int count;        /* 0: nothing does; the same on all ranks */
+    OstStatus status; /* to fail with, of the first objection */
     char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
-} OstObjections;
+} OstVerdict;
 
 /* One rank's piece of the answer. */
 typedef struct OstResult {
@@ -55,8 +59,8 @@ typedef struct OstResult {
     const OstMesh *mesh;
     const OstMaterialField *field;
     double *displacement;          /* 3 × node_count */
-    double *force;                 /* 3 × owned_nodes: the loads */
-    double *reaction;              /* 3 × node_count; zero where nothing is held */
+    double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
+    double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
@@ -65,9 +69,9 @@ typedef struct OstResult {
     double largest_at[3];
     OstSolveReport solve;
     OstChecks checks;
-    int reached;              /* is there a displacement to speak of? Not so if no solver came to work */
-    int unfinished;           /* did the solver stop short of the requested residual? */
-    OstObjections objections; /* none: the result is an answer; the same on all ranks */
+    int reached;        /* is there a displacement to speak of? Not so if no solver came to work */
+    int unfinished;     /* did the solver stop short of the requested residual? */
+    OstVerdict verdict; /* no objections: the result is an answer */
 } OstResult;
 
 /* A quantity that the case watches, as the answer has it. */

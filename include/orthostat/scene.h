@@ -5,6 +5,7 @@
 #include "orthostat/case.h"
 #include "orthostat/exact.h"
 #include "orthostat/plan.h"
+#include "orthostat/problem.h"
 #include "orthostat/result.h"
 
 OST_API_BEGIN
@@ -28,14 +29,15 @@ OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene *
 
 void ost_scene_destroy(OstScene **scene);
 
-/* Collective. Supports, loads and stiffness as the solve makes them, with every check that comes before its solver:
- * what is refused here is refused there, in the same words. */
-OstStatus ost_scene_rehearse(const OstScene *scene);
+/* Collective. The scene's problem: its mesh and field (which outlive it) with the supports and loads of the case.
+ * Raises OST_INVALID_INPUT with the case's line where constraints contradict each other, or if nothing is constrained.
+ */
+OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem);
 
-/* Collective. Supports, loads, stiffness, solve, checks, and the fields the case's output asks for. Raises
- * OST_NOT_CONVERGED or OST_CHECK_FAILED with the numbers; where result->reached, the result is filled then too, with
- * what is held against it, but is not an answer. The scene outlives the result. */
-OstStatus ost_scene_solve(OstScene *scene, OstResult **result);
+/* Collective. ost_problem_dry_run and ost_problem_solve of the scene's problem, with the solver's options and the
+ * fields that the case asks for. The scene outlives the result. */
+OstStatus ost_scene_dry_run(const OstScene *scene);
+OstStatus ost_scene_solve(const OstScene *scene, OstResult **result);
 void ost_result_destroy(OstResult **result);
 
 /* Local. "accepted"; "unfinished" where the solver stopped early; "refused" where a check failed. */

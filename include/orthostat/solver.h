@@ -79,7 +79,8 @@ typedef struct OstSolveStep {
 } OstSolveStep;
 
 typedef struct OstSolveReport {
-    OstRecipe recipe;         /* the last rung */
+    OstRecipe recipe;         /* the last strategy's */
+    char engine[64];          /* which libraries did its work, in words */
     int iterations;           /* over all rungs */
     double relative_residual; /* true, recomputed */
     double
@@ -89,10 +90,10 @@ typedef struct OstSolveReport {
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity; /* nonzeros of all levels over those of the finest */
-    double condition_estimate; /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known */
-    double error_estimate;     /* |u - u*| / |u| about, u the unknowns: the larger of that in the 2-norm and that in the
-                                  norm of the energy, sqrt(u·K u); the 2-norm where factors are at hand. 0 if not
-                                  known, INFINITY if there is no bound */
+    double condition_estimate;  /* of the preconditioned matrix, from the Lanczos coefficients; 0 if not known */
+    double error_estimate;  /* |u - u*| / |u| about, u the unknowns: the larger of that in the 2-norm and that in the
+                               norm of the energy, sqrt(u·K u); the 2-norm where factors are at hand. 0 if not
+                               known, INFINITY if there is no bound */
     double energy_error;    /* in the norm of the energy, as error_estimate (which it is where factors are at hand) */
     double rounding_error;  /* what of it rounding of K explains; 0 where six digits are left, and nobody asked */
     double rounding_spread; /* standard error of that, over it, where it is a mean over roundings thrown at random */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/matrix/exact_residual.h"
+#include "algebra/matrix/compensated_residual.h"
 #include "algebra/matrix/vector.h"
-#include "algebra/rung.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
+#include "algebra/strategy.h"
 #include "algebra/trilinos/epetra.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -17,66 +17,68 @@ struct OstSolver {
     OstContext *ctx;
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
+    OstSolverOptions options; /* as they were given */
     OstSolverPlan plan;
-    OstRung *rung; /* NULL if there are no unknowns */
+    OstStrategy *strategy; /* at work; NULL if there are no unknowns */
     OstEpetraMap *map;
-    double setup_seconds; /* of all rungs so far */
-    double rung_seconds;  /* of the one that stands, until it has been booked to a step */
-    int steps;            /* rungs that could not be built before the one that stands */
+    double setup_seconds;    /* of all strategies so far */
+    double strategy_seconds; /* setup of the one at work, until it has been booked to a step */
+    int steps;               /* strategies that could not be built before the one at work */
     OstSolveStep step[OST_MAX_STEPS];
 };
 
-static int climbs(const OstSolver *solver)
+/* May the solver go on to another strategy? A method that the user has picked is kept. */
+static int may_change(const OstSolver *solver)
 {
     return solver->plan.options.recipe == OST_RECIPE_AUTO;
 }
 
-/* Notes how a rung ended; the last place is kept for the one that reaches the goal. */
-static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstRecipe rung, const char *outcome)
+/* Notes how a strategy ended; the last place is kept for the one that reaches the goal. */
+static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstRecipe method, const char *outcome)
 {
     OstSolveStep *noted = &step[*steps < OST_MAX_STEPS ? (*steps)++ : OST_MAX_STEPS - 1];
     memset(noted, 0, sizeof *noted);
-    noted->rung = rung;
+    noted->rung = method;
     snprintf(noted->outcome, sizeof noted->outcome, "%s", outcome);
     return noted;
 }
 
-/* What another rung may do better: not so a mistake in the input or a failure of MPI. */
-static int is_climbable(OstStatus status)
+/* Could another strategy do better? It cannot where the input is wrong or MPI fails. */
+static int is_mendable(OstStatus status)
 {
     return status == OST_NOT_CONVERGED || status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
 }
 
-/* Makes `recipe` the rung that stands, or, where it cannot be built and the ladder may climb, one above it. */
-static OstStatus stand_on(OstSolver *solver, OstRecipe recipe, OstSolveStep *step, int *steps)
+/* Builds the strategy `recipe`, or, where that fails and the solver may change it, the next one that can be built. */
+static OstStatus build(OstSolver *solver, OstRecipe recipe, OstSolveStep *step, int *steps)
 {
     OstSolverOptions options;
     for (;; recipe++) {
         const double start = ost_seconds();
         ost_solver_rung_options(&solver->plan.options, recipe, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
-        const OstStatus status = ost_rung_stand(solver->matrix, &solver->geometry, &options, &solver->rung);
+        const OstStatus status = ost_strategy_prepare(solver->matrix, &solver->geometry, &options, &solver->strategy);
         ost_ledger_leave(solver->ctx);
-        solver->rung_seconds = ost_seconds() - start;
-        solver->setup_seconds += solver->rung_seconds;
+        solver->strategy_seconds = ost_seconds() - start;
+        solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_recipe_name(recipe),
-                status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->rung_seconds);
-        if (status == OST_SUCCESS || !climbs(solver) || !is_climbable(status))
+                status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
+        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
             return status;
-        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = solver->rung_seconds;
+        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
         if (recipe == OST_RECIPE_DIRECT)
             return status;
     }
 }
 
-/* All that was tried, where that was more than one rung; `status` and its text are those of the last. */
+/* All that was tried, where that was more than one strategy; `status` and its text are those of the last. */
 static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
-    enum { LONGEST_NAME = 64 }; /* of a rung with its iterations */
+    enum { LONGEST_NAME = 64 }; /* of a strategy with its iterations */
     char tried[OST_MAX_STEPS * (OST_LONGEST_OUTCOME + LONGEST_NAME)] = "";
     size_t length = 0;
     char last[OST_ERROR_TEXT_SIZE];
-    if (steps < 2 || !is_climbable(status))
+    if (steps < 2 || !is_mendable(status))
         return status;
     snprintf(last, sizeof last, "%s", ost_error_text(ctx));
     for (int s = 0; s < steps && length < sizeof tried; s++)
@@ -101,25 +103,30 @@ static void tell_plan(const OstSolver *solver)
                 r == 0 ? " first: " : "", solver->plan.reason[r]);
 }
 
-static OstStatus make_plan(OstSolver *solver, const OstSolverOptions *options)
-{
-    const OstSolverFacts facts = facts_of(solver);
-    ost_solver_plan(options, &facts, &solver->plan);
-    tell_plan(solver);
-    return ost_epetra_map_create(solver->ctx, 3 * solver->matrix->rows, &solver->map);
-}
-
 /* The plan's rule of thumb lets a small body be factored that the analysis then finds not to fit. */
-static OstStatus stand_on_first(OstSolver *solver, const OstSolverOptions *options)
+static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
 {
-    const OstStatus status = stand_on(solver, solver->plan.first, solver->step, &solver->steps);
+    const OstStatus status = build(solver, solver->plan.first, solver->step, &solver->steps);
     const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
-    if (!has_no_room || !climbs(solver) || solver->plan.first != OST_RECIPE_DIRECT)
+    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_RECIPE_DIRECT)
         return status;
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan_without_factors(options, &facts, &solver->plan);
     tell_plan(solver);
-    return stand_on(solver, solver->plan.first, solver->step, &solver->steps);
+    return build(solver, solver->plan.first, solver->step, &solver->steps);
+}
+
+/* Plans, and builds the first strategy of the plan. */
+static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
+{
+    const OstSolverFacts facts = facts_of(solver);
+    OstStatus status = OST_SUCCESS;
+    solver->steps = 0;
+    ost_solver_plan(options, &facts, &solver->plan);
+    tell_plan(solver);
+    if (solver->matrix->global_rows > 0)
+        status = build_first(solver, options);
+    return status == OST_SUCCESS ? status : raise_all(solver->ctx, solver->step, solver->steps, status);
 }
 
 OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
@@ -134,11 +141,9 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->ctx = ctx;
     made->matrix = matrix;
     made->geometry = *geometry;
-    OST_TRY_DONE(make_plan(made, options));
-    if (matrix->global_rows > 0)
-        status = stand_on_first(made, options);
-    if (status != OST_SUCCESS)
-        status = raise_all(ctx, made->step, made->steps, status);
+    made->options = *options;
+    OST_TRY_DONE(ost_epetra_map_create(ctx, 3 * matrix->rows, &made->map));
+    status = start(made, options);
 done:
     if (status != OST_SUCCESS)
         ost_solver_destroy(&made);
@@ -146,27 +151,39 @@ done:
     return status;
 }
 
+OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
+{
+    const OstRecipe at_work = solver->strategy ? ost_strategy_recipe(solver->strategy) : OST_RECIPE_AUTO;
+    /* PLAIN smooths with the new matrix by bounds of the old one's spectrum, and may not be definite then. */
+    const int may_stay = at_work >= OST_RECIPE_METRIC && at_work <= OST_RECIPE_TWO_LEVEL;
+    if (how == OST_UPDATE_KEEP && may_stay)
+        return OST_SUCCESS;
+    ost_strategy_destroy(&solver->strategy);
+    return start(solver, &solver->options);
+}
+
 void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    ost_rung_destroy(&(*solver)->rung);
+    ost_strategy_destroy(&(*solver)->strategy);
     ost_epetra_map_destroy(&(*solver)->map);
     OST_FREE(*solver);
 }
 
-static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, double *u, int exact, double *residual)
+static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, double *u, int compensated,
+                               double *residual)
 {
-    if (exact)
-        return ost_exact_residual(matrix, f, u, residual);
+    if (compensated)
+        return ost_compensated_residual(matrix, f, u, residual);
     OST_TRY(ost_block_matrix_apply(matrix, u, residual));
     for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
         residual[i] = f[i] - residual[i];
     return OST_SUCCESS;
 }
 
-/* ||f - A u|| / ||f||, by Epetra's norms: no code in common with what the recipes stop by but the product. */
-static OstStatus measure_residual(const OstSolver *solver, const double *f, const double *u, int exact,
+/* ||f - A u|| / ||f||, by Epetra's norms: nothing but the product is shared with what the strategies stop by. */
+static OstStatus measure_residual(const OstSolver *solver, const double *f, const double *u, int compensated,
                                   double *relative)
 {
     OstContext *ctx = solver->ctx;
@@ -180,7 +197,7 @@ static OstStatus measure_residual(const OstSolver *solver, const double *f, cons
         status = OST_NEW(ctx, &residual, n);
     OST_TRY_DONE(ost_agree(ctx, status));
     memcpy(vector, u, n * sizeof *u);
-    OST_TRY_DONE(find_residual(solver->matrix, f, vector, exact, residual));
+    OST_TRY_DONE(find_residual(solver->matrix, f, vector, compensated, residual));
     OST_TRY_DONE(ost_epetra_norm(solver->map, residual, &norm));
     OST_TRY_DONE(ost_epetra_norm(solver->map, f, &f_norm));
     *relative = f_norm > 0.0 ? norm / f_norm : norm;
@@ -190,68 +207,68 @@ done:
     return status;
 }
 
-/* Works on the rung that stands, from the u that there is. */
+/* Goes on with the strategy at work, from the u that there is. */
 static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const double start = ost_seconds();
     const int before = goal->iterations;
-    const OstStatus status = ost_rung_work(solver->rung, f, u, goal, report);
+    const OstStatus status = ost_strategy_improve(solver->strategy, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
                           : goal->end == OST_END_REACHED ? "reached the residual asked for"
                                                          : goal->words;
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_rung_recipe(solver->rung), outcome);
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_recipe(solver->strategy), outcome);
     step->iterations = goal->iterations - before;
-    step->factor = step->iterations > 0 ? ost_pace_whole_factor(&goal->pace) : 0.0;
+    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->pace) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
-    step->seconds = ost_seconds() - start + solver->rung_seconds;
-    ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %d iterations in %.3f s to a residual of %.2e: %s",
-            ost_recipe_name(step->rung), step->iterations, ost_seconds() - start, step->relative_residual,
-            step->outcome);
-    solver->rung_seconds = 0.0;
+    step->seconds = ost_seconds() - start + solver->strategy_seconds;
+    ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
+            ost_recipe_name(step->rung), report->engine, step->iterations, ost_seconds() - start,
+            step->relative_residual, step->outcome);
+    solver->strategy_seconds = 0.0;
     return status;
 }
 
-/* Is there a rung that could do better? */
-static int should_climb(const OstSolver *solver, const OstGoal *goal)
+/* Is there a next strategy that could do better? */
+static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int mendable =
         goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return climbs(solver) && mendable && ost_rung_recipe(solver->rung) < OST_RECIPE_DIRECT;
+    return may_change(solver) && mendable && ost_strategy_recipe(solver->strategy) < OST_RECIPE_DIRECT;
 }
 
-/* The rung that came down fastest, to be gone on with where those above it ask for more memory than there is; AUTO if
- * none did at all. */
+/* The strategy that converged fastest, to be gone on with where the next ones need more memory than there is; AUTO if
+ * none converged at all. */
 static OstRecipe fastest(const OstSolveReport *report)
 {
     OstRecipe found = OST_RECIPE_AUTO;
     double least = 0.9999;
     for (int s = 0; s < report->steps; s++)
-        if (report->step[s].iterations >= OST_PACE_WINDOW && report->step[s].factor < least) {
+        if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
             found = report->step[s].rung;
             least = report->step[s].factor;
         }
     return found;
 }
 
-static OstStatus climb(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
+static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstRecipe from = ost_rung_recipe(solver->rung);
-    const OstStatus status = stand_on(solver, (OstRecipe)(from + 1), report->step, &report->steps);
+    const OstRecipe from = ost_strategy_recipe(solver->strategy);
+    const OstStatus status = build(solver, (OstRecipe)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
     const OstRecipe best = fastest(report);
     if (best == OST_RECIPE_AUTO)
         return status;
-    goal->patience = 0; /* there is nothing above */
-    return stand_on(solver, best, report->step, &report->steps);
+    goal->patience = 0; /* there is no other */
+    return build(solver, best, report->step, &report->steps);
 }
 
-static OstStatus ascend(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    goal->patience = climbs(solver) ? solver->plan.options.patience : 0;
+    goal->patience = may_change(solver) ? solver->plan.options.patience : 0;
     OST_TRY(work(solver, f, u, goal, report));
-    while (should_climb(solver, goal)) {
-        OST_TRY(climb(solver, goal, report));
+    while (should_change(solver, goal)) {
+        OST_TRY(take_next(solver, goal, report));
         OST_TRY(work(solver, f, u, goal, report));
     }
     return OST_SUCCESS;
@@ -259,7 +276,7 @@ static OstStatus ascend(OstSolver *solver, const double *f, double *u, OstGoal *
 
 static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
 {
-    report->recipe = solver->rung ? ost_rung_recipe(solver->rung) : solver->plan.first;
+    report->recipe = solver->strategy ? ost_strategy_recipe(solver->strategy) : solver->plan.first;
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
@@ -272,18 +289,19 @@ static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveRe
 static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     OstGoal goal;
-    if (!solver->rung && solver->matrix->global_rows > 0)
-        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no rung of this solver is left: an earlier solve tried all");
+    if (!solver->strategy && solver->matrix->global_rows > 0)
+        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED,
+                         "no strategy of this solver is left: an earlier solve tried all");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
     OstStatus status = OST_SUCCESS;
-    if (solver->rung)
-        status = ascend(solver, f, u, &goal, report);
+    if (solver->strategy)
+        status = run_strategies(solver, f, u, &goal, report);
     report_goal(solver, &goal, report);
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
-    return measure_residual(solver, f, u, goal.exact, &report->relative_residual);
+    return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)

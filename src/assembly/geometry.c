@@ -4,6 +4,7 @@
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 
 #include <string.h>
@@ -51,7 +52,7 @@ static OstStatus find_middle(const OstSystem *system, const double *coordinates,
     for (OstLocal row = 0; row < system->matrix->rows; row++)
         for (size_t i = 0; i < 3; i++)
             middle[i] += coordinates[3 * (size_t)row + i] / (double)system->matrix->global_rows;
-    return OST_MPI(system->ctx, MPI_Allreduce(MPI_IN_PLACE, middle, 3, MPI_DOUBLE, MPI_SUM, ost_comm(system->ctx)));
+    return ost_sum(system->ctx, 3, middle);
 }
 
 static void project_modes(const OstSystem *system, double *modes)

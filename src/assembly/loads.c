@@ -2,6 +2,7 @@
 #include "assembly/loads.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "element/element.h"
 
@@ -28,7 +29,7 @@ static OstStatus count_owned(const OstMesh *mesh, OstLocal count, const OstLocal
     *total = 0;
     for (OstLocal n = 0; n < count; n++)
         *total += nodes[n] < mesh->owned_nodes;
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, total, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
+    OST_TRY(ost_sum_numbers(mesh->ctx, 1, total));
     if (*total == 0)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                          "a total force is to be shared by vertices, but none is selected");
@@ -141,7 +142,7 @@ OstStatus ost_faces_area(const OstMesh *mesh, OstLocal face_count, const OstLoca
     const OstElement *element;
     OST_TRY(ost_agree(mesh->ctx, find_element(mesh, nodes_per_face, &element)));
     *area = owned_area(mesh, element, face_count, faces);
-    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, area, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx)));
+    return ost_sum(mesh->ctx, 1, area);
 }
 
 /* Force per volume `vector`, times the density if a field is given. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/pattern.h"
+#include "assembly/system.h"
 
 #include "assembly/batch.h"
 #include "assembly/limits.h"
@@ -7,21 +7,21 @@
 #include "core/memory.h"
 
 /* Which tets meet at a row, and which rows meet at a tet. */
-typedef struct Incidence {
+typedef struct RowTets {
     int nodes;           /* per tet */
     OstLocal *row;       /* tet_count × nodes: row or column of each node in ost_order_nodes' order, -1: none */
     OstLocal *tet_start; /* rows + 1 */
     OstLocal *tet;       /* tet_start[rows] */
-} Incidence;
+} RowTets;
 
-static void incidence_free(Incidence *incidence)
+static void incidence_free(RowTets *incidence)
 {
     OST_FREE(incidence->row);
     OST_FREE(incidence->tet_start);
     OST_FREE(incidence->tet);
 }
 
-static void find_rows_of_tets(const OstSystem *system, Incidence *incidence)
+static void find_rows_of_tets(const OstSystem *system, RowTets *incidence)
 {
     const OstMesh *mesh = system->mesh;
     const size_t n = (size_t)incidence->nodes;
@@ -34,7 +34,7 @@ static void find_rows_of_tets(const OstSystem *system, Incidence *incidence)
 }
 
 /* Counting sort of the tets by the rows that they touch. */
-static OstStatus find_tets_of_rows(const OstSystem *system, Incidence *incidence)
+static OstStatus find_tets_of_rows(const OstSystem *system, RowTets *incidence)
 {
     const OstLocal rows = system->matrix->rows;
     const OstLocal n = incidence->nodes;
@@ -56,7 +56,7 @@ static OstStatus find_tets_of_rows(const OstSystem *system, Incidence *incidence
     return OST_SUCCESS;
 }
 
-static OstStatus incidence_create(const OstSystem *system, Incidence *incidence)
+static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
 {
     incidence->nodes = system->mesh->nodes_per_tet;
     OST_TRY(OST_NEW(system->ctx, &incidence->row, system->mesh->tet_count * incidence->nodes));
@@ -66,7 +66,7 @@ static OstStatus incidence_create(const OstSystem *system, Incidence *incidence)
 }
 
 /* Columns of a row, each once, in the order found. `seen` holds for each column the last row that had it. */
-static OstLocal collect_columns(const Incidence *incidence, OstLocal row, OstLocal *seen, OstLocal *columns)
+static OstLocal collect_columns(const RowTets *incidence, OstLocal row, OstLocal *seen, OstLocal *columns)
 {
     OstLocal count = 0;
     for (OstLocal i = incidence->tet_start[row]; i < incidence->tet_start[row + 1]; i++) {
@@ -84,7 +84,7 @@ static OstLocal collect_columns(const Incidence *incidence, OstLocal row, OstLoc
     return count;
 }
 
-static OstStatus count_blocks(const OstSystem *system, const Incidence *incidence, OstLocal *seen)
+static OstStatus count_blocks(const OstSystem *system, const RowTets *incidence, OstLocal *seen)
 {
     OstBlockMatrix *matrix = system->matrix;
     OstGlobal blocks = 0;
@@ -126,7 +126,7 @@ static void sort_ascending(OstLocal *columns, OstLocal count)
 }
 
 /* Notes where the blocks of a row go: those right of the diagonal, for every tet that touches the row. */
-static void map_row(OstSystem *system, const Incidence *incidence, OstLocal row, const OstLocal *block_of_column)
+static void map_row(OstSystem *system, const RowTets *incidence, OstLocal row, const OstLocal *block_of_column)
 {
     const int n = incidence->nodes;
     const size_t pairs = (size_t)ost_pair_count(n);
@@ -143,7 +143,7 @@ static void map_row(OstSystem *system, const Incidence *incidence, OstLocal row,
     }
 }
 
-static void fill_rows(OstSystem *system, const Incidence *incidence, OstLocal *seen, OstLocal *block_of_column)
+static void fill_rows(OstSystem *system, const RowTets *incidence, OstLocal *seen, OstLocal *block_of_column)
 {
     OstBlockMatrix *matrix = system->matrix;
     for (OstLocal column = 0; column < matrix->columns; column++)
@@ -159,11 +159,11 @@ static void fill_rows(OstSystem *system, const Incidence *incidence, OstLocal *s
     }
 }
 
-OstStatus ost_pattern_create(OstSystem *system)
+OstStatus ost_system_make_pattern(OstSystem *system)
 {
     OstContext *ctx = system->ctx;
     OstBlockMatrix *matrix = system->matrix;
-    Incidence incidence = {0};
+    RowTets incidence = {0};
     OstLocal *seen = NULL;
     OstLocal *block_of_column = NULL;
     OstStatus status = OST_SUCCESS;

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 
 #include <string.h>
@@ -172,8 +173,7 @@ done:
 static OstStatus check_anything_held(const OstSupports *supports)
 {
     OstGlobal held = supports->count;
-    OST_TRY(
-        OST_MPI(supports->ctx, MPI_Allreduce(MPI_IN_PLACE, &held, 1, MPI_INT64_T, MPI_SUM, ost_comm(supports->ctx))));
+    OST_TRY(ost_sum_numbers(supports->ctx, 1, &held));
     if (held == 0)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is held: no vertex has a given displacement or slides on a plane, so the body can "

@@ -2,9 +2,9 @@
 #include "assembly/system.h"
 
 #include "assembly/limits.h"
-#include "assembly/pattern.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 #include "core/small.h"
 #include "element/element.h"
 
@@ -64,11 +64,7 @@ static OstStatus number_globally(OstSystem *system)
 {
     OstContext *ctx = system->ctx;
     OstBlockMatrix *matrix = system->matrix;
-    const OstGlobal rows = matrix->rows;
-    OstGlobal end = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Scan(&rows, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    matrix->first_row = end - rows;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&rows, &matrix->global_rows, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_number_from(ctx, matrix->rows, &matrix->first_row, &matrix->global_rows));
     if (matrix->global_rows == 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "every vertex is held in all directions, so there is nothing to solve for; leave some free");
@@ -90,7 +86,7 @@ OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, Os
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, number_globally(made)));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_subset(mesh->halo, made->row_of_node, &made->matrix->halo)));
-    OST_TRY_DONE(ost_agree(ctx, ost_pattern_create(made)));
+    OST_TRY_DONE(ost_agree(ctx, ost_system_make_pattern(made)));
     *system = made;
 done:
     ost_ledger_leave(ctx);
@@ -99,7 +95,7 @@ done:
     return status;
 }
 
-OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u)
+OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u)
 {
     const OstMesh *mesh = system->mesh;
     for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
@@ -111,7 +107,7 @@ OstStatus ost_system_displacement(const OstSystem *system, const double *v, doub
         if (row >= 0)
             ost_apply3(projector, v + 3 * (size_t)row, displacement);
         for (int i = 0; i < 3; i++)
-            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + given[i];
+            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + t * given[i];
     }
     return ost_agree(system->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), u));
 }

@@ -27,6 +27,11 @@ typedef struct OstSystem {
 OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, OstSystem **system);
 void ost_system_destroy(OstSystem **system);
 
+/* Local. With the rows numbered, makes the matrix's row_start, column, diagonal and (zero) values, and the system's
+ * block_of_tet; a step of ost_system_create. Raises OST_LIMIT_EXCEEDED once the blocks are counted, before they are
+ * made. */
+OstStatus ost_system_make_pattern(OstSystem *system);
+
 /* Local. Fills K (OST_LEDGER_STIFFNESS), then applies what partly held nodes may do (OST_LEDGER_SUPPORTS /
  * OST_EFFECT_SLIDING). */
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
@@ -40,8 +45,9 @@ void ost_system_release_scatter(OstSystem *system);
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
                                      double *rhs);
 
-/* Collective. Displacement of every local node, u = P v + g, ghosts included; v has 3 × matrix->rows numbers. */
-OstStatus ost_system_displacement(const OstSystem *system, const double *v, double *u);
+/* Collective. Displacement of every local node, u = P v + t g, ghosts included, g what the supports prescribe; v has
+ * 3 × matrix->rows numbers. */
+OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u);
 
 /* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes.
  * `magnitude` (as force, or NULL) takes the sums of absolute values |B'| |C| |B| |u|, of which rounding leaves a few

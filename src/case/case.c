@@ -53,7 +53,7 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
 {
     int massive = c->material_count == 0;
     for (int i = 0; i < c->material_count; i++)
-        massive |= c->materials[i].density > 0.0;
+        massive |= c->materials[i].material.density > 0.0;
     if (massive || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
         return OST_SUCCESS;
     for (int i = 0; i < c->load_count; i++)

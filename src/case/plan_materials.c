@@ -1,31 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/plan_parts.h"
 
+#include "case/regions.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static int is_all(const char *region)
-{
-    return strcmp(region, "all") == 0;
-}
-
-/* Does a later entry give the same region, or all, another material? */
-static int is_replaced(const OstCase *c, int entry)
-{
-    for (int later = entry + 1; later < c->material_count; later++)
-        if (is_all(c->materials[later].region) || strcmp(c->materials[later].region, c->materials[entry].region) == 0)
-            return 1;
-    return 0;
-}
-
-static int file_is_replaced(const OstCase *c)
-{
-    for (int i = 0; i < c->material_count; i++)
-        if (is_all(c->materials[i].region))
-            return 1;
-    return 0;
-}
 
 static int count_different(const double x[3])
 {
@@ -62,9 +42,8 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     }
 }
 
-/* Ratios of moduli and Poisson's ratio, for the solver's plan; `softest` and `stiffest` are those so far. */
-static void add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
-                      OstSolverFacts *facts)
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                        OstSolverFacts *facts)
 {
     const double *e = k->youngs_modulus;
     const double least = fmin(e[0], fmin(e[1], e[2]));
@@ -96,22 +75,20 @@ void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, Ost
     memset(m, 0, sizeof *m);
     for (int i = 0; i < c->material_count; i++) {
         const OstCaseMaterial *stated = &c->materials[i];
-        OstMaterial material;
-        if (is_replaced(c, i))
+        const OstOrthotropic *constants = &stated->material.constants;
+        if (ost_case_material_is_overridden(c, i))
             continue;
         m->count++;
-        add_facts(c->ctx, &stated->constants, &softest, &stiffest, &m->facts);
-        if (ost_material_create(c->ctx, stated->region, &stated->constants, stated->density, &material) ==
-                OST_SUCCESS &&
-            material.isotropic)
+        ost_plan_add_facts(c->ctx, constants, &softest, &stiffest, &m->facts);
+        if (stated->material.isotropic)
             continue;
         if (m->orthotropic++ == 0)
-            say_why_orthotropic(stated->region, &stated->constants, m);
+            say_why_orthotropic(stated->region, constants, m);
         count_axes(stated, m);
     }
-    for (int r = 0; from_file && r < from_file->count && !file_is_replaced(c); r++) {
+    for (int r = 0; from_file && r < from_file->count && !ost_case_material_is_overridden(c, -1); r++) {
         m->count++;
-        add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
+        ost_plan_add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
         if (!from_file->material[r].isotropic && m->orthotropic++ == 0)
             say_why_orthotropic(from_file->material[r].name, &from_file->material[r].constants, m);
     }

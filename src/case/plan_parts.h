@@ -17,6 +17,11 @@ typedef struct OstPlanMaterials {
 
 void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, OstPlanMaterials *materials);
 
+/* Local. Adds a material to what the solver's plan asks of them, ratios of moduli and Poisson's ratio; `softest` and
+ * `stiffest` are the least and largest Young's modulus so far, 0 to begin with. */
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
+                        OstSolverFacts *facts);
+
 /* Fills the plan's bytes from its nodes, tets, recipe and effects. */
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan);
 

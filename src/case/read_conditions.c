@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/regions.h"
 #include "case/sections.h"
 #include "case/yaml_message.h"
 #include "core/error.h"
@@ -142,7 +143,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         OST_TRY(ost_read_string(yaml, keys[REGION].value, &load->region));
         load->region_place = ost_yaml_at(keys[REGION].value);
     }
-    if (load->region && strcmp(load->region, "all") == 0)
+    if (load->region && ost_is_every_region(load->region))
         OST_FREE(load->region);
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_yaml_number(yaml, keys[kind].value, &load->pressure);

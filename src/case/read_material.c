@@ -182,7 +182,8 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [DENSITY] = {"density", OST_OPTIONAL, NULL},       [AXES] = {"axes", OST_OPTIONAL, NULL},
     };
     Stated stated = {.nu_axis = NAN};
-    OstMaterial checked;
+    OstOrthotropic constants;
+    double density = 0.0;
     char what[128];
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_read_string(yaml, keys[REGION].value, &material->region));
@@ -195,11 +196,11 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     if (keys[SHEAR].value)
         OST_TRY(read_shear(yaml, keys[SHEAR].value, &stated));
     if (keys[DENSITY].value)
-        OST_TRY(read_density(yaml, keys[DENSITY].value, &material->density));
-    OST_TRY(resolve_constants(yaml, keys[POISSONS].value, what, &stated, &material->constants));
-    OST_TRY(ost_yaml_located(
-        yaml, keys[POISSONS].value,
-        ost_material_create(yaml->ctx, material->region, &material->constants, material->density, &checked)));
+        OST_TRY(read_density(yaml, keys[DENSITY].value, &density));
+    OST_TRY(resolve_constants(yaml, keys[POISSONS].value, what, &stated, &constants));
+    OST_TRY(
+        ost_yaml_located(yaml, keys[POISSONS].value,
+                         ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 

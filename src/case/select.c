@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "mesh/label_ranges.h"
 #include "mesh/nearest.h"
@@ -194,7 +195,7 @@ static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last
     OstGlobal found = 0;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         found += mesh->node_label[n] >= first && mesh->node_label[n] <= last;
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
+    OST_TRY(ost_sum_numbers(mesh->ctx, 1, &found));
     *missing = found < last - first + 1;
     return OST_SUCCESS;
 }
@@ -243,8 +244,7 @@ static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSel
         if (range >= 0)
             found[range]++;
     }
-    OST_TRY_DONE(OST_MPI(
-        ctx, MPI_Allreduce(MPI_IN_PLACE, found, (int)selection->range_count, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY_DONE(ost_sum_numbers(ctx, (int)selection->range_count, found));
     status = check_all_found(c, mesh, selection, found);
 done:
     OST_FREE(found);
@@ -305,7 +305,6 @@ OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelec
 {
     OstContext *ctx = mesh->ctx;
     unsigned char *flags = NULL;
-    OstGlobal mine = 0;
     OstGlobal selected = 0;
     *count = 0;
     *nodes = NULL;
@@ -314,8 +313,8 @@ OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelec
     if (status != OST_SUCCESS)
         goto done;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        mine += flags[n];
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&mine, &selected, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+        selected += flags[n];
+    OST_TRY_DONE(ost_sum_numbers(ctx, 1, &selected));
     if (selected == 0)
         OST_TRY_DONE(raise_nothing(c, mesh, selection));
     OST_TRY_DONE(ost_agree(ctx, list_nodes(mesh, flags, count, nodes)));

@@ -2,22 +2,22 @@
 #include "case/select.h"
 
 #include "core/error.h"
+#include "core/index_map.h"
 #include "core/memory.h"
 
 #include <string.h>
 
-/* The body's surface and which of its faces are selected; found by its vertices in a table of open addresses. */
+/* The body's surface and which of its faces are selected; each is found by its vertices. */
 typedef struct Faces {
     const OstMesh *mesh;
     OstSurface *surface;
     unsigned char *selected; /* surface->count */
-    OstLocal *table;         /* size, a power of two; -1: free */
-    uint64_t size;
+    OstIndex *index;         /* of the surface's faces by their vertices, ascending */
 } Faces;
 
-static void sorted_vertices(const OstLocal *nodes, OstLocal vertices[3])
+static void sort_vertices(const OstLocal *nodes, OstGlobal vertices[3])
 {
-    OstLocal a = nodes[0], b = nodes[1], c = nodes[2], t;
+    OstGlobal a = nodes[0], b = nodes[1], c = nodes[2], t;
     if (a > b)
         t = a, a = b, b = t;
     if (b > c)
@@ -29,34 +29,15 @@ static void sorted_vertices(const OstLocal *nodes, OstLocal vertices[3])
     vertices[2] = c;
 }
 
-/* Where the table holds the face of these vertices, or the free place where it would. */
-static uint64_t place_of(const Faces *faces, const OstLocal *nodes)
+static OstStatus fill_index(Faces *faces)
 {
-    OstLocal wanted[3], there[3];
-    sorted_vertices(nodes, wanted);
-    uint64_t hash = UINT64_C(14695981039346656037);
-    for (int i = 0; i < 3; i++)
-        hash = (hash ^ (uint64_t)(uint32_t)wanted[i]) * UINT64_C(0x9E3779B97F4A7C15);
-    uint64_t place = (hash >> 20) & (faces->size - 1);
-    for (; faces->table[place] >= 0; place = (place + 1) & (faces->size - 1)) {
-        sorted_vertices(faces->surface->nodes + (size_t)faces->table[place] * (size_t)faces->surface->nodes_per_face,
-                        there);
-        if (memcmp(wanted, there, sizeof wanted) == 0)
-            break;
+    OstGlobal vertices[3];
+    OstLocal place;
+    OST_TRY(ost_index_create(faces->mesh->ctx, 3, &faces->index));
+    for (OstLocal f = 0; f < faces->surface->count; f++) {
+        sort_vertices(faces->surface->nodes + (size_t)f * (size_t)faces->surface->nodes_per_face, vertices);
+        OST_TRY(ost_index_place(faces->index, vertices, &place));
     }
-    return place;
-}
-
-static OstStatus fill_table(Faces *faces)
-{
-    faces->size = 16;
-    while (faces->size < 2 * (uint64_t)faces->surface->count)
-        faces->size *= 2;
-    OST_TRY(OST_NEW(faces->mesh->ctx, &faces->table, faces->size));
-    for (uint64_t i = 0; i < faces->size; i++)
-        faces->table[i] = -1;
-    for (OstLocal f = 0; f < faces->surface->count; f++)
-        faces->table[place_of(faces, faces->surface->nodes + (size_t)f * (size_t)faces->surface->nodes_per_face)] = f;
     return OST_SUCCESS;
 }
 
@@ -65,9 +46,11 @@ static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, 
 {
     for (OstLocal i = 0; i < boundary->count; i++) {
         OstLocal nodes[3];
+        OstGlobal vertices[3];
         for (int k = 0; k < 3; k++)
             nodes[k] = (OstLocal)boundary->nodes[(size_t)i * (size_t)boundary->nodes_per_item + (size_t)k];
-        const OstLocal face = faces->table[place_of(faces, nodes)];
+        sort_vertices(nodes, vertices);
+        const OstLocal face = ost_index_find(faces->index, vertices);
         const OstGlobal *label = faces->mesh->node_label;
         if (face < 0)
             return ost_select_raise(
@@ -123,7 +106,7 @@ static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Fac
         of_faces |= mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name);
     if (!of_faces)
         return flag_by_nodes(c, selection, faces);
-    OST_TRY(ost_agree(ctx, fill_table(faces)));
+    OST_TRY(ost_agree(ctx, fill_index(faces)));
     OstStatus status = check_all_of_faces(c, selection, mesh);
     for (int b = 0; b < mesh->boundary_count && status == OST_SUCCESS; b++)
         if (mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name))
@@ -165,7 +148,7 @@ done:
         OST_FREE(*faces);
         *count = 0;
     }
-    OST_FREE(found.table);
+    ost_index_destroy(&found.index);
     OST_FREE(found.selected);
     ost_surface_destroy(&found.surface);
     ost_ledger_leave(ctx);

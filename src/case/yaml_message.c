@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/yaml_message.h"
 
-#include "case/yaml_read.h"
 #include "core/error.h"
 
 #include <stdarg.h>

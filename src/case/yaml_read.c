@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/yaml_read.h"
 
-#include "case/yaml_message.h"
 #include "core/error.h"
 #include "core/small.h"
 
@@ -9,34 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node)
-{
-    return node->kind == OST_YAML_ALIAS ? &yaml->node[node->value] : node;
-}
-
-int ost_yaml_line(const OstYamlNode *node)
-{
-    return (int)node->line + 1;
-}
-
 OstPlace ost_yaml_at(const OstYamlNode *node)
 {
     return (OstPlace){(int)node->line + 1, (int)node->column + 1};
-}
-
-int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind)
-{
-    return (OstYamlKind)ost_yaml_follow(yaml, node)->kind == kind;
-}
-
-const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node)
-{
-    return ost_yaml_follow(yaml, node) + 1;
-}
-
-const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node)
-{
-    return &yaml->node[node->next];
 }
 
 static const char *scalar_text(const OstYaml *yaml, const OstYamlNode *node)

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_YAML_READ_H
 #define ORTHOSTAT_CASE_YAML_READ_H
 
-#include "case/yaml_tree.h"
+#include "case/yaml_message.h"
 #include "orthostat/case.h"
 
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
@@ -19,18 +19,7 @@ enum { OST_OPTIONAL = 0, OST_NEEDED = 1 };
 
 #define OST_COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
-/* Raises at a node. */
-OstStatus ost_yaml_raise(const OstYaml *yaml, const OstYamlNode *node, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-/* Puts the node's place in front of a failure raised further down; passes success. */
-OstStatus ost_yaml_located(const OstYaml *yaml, const OstYamlNode *node, OstStatus status);
-
-/* The node an alias stands for, or the node itself; its line from 1. */
-const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node);
-int ost_yaml_line(const OstYamlNode *node);
 OstPlace ost_yaml_at(const OstYamlNode *node);
-int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
 
 /* Fills the keys' values; refuses unknown, doubled and missing keys and keys without a value. */
 OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count);
@@ -43,8 +32,6 @@ OstStatus ost_yaml_one_of(const OstYaml *yaml, const OstYamlNode *node, const Os
 enum { OST_YAML_MOST_ENTRIES = 10000 };
 OstStatus ost_yaml_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
 OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
-const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
-const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
 
 /* Scalars. A number is finite and has nothing after it; an integer lies in [low, high]. The text lives as long as the
  * tree. */
@@ -61,8 +48,5 @@ OstStatus ost_yaml_direction(const OstYaml *yaml, const OstYamlNode *node, doubl
 /* One of some words; `what` names their kind ("field"). */
 OstStatus ost_yaml_word(const OstYaml *yaml, const OstYamlNode *node, const char *what, const char *const *words,
                         int count, int *which);
-
-/* Local. The name nearest to `word` by edit distance, or that begins like it, or NULL if none is near enough to be meant. */
-const char *ost_nearest_word(const char *word, const char *const *words, int count);
 
 #endif

@@ -275,3 +275,28 @@ void ost_yaml_destroy(OstYaml **yaml)
     OST_FREE((*yaml)->text);
     OST_FREE(*yaml);
 }
+
+const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node)
+{
+    return node->kind == OST_YAML_ALIAS ? &yaml->node[node->value] : node;
+}
+
+int ost_yaml_line(const OstYamlNode *node)
+{
+    return (int)node->line + 1;
+}
+
+int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind)
+{
+    return (OstYamlKind)ost_yaml_follow(yaml, node)->kind == kind;
+}
+
+const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node)
+{
+    return ost_yaml_follow(yaml, node) + 1;
+}
+
+const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node)
+{
+    return &yaml->node[node->next];
+}

@@ -5,7 +5,8 @@
 #include "orthostat/context.h"
 
 /* A YAML document as a flat tree in the order of the text: a node's children follow it, `next` is the node after all
- * of them. libyaml parses; the tree is ours so that its memory is small, exact and booked (16 bytes a node). */
+ * of them. libyaml parses; the tree is ours, as yaml_document_t takes 160 times the text where it is all structure
+ * (ours at most six times), takes minutes on a megabyte of deep nesting, and does not keep where an alias stands. */
 
 typedef enum { OST_YAML_SCALAR, OST_YAML_SEQUENCE, OST_YAML_MAPPING, OST_YAML_ALIAS } OstYamlKind;
 
@@ -34,5 +35,14 @@ enum { OST_YAML_MAX_BYTES = 1 << 24, OST_YAML_MAX_DEPTH = 32, OST_YAML_MAX_ANCHO
  * aliases that multiply the file. */
 OstStatus ost_yaml_parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstYaml **yaml);
 void ost_yaml_destroy(OstYaml **yaml);
+
+/* Local. The node an alias stands for, or the node itself; its line from 1; is it (or what it stands for) of a kind? */
+const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node);
+int ost_yaml_line(const OstYamlNode *node);
+int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
+
+/* Local. The first child of a sequence or mapping; what comes behind a node and its children. */
+const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
+const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
 
 #endif

@@ -4,23 +4,23 @@
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "orthostat/scene.h"
 #include "study/watch.h"
 
-#include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char doc[] = "Read a case, make its mesh, materials, axes, selections and equations, and say what is "
-                          "wrong with them. Nothing is "
-                          "solved.";
+static const char doc[] = "Read a case, make its mesh, materials, axes, selections and equations, and report what "
+                          "is wrong with them. Nothing is solved.";
 
-/* What the checks found beyond errors. */
+/* What the checks found besides errors. */
 typedef struct Findings {
-    OstGlobal held; /* vertices that constraints select, each constraint counted for itself */
+    OstGlobal constrained; /* vertices that constraints select, counted once for each constraint */
     char output[OST_LONGEST_PATH];
-    json_t *warnings; /* rank 0: every one given on the way */
+    json_t *warnings; /* rank 0: all of them, in order */
 } Findings;
 
 static void hear_warning(void *findings, const char *text)
@@ -33,11 +33,11 @@ static OstStatus count_nodes(const OstScene *scene, const OstSelection *selectio
     OstLocal count = 0;
     OstLocal *nodes = NULL;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, selection, &count, &nodes));
-    OstGlobal mine = 0;
+    *total = 0;
     for (OstLocal i = 0; i < count; i++)
-        mine += nodes[i] < scene->mesh->owned_nodes;
+        *total += nodes[i] < scene->mesh->owned_nodes;
     OST_FREE(nodes);
-    return OST_MPI(scene->ctx, MPI_Allreduce(&mine, total, 1, MPI_INT64_T, MPI_SUM, ost_comm(scene->ctx)));
+    return ost_sum_numbers(scene->ctx, 1, total);
 }
 
 static OstStatus count_faces(const OstScene *scene, const OstSelection *selection, int *some)
@@ -46,14 +46,9 @@ static OstStatus count_faces(const OstScene *scene, const OstSelection *selectio
     int nodes_per_face = 0;
     OstLocal *faces = NULL;
     OST_TRY(ost_select_faces(scene->c, scene->mesh, selection, &count, &nodes_per_face, &faces));
-    const int mine = count > 0;
     OST_FREE(faces);
-    return OST_MPI(scene->ctx, MPI_Allreduce(&mine, some, 1, MPI_INT, MPI_MAX, ost_comm(scene->ctx)));
-}
-
-static int names_no_region(const OstScene *scene, const char *region)
-{
-    return region && strcmp(region, "all") != 0 && ost_mesh_find_region(scene->mesh, region) < 0;
+    *some = count > 0;
+    return ost_max_ints(scene->ctx, 1, some);
 }
 
 static OstStatus check_load(const OstScene *scene, const OstLoad *load)
@@ -61,7 +56,7 @@ static OstStatus check_load(const OstScene *scene, const OstLoad *load)
     const int needs_faces = load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
                             (load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_FACES);
     if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
-        return names_no_region(scene, load->region)
+        return load->region && ost_mesh_find_region(scene->mesh, load->region) < 0
                    ? ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region)
                    : OST_SUCCESS;
     OstGlobal nodes;
@@ -82,14 +77,14 @@ static OstStatus check_conditions(const OstScene *scene, Findings *findings)
     for (int i = 0; i < c->constraint_count; i++) {
         OstGlobal nodes = 0;
         OST_TRY(count_nodes(scene, &c->constraints[i].on, &nodes));
-        findings->held += nodes;
+        findings->constrained += nodes;
     }
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(check_load(scene, &c->loads[i]));
     return OST_SUCCESS;
 }
 
-/* What the word exact stands for is known to `verify` alone. */
+/* Values of the word `exact` come from the formula, which only `verify` evaluates. */
 static int says_exact(const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++)
@@ -102,11 +97,11 @@ static int says_exact(const OstCase *c)
     return 0;
 }
 
-/* A body without constraints is warned of below. */
-static OstStatus rehearse(const OstScene *scene)
+/* Assembles and checks the equations without solving them. A body without constraints gets a warning instead. */
+static OstStatus dry_run(const OstScene *scene)
 {
     const OstCase *c = scene->c;
-    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_rehearse(scene);
+    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_dry_run(scene);
 }
 
 static void look_for_oddities(const OstScene *scene, const Findings *findings)
@@ -114,14 +109,14 @@ static void look_for_oddities(const OstScene *scene, const Findings *findings)
     OstContext *ctx = scene->ctx;
     const OstCase *c = scene->c;
     if (c->constraint_count == 0 && !c->free_body)
-        ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that nothing holds", c->path);
+        ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that can move freely", c->path);
     if (!ost_plan_acts(c, &scene->plan))
-        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
-    if (ost_check_destinations(c, findings->output, NULL) != OST_SUCCESS)
+        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
+    if (ost_check_outputs(c, 1, (const char *const[]){findings->output}) != OST_SUCCESS)
         ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind != OST_AXES_NONE && !scene->plan.effect[OST_PLAN_ORTHOTROPY].on) {
-            ost_warn(ctx, "%s: axes are given, but every material is isotropic; they do nothing", c->path);
+            ost_warn(ctx, "%s: axes are set, but every material is isotropic, so they have no effect", c->path);
             break;
         }
 }
@@ -137,9 +132,9 @@ static void print_findings(const OstScene *scene, const Findings *findings)
     const OstMesh *mesh = scene->mesh;
     printf("%s is fine: %lld vertices, %lld tet%s, %d region%s, %d constraint%s on %lld %s, %d load%s%s\n", c->path,
            (long long)mesh->global_nodes, (long long)mesh->global_tets, plural(mesh->global_tets), mesh->regions.count,
-           plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count), (long long)findings->held,
-           findings->held == 1 ? "vertex" : "vertices", c->load_count, plural(c->load_count),
-           json_array_size(findings->warnings) > 0 ? "; see the warnings" : "");
+           plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
+           (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", c->load_count,
+           plural(c->load_count), json_array_size(findings->warnings) > 0 ? "; see the warnings" : "");
     printf("solve will write its fields to %s\n", findings->output);
 }
 
@@ -154,14 +149,13 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
         json_array_append_new(boundaries, json_string(mesh->boundaries[b].name));
     json_t *root = json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:s, s:O}", "case", scene->c->path, "vertices",
                              (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
-                             "boundaries", boundaries, "constraints", scene->c->constraint_count, "held_vertices",
-                             (json_int_t)findings->held, "loads", scene->c->load_count, "output", findings->output,
-                             "warnings", findings->warnings);
-    const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0 || puts("") < 0;
-    json_decref(root);
-    return failed ? OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
-                              "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path)
-                  : OST_SUCCESS;
+                             "boundaries", boundaries, "constraints", scene->c->constraint_count,
+                             "constrained_vertices", (json_int_t)findings->constrained, "loads", scene->c->load_count,
+                             "output", findings->output, "warnings", findings->warnings);
+    if (!root)
+        return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
+                         "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);
+    return ost_json_write(scene->ctx, root, "-");
 }
 
 static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments, Findings *findings)
@@ -174,7 +168,7 @@ static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments
     OST_TRY_DONE(ost_choose_output(c, NULL, findings->output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(check_conditions(scene, findings));
-    OST_TRY_DONE(rehearse(scene));
+    OST_TRY_DONE(dry_run(scene));
     OST_TRY_DONE(ost_watch_check(scene));
     look_for_oddities(scene, findings);
     if (ost_rank(ctx) == 0 && arguments->json)

@@ -23,8 +23,8 @@ int ost_cli_material(OstContext *ctx, int argc, char **argv);
  */
 int ost_cli_finish(OstContext *ctx, OstStatus status);
 
-/* argp_parse on every rank, errors and help printed by rank 0 alone; *exit_code is what the program should end with
- * when this returns 0 (after --help, --usage, or a mistake: 2), else go on. */
+/* Collective. Parses by argp; rank 0 prints errors and help. Returns 1 to go on; else 0, and the program ends with
+ * *exit_code: 0 after --help, 2 after a mistake. */
 struct argp;
 int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input, int *exit_code);
 

@@ -4,6 +4,7 @@
 #include "cli/cost_picture.h"
 #include "cli/destination.h"
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "study/cost.h"
 
 #include <argp.h>
@@ -15,13 +16,13 @@
 typedef struct Arguments {
     const char *case_path;
     const char *csv, *json, *picture;
-    OstCostLadder ladder;
+    OstCostVariants variants;
 } Arguments;
 
 enum { MAX_TIME = 't', CSV = 'c', JSON = 'j', PICTURE = 'p', ORDERS = 256, REFINEMENTS, TOLERANCES };
 
 static const struct argp_option options[] = {
-    {"max-time", MAX_TIME, "SECONDS", 0, "Skip runs that would not end within this time in all (default: 600)", 0},
+    {"max-time", MAX_TIME, "SECONDS", 0, "Skip runs that would take the total beyond this time (default: 600)", 0},
     {"orders", ORDERS, "LIST", 0, "Orders of the elements (default: 1,2)", 0},
     {"refinements", REFINEMENTS, "LIST", 0, "Uniform refinements of the mesh (default: 0,1,2)", 0},
     {"tolerances", TOLERANCES, "LIST", 0, "Relative residuals to solve to (default: 1e-2,1e-4,1e-8)", 0},
@@ -31,21 +32,21 @@ static const struct argp_option options[] = {
     {0},
 };
 
-/* Reads "1,2,3" by `number`, which returns where it stopped. Returns 0, or EINVAL after saying what is wrong. */
-static error_t read_list(struct argp_state *state, const char *name, const char *text, void *ladder, int *count,
-                         int (*number)(const char *, char **, OstCostLadder *, int))
+/* Reads "1,2,3", each number by `number`, which says where it stopped. Returns 0, or EINVAL with a message. */
+static error_t read_list(struct argp_state *state, const char *name, const char *text, void *variants, int *count,
+                         int (*number)(const char *, char **, OstCostVariants *, int))
 {
     const char *at = text;
-    for (*count = 0; *count < OST_COST_MOST_RUNGS;) {
+    for (*count = 0; *count < OST_COST_MOST_VALUES;) {
         char *end = NULL;
-        if (!number(at, &end, ladder, *count) || end == at || (*end != ',' && *end != 0))
+        if (!number(at, &end, variants, *count) || end == at || (*end != ',' && *end != 0))
             break;
         ++*count;
         if (*end == 0)
             return 0;
         at = end + 1;
     }
-    argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_COST_MOST_RUNGS,
+    argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_COST_MOST_VALUES,
                text);
     return EINVAL;
 }
@@ -57,27 +58,27 @@ static int small_integer(const char *text, char **end, int *number)
     return found >= 0 && found <= 1000;
 }
 
-static int read_order(const char *text, char **end, OstCostLadder *ladder, int i)
+static int read_order(const char *text, char **end, OstCostVariants *variants, int i)
 {
-    return small_integer(text, end, &ladder->order[i]);
+    return small_integer(text, end, &variants->order[i]);
 }
 
-static int read_refinement(const char *text, char **end, OstCostLadder *ladder, int i)
+static int read_refinement(const char *text, char **end, OstCostVariants *variants, int i)
 {
-    return small_integer(text, end, &ladder->refinement[i]);
+    return small_integer(text, end, &variants->refinement[i]);
 }
 
-static int read_tolerance(const char *text, char **end, OstCostLadder *ladder, int i)
+static int read_tolerance(const char *text, char **end, OstCostVariants *variants, int i)
 {
-    ladder->tolerance[i] = strtod(text, end);
+    variants->tolerance[i] = strtod(text, end);
     return 1;
 }
 
-static error_t read_max_time(struct argp_state *state, const char *text, OstCostLadder *ladder)
+static error_t read_max_time(struct argp_state *state, const char *text, OstCostVariants *variants)
 {
     char *end = NULL;
-    ladder->max_seconds = strtod(text, &end);
-    if (end != text && *end == 0 && ladder->max_seconds > 0.0)
+    variants->max_seconds = strtod(text, &end);
+    if (end != text && *end == 0 && variants->max_seconds > 0.0)
         return 0;
     argp_error(state, "--max-time takes a number of seconds above 0, found '%s'", text);
     return EINVAL;
@@ -96,16 +97,16 @@ static error_t take_case(struct argp_state *state, char *value, Arguments *argum
 static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
-    OstCostLadder *ladder = &arguments->ladder;
+    OstCostVariants *variants = &arguments->variants;
     switch (key) {
     case MAX_TIME:
-        return read_max_time(state, value, ladder);
+        return read_max_time(state, value, variants);
     case ORDERS:
-        return read_list(state, "orders", value, ladder, &ladder->order_count, read_order);
+        return read_list(state, "orders", value, variants, &variants->order_count, read_order);
     case REFINEMENTS:
-        return read_list(state, "refinements", value, ladder, &ladder->refinement_count, read_refinement);
+        return read_list(state, "refinements", value, variants, &variants->refinement_count, read_refinement);
     case TOLERANCES:
-        return read_list(state, "tolerances", value, ladder, &ladder->tolerance_count, read_tolerance);
+        return read_list(state, "tolerances", value, variants, &variants->tolerance_count, read_tolerance);
     case CSV:
         arguments->csv = value;
         return 0;
@@ -130,9 +131,9 @@ static const struct argp cost_argp = {
     options,
     parse_option,
     "CASE",
-    "Says what accuracy costs: runs a case over a ladder of element order, refinement and solver tolerance, and lists "
-    "each run's error (of the strain energy and of what the case watches), seconds and memory, and the cheapest way to "
-    "10, 3, 1 and 0.3 %.",
+    "Measures what accuracy costs: solves a case with every combination of element order, refinement and solver "
+    "tolerance, and lists each run's error (of the strain energy and of the case's quantities of interest), seconds "
+    "and memory, and the cheapest run for errors of 10, 3, 1 and 0.3 %.",
     NULL,
     NULL,
     NULL};
@@ -156,26 +157,26 @@ static OstStatus report(const OstCost *cost, const Arguments *arguments)
     return ost_agree(cost->ctx, status);
 }
 
-/* Before anything runs: what is asked for can be written. */
+/* Checked before anything runs. */
 static OstStatus check_reports(const OstCase *c, const Arguments *arguments)
 {
     const char *const paths[] = {arguments->csv, arguments->json, arguments->picture};
     if (is_stdout(arguments->picture))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it");
-    return ost_check_reports(c, (int)(sizeof paths / sizeof *paths), paths);
+    return ost_check_outputs(c, (int)(sizeof paths / sizeof *paths), paths);
 }
 
-static OstStatus price(OstContext *ctx, Arguments *arguments)
+static OstStatus run_study(OstContext *ctx, Arguments *arguments)
 {
     OstCase *c = NULL;
     OstCost *cost = NULL;
-    OstStatus status = ost_cost_machine_bytes(ctx, &arguments->ladder.max_bytes);
+    OstStatus status = ost_memory_installed(ctx, &arguments->variants.max_bytes);
     if (status == OST_SUCCESS)
         status = ost_case_read(ctx, arguments->case_path, &c);
     if (status == OST_SUCCESS)
         status = check_reports(c, arguments);
     if (status == OST_SUCCESS)
-        status = ost_cost_create(c, &arguments->ladder, &cost);
+        status = ost_cost_create(c, &arguments->variants, &cost);
     if (status == OST_SUCCESS)
         status = ost_cost_run(cost);
     if (status == OST_SUCCESS)
@@ -187,9 +188,9 @@ static OstStatus price(OstContext *ctx, Arguments *arguments)
 
 int ost_cli_cost(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {.ladder = ost_cost_default_ladder()};
+    Arguments arguments = {.variants = ost_cost_default_variants()};
     int exit_code = 0;
     if (!ost_cli_parse(ctx, &cost_argp, argc, argv, &arguments, &exit_code))
         return exit_code;
-    return ost_cli_finish(ctx, price(ctx, &arguments));
+    return ost_cli_finish(ctx, run_study(ctx, &arguments));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/cost_picture.h"
 
-#include "cli/script.h"
+#include "cli/installed.h"
 #include "core/error.h"
 
 #include <errno.h>
@@ -13,14 +13,14 @@
 OstStatus ost_cli_draw_cost(const OstCost *cost, const char *picture)
 {
     enum { LONGEST = 4096 };
-    char folder[LONGEST]; /* of its own: beside the picture it might meet a user's file */
+    char folder[LONGEST]; /* a new one, where no file of the user can be in the way */
     char prices[LONGEST + 16];
     const char *place = getenv("TMPDIR");
     if (ost_rank(cost->ctx) != 0)
         return OST_SUCCESS;
     if (!place || !place[0])
         place = "/tmp";
-    snprintf(folder, sizeof folder, "%s/orthostat-prices-XXXXXX", place); /* cut off, it has no X at its end: EINVAL */
+    snprintf(folder, sizeof folder, "%s/orthostat-prices-XXXXXX", place); /* if truncated, mkdtemp fails with EINVAL */
     if (!mkdtemp(folder))
         return OST_RAISE(
             cost->ctx, OST_FILE_FAILED,

@@ -4,8 +4,7 @@
 
 #include "study/cost.h"
 
-/* Local; rank 0 draws. Has the script plot-cost draw the prices. Raises OST_FILE_FAILED if the script is not there or
- * fails; it says why itself. */
+/* Local; rank 0 draws, by the script plot-cost. Raises OST_FILE_FAILED as ost_cli_run_script does. */
 OstStatus ost_cli_draw_cost(const OstCost *cost, const char *picture);
 
 #endif

@@ -3,7 +3,8 @@
 
 #include "case/sections.h"
 #include "core/error.h"
-#include "formats/vtkhdf.h"
+#include "core/memory.h"
+#include "core/write_aside.h"
 #include "orthostat/mesh_file.h"
 
 #include <errno.h>
@@ -13,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Files are written aside under this ending, then renamed. */
-static const char partial[] = ".partial";
+/* Letters left for the name under which a file is written aside. */
+enum { LONGEST_OUTPUT = OST_LONGEST_PATH - 32, MOST_OUTPUTS = 3 };
 
 static const char *name_in_folder(const char *path)
 {
@@ -22,28 +23,28 @@ static const char *name_in_folder(const char *path)
     return slash ? slash + 1 : path;
 }
 
-static OstStatus check_length(OstContext *ctx, const char *path, size_t longest)
+static OstStatus check_length(OstContext *ctx, const char *path)
 {
-    if (strlen(path) > longest)
+    if (strlen(path) > LONGEST_OUTPUT)
         return OST_RAISE(ctx, OST_INVALID_USAGE,
-                         "the path '%.60s...' has %zu letters, more than the %zu possible; name a shorter one", path,
-                         strlen(path), longest);
+                         "the path '%.60s...' has %zu letters, more than the %d possible; name a shorter one", path,
+                         strlen(path), LONGEST_OUTPUT);
     const char *name = name_in_folder(path);
-    if (strlen(name) + sizeof partial > NAME_MAX + 1)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "the file name '%.60s...' has %zu letters, more than the %zu possible",
-                         name, strlen(name), NAME_MAX + 1 - sizeof partial);
+    if (strlen(name) > NAME_MAX)
+        return OST_RAISE(ctx, OST_INVALID_USAGE, "the file name '%.60s...' has %zu letters, more than the %d possible",
+                         name, strlen(name), NAME_MAX);
     return OST_SUCCESS;
 }
 
 OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_LONGEST_PATH])
 {
     const char *name = asked ? asked : c->output_file ? c->output_file : name_in_folder(c->path);
-    OST_TRY(check_length(c->ctx, name, OST_VTKHDF_LONGEST_PATH));
+    OST_TRY(check_length(c->ctx, name));
     if (!asked && !c->output_file) {
         const char *dot = strrchr(name, '.');
         const int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
         snprintf(path, OST_LONGEST_PATH, "%.*s.vtkhdf", stem, name);
-        return check_length(c->ctx, path, OST_VTKHDF_LONGEST_PATH);
+        return check_length(c->ctx, path);
     }
     if (!ost_has_ending(name, ".vtkhdf"))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' does not end with .vtkhdf, which the file of fields must",
@@ -90,7 +91,7 @@ static int is_list_of(const OstSelection *on, const char *path)
     return is_same_existing_file(path, on->vertices_file);
 }
 
-/* What the case reads that lies here, in words; or NULL. */
+/* Names the file that the case reads at this path; NULL if it reads none there. */
 static const char *input_at(const OstCase *c, const char *path)
 {
     if (is_same_existing_file(path, c->path))
@@ -130,61 +131,51 @@ static OstStatus check_folder(OstContext *ctx, const char *path)
     return OST_SUCCESS;
 }
 
-static OstStatus check_no_input(const OstCase *c, const char *path, const char *ending)
-{
-    char whole[OST_LONGEST_PATH];
-    snprintf(whole, sizeof whole, "%s%s", path, ending);
-    const char *input = input_at(c, whole);
-    if (!input)
-        return OST_SUCCESS;
-    return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", whole, input);
-}
-
-static OstStatus check_file(const OstCase *c, const char *path)
+static OstStatus check_file(const OstCase *c, const char *path, char **target)
 {
     struct stat there;
-    OST_TRY(check_length(c->ctx, path, OST_LONGEST_PATH - sizeof partial));
+    OST_TRY(check_length(c->ctx, path));
     if (*name_in_folder(path) == '\0')
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' names no file to write", path);
-    OST_TRY(check_no_input(c, path, ""));
-    OST_TRY(check_no_input(c, path, partial));
+    const char *input = input_at(c, path);
+    if (input)
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", path, input);
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' is there already and is not a regular file; name another%s",
                          path, S_ISDIR(there.st_mode) ? ", or one in it" : "");
-    return check_folder(c->ctx, path);
+    OST_TRY(ost_follow_links(c->ctx, path, target));
+    OST_TRY(check_length(c->ctx, *target));
+    return check_folder(c->ctx, *target);
 }
 
-static OstStatus check_destinations(const OstCase *c, const char *output, const char *json)
+static int is_stdout(const char *path)
 {
-    OST_TRY(check_file(c, output));
-    if (!json || strcmp(json, "-") == 0)
-        return OST_SUCCESS;
-    OST_TRY(check_file(c, json));
-    if (is_same_place(output, json))
-        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "the fields and the summary cannot both go to '%s'", json);
-    return OST_SUCCESS;
+    return strcmp(path, "-") == 0;
 }
 
-OstStatus ost_check_destinations(const OstCase *c, const char *output, const char *json)
+/* Paths that are NULL are not written. */
+static OstStatus check_files(const OstCase *c, int count, const char *const *paths)
 {
-    return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_destinations(c, output, json) : OST_SUCCESS);
-}
-
-static OstStatus check_reports(const OstCase *c, int count, const char *const *paths)
-{
-    for (int i = 0; i < count; i++) {
-        const int prints = paths[i] && strcmp(paths[i], "-") == 0;
-        if (paths[i] && !prints)
-            OST_TRY(check_file(c, paths[i]));
-        for (int j = 0; j < i; j++)
-            if (paths[i] && paths[j] && (prints ? strcmp(paths[j], "-") == 0 : is_same_place(paths[i], paths[j])))
-                return OST_RAISE(c->ctx, OST_INVALID_USAGE, "two reports cannot both go to %s%s%s", prints ? "" : "'",
-                                 prints ? "standard output" : paths[i], prints ? "" : "'");
+    char *target[MOST_OUTPUTS] = {NULL}; /* behind links */
+    OstStatus status = OST_SUCCESS;
+    for (int i = 0; i < count && status == OST_SUCCESS; i++) {
+        if (!paths[i])
+            continue;
+        if (!is_stdout(paths[i]))
+            status = check_file(c, paths[i], &target[i]);
+        for (int j = 0; j < i && status == OST_SUCCESS; j++)
+            if (is_stdout(paths[i]) ? paths[j] && is_stdout(paths[j])
+                                    : target[j] && is_same_place(target[i], target[j]))
+                status = OST_RAISE(c->ctx, OST_INVALID_USAGE, "two outputs cannot both go to %s%s%s",
+                                   is_stdout(paths[i]) ? "" : "'", is_stdout(paths[i]) ? "standard output" : paths[i],
+                                   is_stdout(paths[i]) ? "" : "'");
     }
-    return OST_SUCCESS;
+    for (int i = 0; i < count; i++)
+        OST_FREE(target[i]);
+    return status;
 }
 
-OstStatus ost_check_reports(const OstCase *c, int count, const char *const *paths)
+OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *paths)
 {
-    return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_reports(c, count, paths) : OST_SUCCESS);
+    return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_files(c, count, paths) : OST_SUCCESS);
 }

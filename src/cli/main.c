@@ -8,11 +8,12 @@
 #include <string.h>
 
 static const OstCommand commands[] = {
-    {"solve", "find the pose of a case and write it for ParaView", ost_cli_solve},
-    {"check", "read a case and its mesh, and say what is wrong with them", ost_cli_check},
-    {"explain", "say which effects a case calls for, and what it will cost", ost_cli_explain},
-    {"cost", "say what accuracy costs: errors, seconds and memory by order, refinement and tolerance", ost_cli_cost},
-    {"verify", "hold answers against closed forms", ost_cli_verify},
+    {"solve", "solve a case and write its fields for ParaView", ost_cli_solve},
+    {"check", "read a case and its mesh, and report what is wrong with them", ost_cli_check},
+    {"explain", "list the effects that a case calls for, and what it will cost", ost_cli_explain},
+    {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
+     ost_cli_cost},
+    {"verify", "compare answers with closed-form solutions", ost_cli_verify},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -53,7 +54,7 @@ static int run_command(OstContext *ctx, int argc, char **argv)
     return ost_status_exit_code(OST_INVALID_USAGE);
 }
 
-/* How much to say, as a word before the command; or -1. */
+/* The log level that an option before the command stands for; -1 if it is none. */
 static int level_of(const char *word)
 {
     if (is_one_of(word, "-q", "--quiet"))
@@ -61,7 +62,7 @@ static int level_of(const char *word)
     return is_one_of(word, "-v", "--verbose") ? OST_LOG_VERBOSE : -1;
 }
 
-/* Takes those words away; the last one counts. */
+/* Removes these options; the last one counts. */
 static int take_level(int *argc, char ***argv)
 {
     int level = -1;
@@ -74,22 +75,22 @@ static int take_level(int *argc, char ***argv)
     return level < 0 ? OST_LOG_NORMAL : level;
 }
 
-/* One of several ranks says what needs no MPI to be said: Open MPI tells a process its rank before it starts. */
-static int is_speaker(void)
+/* Is this rank 0, or no MPI run? Open MPI sets a process's rank in its environment, before MPI starts. */
+static int prints_before_mpi(void)
 {
     const char *rank = getenv("OMPI_COMM_WORLD_RANK");
     return !rank || strcmp(rank, "0") == 0;
 }
 
-/* Version and help come at once, without waiting for MPI; returns -1 if there is more to do. Ranks that say nothing
- * succeed: mpirun ends the one that speaks as soon as another fails. */
+/* Prints version or help without starting MPI, and returns the exit code; -1 if there is more to do. Ranks that print
+ * nothing return 0: mpirun would kill the one that prints as soon as another fails. */
 static int answer_at_once(int argc, char **argv)
 {
     const int asks_version = argc == 2 && is_one_of(argv[1], "--version", "-V");
     const int asks_help = argc == 2 && is_one_of(argv[1], "--help", "-h");
     if (argc > 1 && !asks_version && !asks_help)
         return -1;
-    if (!is_speaker())
+    if (!prints_before_mpi())
         return 0;
     if (asks_version)
         puts("orthostat " ORTHOSTAT_VERSION);
@@ -98,7 +99,7 @@ static int answer_at_once(int argc, char **argv)
     return argc > 1 ? 0 : ost_status_exit_code(OST_INVALID_USAGE);
 }
 
-/* What was printed may still be lost: a full disk shows when the last of it leaves. Under mpirun a pipe takes it. */
+/* A full disk may only show when the last of the output is flushed. Under mpirun, standard output is a pipe. */
 static int end_with(int exit_code)
 {
     errno = 0;
@@ -126,7 +127,7 @@ int main(int argc, char **argv)
         ost_log_set_level(ctx, (OstLogLevel)level);
         exit_code = run_command(ctx, argc, argv);
     } else {
-        fputs("orthostat: error: no memory for the first few bytes\n", stderr);
+        fputs("orthostat: error: out of memory at the start\n", stderr);
     }
     exit_code = end_with(exit_code);
     ost_context_destroy(&ctx);

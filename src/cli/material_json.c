@@ -2,15 +2,14 @@
 #include "cli/material_report.h"
 
 #include "core/error.h"
+#include "core/json_file.h"
 
-#include <jansson.h>
-#include <math.h>
 #include <stdio.h>
 
 /* An object or array that could not be made becomes NULL, which jansson's setters pass on as failure. */
 static int add_number(json_t *object, const char *key, double value)
 {
-    return json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+    return json_object_set_new(object, key, ost_json_number(value));
 }
 
 static json_t *numbers(int count, const double *values)
@@ -105,10 +104,9 @@ static int fill(json_t *root, const OstMaterialReport *report)
 OstStatus ost_material_report_print_json(OstContext *ctx, const OstMaterialReport *report)
 {
     json_t *root = json_object();
-    const int failed = fill(root, report) || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
-    json_decref(root);
-    if (failed)
-        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made or written");
-    putchar('\n');
-    return OST_SUCCESS;
+    if (fill(root, report)) {
+        json_decref(root);
+        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made");
+    }
+    return ost_json_write(ctx, root, "-");
 }

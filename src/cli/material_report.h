@@ -11,9 +11,9 @@ typedef struct OstMaterialReport {
     double reverse_ratio[3];         /* nu21 nu32 nu13 */
     double block_eigenvalues[3];     /* of the normalised normal block */
     double stiffness_eigenvalues[6]; /* of C */
-    double scale;                    /* all Poisson's ratios may grow by less than this */
+    double scale;                    /* all Poisson's ratios may be multiplied by less than this */
     double low[3], high[3];          /* open range of each of nu12 nu23 nu31 with the others as they are */
-    int turned;                      /* are axes given? The rest is only then filled. */
+    int turned;                      /* were axes given? The rest is filled only then. */
     double axes[9];
     double turned_stiffness[36];
     OstOrthotropic turned_constants; /* Ex Ey Ez, nuxy nuyz nuzx, Gxy Gyz Gzx */

@@ -23,8 +23,7 @@ typedef struct Arguments {
 static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Write the fields here (default: the case's output file)", 0},
     {"json", 'j', "FILE", 0, "Write the summary as JSON here; - for standard output", 0},
-    {"keep", 'k', 0, 0, "Write a result that the solver left unfinished, or that fails a check, too, marked as such",
-     0},
+    {"keep", 'k', 0, 0, "Also write a result that did not converge or that fails a check, marked as such", 0},
     {0},
 };
 
@@ -60,8 +59,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 }
 
 static const struct argp solve_argp = {
-    options, parse_option, "CASE", "Finds the pose of a case at rest and writes its fields for ParaView.",
-    NULL,    NULL,         NULL};
+    options, parse_option, "CASE", "Solves a case and writes its fields for ParaView.", NULL, NULL, NULL};
 
 static OstStatus report_watched(const OstScene *scene, const OstResult *result, const OstWatchedValue *watched,
                                 const Arguments *arguments, const char *file)
@@ -89,7 +87,7 @@ static OstStatus report(const OstScene *scene, const OstResult *result, const Ar
     return status;
 }
 
-/* Writes fields and summary. No file holds numbers that are not finite, whatever was asked for. */
+/* Writes fields and summary. Numbers that are not finite are never written to the file of fields. */
 static OstStatus write_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
                               const char *file)
 {
@@ -99,12 +97,12 @@ static OstStatus write_result(const OstScene *scene, const OstResult *result, co
     return status == OST_SUCCESS ? report(scene, result, arguments, result->checks.finite ? file : NULL) : status;
 }
 
-/* A result that is no answer is written if asked for; the failure it came with stays, unless there is another. */
+/* Writes, with --keep, a result that did not converge or failed a check; still returns that failure. */
 static OstStatus keep_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
                              const char *file, OstStatus failure)
 {
     OstContext *ctx = scene->ctx;
-    if (!result || !result->reached || result->objections.count == 0)
+    if (!result || !result->reached || result->verdict.count == 0)
         return failure;
     char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)];
     snprintf(text, sizeof text, "%s", ost_error_text(ctx));
@@ -125,13 +123,13 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
     if (status == OST_SUCCESS)
         status = ost_choose_output(c, arguments->output, file);
     if (status == OST_SUCCESS)
-        status = ost_check_destinations(c, file, arguments->json);
+        status = ost_check_outputs(c, 2, (const char *const[]){file, arguments->json});
     if (status == OST_SUCCESS)
         status = ost_scene_create(c, &scene);
     if (status == OST_SUCCESS)
         status = ost_watch_check(scene);
     if (status == OST_SUCCESS && !ost_plan_acts(c, &scene->plan))
-        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no given displacement", c->path);
+        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
     if (status == OST_SUCCESS)
         status = ost_scene_solve(scene, &result);
     if (status == OST_SUCCESS)

@@ -3,8 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/destination.h"
-#include "cli/script.h"
-#include "cli/verify_hard.h"
+#include "cli/installed.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -17,11 +16,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LONGEST_PATH = 4096, MOST_CASES = 256 };
+enum { MOST_CASES = 256 };
 
 typedef struct Arguments {
     int quick;
-    int hard;
     const char *json;
     const char *picture;
     int name_count;
@@ -30,8 +28,7 @@ typedef struct Arguments {
 
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
-    {"hard", 'H', 0, 0,
-     "The hard grid instead: what breaks solvers, held against direct solutions; names are of its shapes", 0},
+    {"hard", 'H', 0, OPTION_HIDDEN, 0, 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
     {"picture", 'p', "FOLDER", 0, "Draw error against element size here, as verify.png (and write verify.json)", 0},
     {0},
@@ -45,8 +42,8 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         arguments->quick = 1;
         return 0;
     case 'H':
-        arguments->hard = 1;
-        return 0;
+        argp_error(state, "the hard grid is a study of its own, in the source: scripts/hard-grid");
+        return EINVAL;
     case 'j':
         arguments->json = value;
         return 0;
@@ -69,9 +66,9 @@ static const struct argp verify_argp = {
     options,
     parse_option,
     "[NAME...]",
-    "Holds answers against closed forms: runs the cases of cases/verify, or those named (a name without ending, or the "
-    "path of a case with a verify section), on ever finer meshes.\vThe folder of cases is that of the environment's "
-    "ORTHOSTAT_CASES, else the installed one, else ./cases. Exit status 1 if any case fails.",
+    "Compares answers with closed-form solutions: solves the cases of cases/verify, or those named (a name without "
+    "ending, or the path of a case with a verify section), on ever finer meshes.\vThe folder of cases is "
+    "ORTHOSTAT_CASES of the environment, else the installed one, else ./cases. Exit status 1 if any case fails.",
     NULL,
     NULL,
     NULL};
@@ -80,7 +77,7 @@ static const struct argp verify_argp = {
 
 typedef struct CaseList {
     int count;
-    char (*path)[LONGEST_PATH];
+    char (*path)[OST_LONGEST_PATH];
 } CaseList;
 
 static int is_case(const struct dirent *entry)
@@ -102,18 +99,18 @@ static OstStatus list_folder(OstContext *ctx, const char *folder, CaseList *list
         status = OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
     for (int i = 0; i < count; i++) {
         if (status == OST_SUCCESS)
-            snprintf(list->path[list->count++], LONGEST_PATH, "%.3000s/%.1000s", folder, entries[i]->d_name);
+            snprintf(list->path[list->count++], OST_LONGEST_PATH, "%.3000s/%.1000s", folder, entries[i]->d_name);
         free(entries[i]);
     }
     free(entries);
     return status;
 }
 
-/* A name that no case of the folder has is answered with those there are. */
+/* Refuses the name of a case that does not exist, and lists those that do. */
 static OstStatus check_name(OstContext *ctx, const char *folder, const char *name, const char *path)
 {
     struct dirent **entries = NULL;
-    char names[LONGEST_PATH] = "";
+    char names[OST_LONGEST_PATH] = "";
     size_t length = 0;
     if (access(path, F_OK) == 0)
         return OST_SUCCESS;
@@ -132,8 +129,8 @@ static OstStatus check_name(OstContext *ctx, const char *folder, const char *nam
 
 static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
 {
-    char folder[LONGEST_PATH];
-    char cases[LONGEST_PATH - 16];
+    char folder[OST_LONGEST_PATH];
+    char cases[OST_LONGEST_PATH - 16];
     ost_cli_cases_folder(cases, sizeof cases);
     snprintf(folder, sizeof folder, "%s/verify", cases);
     if (arguments->name_count == 0)
@@ -143,16 +140,16 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
         const int is_path = strchr(name, '/') != NULL || strstr(name, ".yaml") != NULL;
         char *path = list->path[list->count++];
         if (is_path)
-            snprintf(path, LONGEST_PATH, "%s", name);
+            snprintf(path, OST_LONGEST_PATH, "%s", name);
         else
-            snprintf(path, LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
+            snprintf(path, OST_LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
         if (!is_path)
             OST_TRY(check_name(ctx, folder, name, path));
     }
     return OST_SUCCESS;
 }
 
-/* Rank 0 looks, all are told. */
+/* Rank 0 looks and tells the others. */
 static OstStatus find_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
 {
     OstStatus status = OST_NEW(ctx, &list->path, MOST_CASES);
@@ -160,23 +157,23 @@ static OstStatus find_cases(OstContext *ctx, const Arguments *arguments, CaseLis
         status = list_cases(ctx, arguments, list);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(OST_MPI(ctx, MPI_Bcast(&list->count, 1, MPI_INT, 0, ost_comm(ctx))));
-    return OST_MPI(ctx, MPI_Bcast(list->path, list->count * LONGEST_PATH, MPI_CHAR, 0, ost_comm(ctx)));
+    return OST_MPI(ctx, MPI_Bcast(list->path, list->count * OST_LONGEST_PATH, MPI_CHAR, 0, ost_comm(ctx)));
 }
 
-/* --- where it goes --- */
+/* --- where reports go --- */
 
 /* The files in the folder of the picture. */
 typedef struct PicturePaths {
-    char readings[LONGEST_PATH];
-    char picture[LONGEST_PATH];
+    char readings[OST_LONGEST_PATH];
+    char picture[OST_LONGEST_PATH];
 } PicturePaths;
 
 static OstStatus name_picture(OstContext *ctx, const char *folder, PicturePaths *paths)
 {
-    const int length = snprintf(paths->readings, LONGEST_PATH, "%s/verify.json", folder);
-    if (length < 0 || length >= LONGEST_PATH)
+    const int length = snprintf(paths->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
+    if (length < 0 || length >= OST_LONGEST_PATH)
         return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
-    snprintf(paths->picture, LONGEST_PATH, "%.4000s/verify.png", folder);
+    snprintf(paths->picture, OST_LONGEST_PATH, "%.4000s/verify.png", folder);
     return OST_SUCCESS;
 }
 
@@ -192,13 +189,13 @@ static OstStatus check_case_is_safe(OstContext *ctx, const char *case_path, int 
     OstCase *c = NULL;
     OstStatus status = ost_case_read(ctx, case_path, &c);
     if (status == OST_SUCCESS)
-        status = ost_check_reports(c, count, paths);
+        status = ost_check_outputs(c, count, paths);
     ost_case_destroy(&c);
     return status;
 }
 
-/* Before anything runs: what is asked for can be written, over none of the cases. The readings beside the picture may
- * be those of --json. */
+/* Checked before anything runs. No report may replace a case; the readings beside the picture may be the file of
+ * --json. */
 static OstStatus check_destinations(OstContext *ctx, const Arguments *arguments, const CaseList *list)
 {
     PicturePaths beside;
@@ -214,7 +211,7 @@ static OstStatus check_destinations(OstContext *ctx, const Arguments *arguments,
     return OST_SUCCESS;
 }
 
-/* --- what becomes of them --- */
+/* --- the runs --- */
 
 static OstStatus draw(OstContext *ctx, int count, OstVerifyReport *const *reports, const Arguments *arguments)
 {
@@ -262,20 +259,12 @@ static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_pa
     return status;
 }
 
-static OstStatus verify_hard(OstContext *ctx, const Arguments *arguments, int *passed)
-{
-    const OstHardArguments hard = {arguments->quick, arguments->json, arguments->picture, arguments->name_count,
-                                   arguments->name};
-    return ost_cli_verify_hard(ctx, &hard, passed);
-}
-
 int ost_cli_verify(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {0};
     int exit_code = 0, all_passed = 0;
     if (!ost_cli_parse(ctx, &verify_argp, argc, argv, &arguments, &exit_code))
         return exit_code;
-    exit_code = ost_cli_finish(ctx, arguments.hard ? verify_hard(ctx, &arguments, &all_passed)
-                                                   : verify(ctx, &arguments, &all_passed));
+    exit_code = ost_cli_finish(ctx, verify(ctx, &arguments, &all_passed));
     return exit_code == 0 && !all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
 
-#include "core/error.h"
-
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

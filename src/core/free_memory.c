@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,9 @@ static double number_in(const char *path, const char *key)
     return found;
 }
 
+static const char group_limit[] = "/sys/fs/cgroup/memory.max";
+static const char older_group_limit[] = "/sys/fs/cgroup/memory/memory.limit_in_bytes";
+
 /* What a control group (a container, a job of a batch system) has left; the cache of files it read is given back. */
 static double left_in_group(const char *most, const char *used, const char *statistics, const char *cache)
 {
@@ -40,11 +44,10 @@ static double left_in_group(const char *most, const char *used, const char *stat
 static double free_here(void)
 {
     const double machine = 1024.0 * number_in("/proc/meminfo", "MemAvailable:");
-    const double group = left_in_group("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current",
-                                       "/sys/fs/cgroup/memory.stat", "inactive_file ");
-    const double older =
-        left_in_group("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
-                      "/sys/fs/cgroup/memory/memory.stat", "total_inactive_file ");
+    const double group =
+        left_in_group(group_limit, "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "inactive_file ");
+    const double older = left_in_group(older_group_limit, "/sys/fs/cgroup/memory/memory.usage_in_bytes",
+                                       "/sys/fs/cgroup/memory/memory.stat", "total_inactive_file ");
     return fmax(fmin(machine, fmin(group, older)), 0.0);
 }
 
@@ -80,14 +83,32 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
     return OST_SUCCESS;
 }
 
-OstStatus ost_memory_free(OstContext *ctx, double *bytes)
+/* Adds up what every machine has, each counted once. */
+static OstStatus sum_machines(OstContext *ctx, double (*of_machine)(void), double *bytes)
 {
     MPI_Comm machine;
     int rank = 0;
     OST_TRY(share_machine(ctx, &machine, &rank));
     MPI_Comm_free(&machine);
-    *bytes = rank == 0 ? free_here() : 0.0;
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, bytes, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+    *bytes = rank == 0 ? of_machine() : 0.0;
+    return ost_sum(ctx, 1, bytes);
+}
+
+OstStatus ost_memory_free(OstContext *ctx, double *bytes)
+{
+    return sum_machines(ctx, free_here, bytes);
+}
+
+/* A container may be given less than its machine has. */
+static double installed_here(void)
+{
+    const double machine = 1024.0 * number_in("/proc/meminfo", "MemTotal:");
+    return fmin(machine, fmin(number_in(group_limit, NULL), number_in(older_group_limit, NULL)));
+}
+
+OstStatus ost_memory_installed(OstContext *ctx, double *bytes)
+{
+    return sum_machines(ctx, installed_here, bytes);
 }
 
 OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who)

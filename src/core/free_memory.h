@@ -15,6 +15,10 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
 /* Collective. What all machines of the ranks have free, each counted once. */
 OstStatus ost_memory_free(OstContext *ctx, double *bytes);
 
+/* Collective. What all machines of the ranks have, or their containers allow, each counted once; INFINITY where nothing
+ * tells. */
+OstStatus ost_memory_installed(OstContext *ctx, double *bytes);
+
 /* Collective. Raises OST_OUT_OF_MEMORY where a rank cannot have `bytes` more: asked before a library is called that
  * would end the process. `who` wants them. */
 OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who);

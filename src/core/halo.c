@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 
 #include <limits.h>
 #include <string.h>
@@ -38,30 +39,15 @@ void ost_halo_destroy(OstHalo **halo)
     OST_FREE(*halo);
 }
 
-/* Which rank owns a number, given the first number of each rank (size + 1 entries). */
-static int owner_of(const OstGlobal *first, int size, OstGlobal number)
-{
-    int low = 0;
-    int high = size;
-    while (high - low > 1) {
-        const int middle = (low + high) / 2;
-        if (first[middle] <= number)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static OstStatus check_ghosts(OstContext *ctx, const OstGlobal *first, OstLocal ghosts, const OstGlobal *ghost_number,
+static OstStatus check_ghosts(OstContext *ctx, const OstGlobal *end, OstLocal ghosts, const OstGlobal *ghost_number,
                               int *receive_count)
 {
     int last_owner = -1;
     for (OstLocal g = 0; g < ghosts; g++) {
         const OstGlobal number = ghost_number[g];
-        if (number < 0 || number >= first[ost_size(ctx)])
+        if (number < 0 || number >= end[ost_size(ctx) - 1])
             return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: no rank owns entry %lld", (long long)number);
-        const int owner = owner_of(first, ost_size(ctx), number);
+        const int owner = ost_number_holder(end, ost_size(ctx), number);
         if (owner == ost_rank(ctx) || owner < last_owner)
             return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: copy %d (entry %lld) is not grouped by owner", g,
                              (long long)number);
@@ -123,14 +109,14 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
                           const OstGlobal *ghost_number, OstHalo **halo)
 {
     const int size = ost_size(ctx);
-    OstGlobal *first = NULL;
+    OstGlobal *end = NULL;
     int *send_count = NULL;
     int *receive_count = NULL;
     OstHalo *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     *halo = NULL;
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &first, size + 1);
+        status = OST_NEW(ctx, &end, size);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &send_count, size);
     if (status == OST_SUCCESS)
@@ -139,17 +125,14 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     made->ctx = ctx;
     made->owned = owned;
     made->ghosts = ghosts;
-    const OstGlobal end = first_number + owned;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&first_number, 1, MPI_INT64_T, first, 1, MPI_INT64_T, ost_comm(ctx))));
-    first[size] = end;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&first[size], 1, MPI_INT64_T, size - 1, ost_comm(ctx))));
-    OST_TRY_DONE(ost_agree(ctx, check_ghosts(ctx, first, ghosts, ghost_number, receive_count)));
+    OST_TRY_DONE(ost_number_ends(ctx, first_number + owned, end));
+    OST_TRY_DONE(ost_agree(ctx, check_ghosts(ctx, end, ghosts, ghost_number, receive_count)));
     OST_TRY_DONE(OST_MPI(ctx, MPI_Alltoall(receive_count, 1, MPI_INT, send_count, 1, MPI_INT, ost_comm(ctx))));
     OST_TRY_DONE(ost_agree(ctx, make_lists(made, send_count, receive_count)));
     OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
     OST_TRY_DONE(ost_agree(ctx, reserve_buffer(made)));
 done:
-    OST_FREE(first);
+    OST_FREE(end);
     OST_FREE(send_count);
     OST_FREE(receive_count);
     if (status != OST_SUCCESS)

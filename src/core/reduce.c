@@ -42,13 +42,3 @@ OstStatus ost_max_ints(OstContext *ctx, int count, int *numbers)
 {
     return reduce(ctx, count, numbers, MPI_INT, MPI_MAX);
 }
-
-OstStatus ost_number_from(OstContext *ctx, OstGlobal count, OstGlobal *first, OstGlobal *total)
-{
-    *first = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&count, first, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    if (ost_rank(ctx) == 0) /* MPI leaves it undefined there */
-        *first = 0;
-    *total = count;
-    return ost_sum_numbers(ctx, 1, total);
-}

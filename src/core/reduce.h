@@ -13,8 +13,4 @@ OstStatus ost_max_numbers(OstContext *ctx, int count, OstGlobal *numbers);
 OstStatus ost_min_numbers(OstContext *ctx, int count, OstGlobal *numbers);
 OstStatus ost_max_ints(OstContext *ctx, int count, int *numbers);
 
-/* Collective. Of things counted on every rank: the number of the first one here (how many the ranks before have), and
- * how many there are in all. */
-OstStatus ost_number_from(OstContext *ctx, OstGlobal count, OstGlobal *first, OstGlobal *total);
-
 #endif

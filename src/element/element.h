@@ -23,6 +23,7 @@ typedef struct OstMeans {
 typedef struct OstElement {
     int nodes;
     int nodes_per_face;
+    int linear; /* are the forces linear in the displacements? */
 
     /* Quadrature points at which C is wanted if it varies within the tets (3 numbers a point). None if it is not. */
     int points;

@@ -433,6 +433,7 @@ static void tet10_node_areas(const double *x, double *areas, double *area_vector
 const OstElement ost_tet10 = {
     .nodes = NODES,
     .nodes_per_face = 6,
+    .linear = 1,
     .points = POINTS,
     .places = tet10_places,
     .stiffness = tet10_stiffness,

@@ -253,6 +253,7 @@ static void tet4_node_areas(const double *x, double *areas, double *area_vectors
 const OstElement ost_tet4 = {
     .nodes = 4,
     .nodes_per_face = 3,
+    .linear = 1,
     .stiffness = tet4_stiffness,
     .force = tet4_force,
     .magnitude = tet4_magnitude,

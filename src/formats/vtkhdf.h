@@ -26,13 +26,8 @@ typedef struct OstOutputMark {
     char *const *reasons;
 } OstOutputMark;
 
-/* Letters of a path to write. Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does
- * not look whether they fit. */
-enum { OST_VTKHDF_LONGEST_PATH = 192 };
-
 /* Collective. Writes a VTKHDF 1.0 UnstructuredGrid, one piece per rank (its owned tets and their nodes), in parallel.
- * The file appears under its name only when complete: it is written beside it and renamed; on failure what was there
- * stays. `mark` is NULL for an answer. Labels, region names and boundaries go along, so that the file can be read back
+ * The file appears under its name only when complete (core/write_aside.h); on failure what was there stays. `mark` is NULL for an answer. Labels, region names and boundaries go along, so that the file can be read back
  * as a mesh. Every array's values must be finite. */
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
                            const OstOutputArray *arrays, const OstOutputMark *mark);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "formats/vtkhdf_match.h"
 
 static const char region_names[] = "/Orthostat/RegionNames";
@@ -213,10 +214,10 @@ static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t
     OST_TRY_DONE(ost_agree(h5->ctx, status));
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         value[i] = chunk->first_node + i;
-        pool[i].word[0] = (uint64_t)(chunk->node_label ? chunk->node_label[i] : value[i] + 1);
+        pool[i].word[0] = chunk->node_label ? chunk->node_label[i] : value[i] + 1;
     }
     for (size_t i = 0; i < count; i++)
-        query[i].word[0] = (uint64_t)items[i];
+        query[i].word[0] = items[i];
     OST_TRY_DONE(ost_match_keys(h5->ctx, chunk->node_count, pool, value, (OstLocal)count, query, number));
 done:
     OST_FREE(pool);
@@ -252,7 +253,7 @@ OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
     OstLocal count = 0;
     int width = 0;
     int found = ost_hdf5_has(h5, boundary_names);
-    OST_TRY(OST_MPI(h5->ctx, MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, ost_comm(h5->ctx))));
+    OST_TRY(ost_max_ints(h5->ctx, 1, &found));
     if (!found)
         return OST_SUCCESS;
     OstStatus status = read_kinds(h5, chunk);

@@ -2,6 +2,9 @@
 #include "formats/vtkhdf_hdf5.h"
 
 #include "core/error.h"
+#include "core/memory.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,12 +18,9 @@ static const size_t default_block_bytes = (size_t)1 << 30;
 OstStatus ost_rows_create(OstContext *ctx, OstGlobal count, OstRows *rows)
 {
     *rows = (OstRows){.count = count};
-    MPI_Comm comm = ost_comm(ctx);
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&count, &rows->first, 1, MPI_INT64_T, MPI_SUM, comm)));
-    if (ost_rank(ctx) == 0) /* MPI leaves it undefined there */
-        rows->first = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&count, &rows->total, 1, MPI_INT64_T, MPI_SUM, comm)));
-    return OST_MPI(ctx, MPI_Allreduce(&count, &rows->most, 1, MPI_INT64_T, MPI_MAX, comm));
+    rows->most = count;
+    OST_TRY(ost_number_from(ctx, count, &rows->first, &rows->total));
+    return ost_max_numbers(ctx, 1, &rows->most);
 }
 
 /* The first entry of a walk upward is the innermost function's. */
@@ -40,12 +40,17 @@ OstStatus ost_hdf5_raise(const OstHdf5 *h5, const char *action, const char *name
                      reason);
 }
 
+/* Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does not look whether they fit.
+ */
+enum { LONGEST_MPI_PATH = 192 };
+
 /* Nothing is open, and HDF5 keeps quiet. */
 static void begin(OstContext *ctx, const char *path, OstHdf5 *h5)
 {
     *h5 = (OstHdf5){.ctx = ctx,
                     .path = path,
                     .file = H5I_INVALID_HID,
+                    .folder = -1,
                     .transfer = H5P_DEFAULT,
                     .links = H5P_DEFAULT,
                     .block_bytes = default_block_bytes};
@@ -75,16 +80,38 @@ static OstStatus prepare_transfers(OstHdf5 *h5)
     return OST_SUCCESS;
 }
 
+/* The path for MPI: a long one goes through the open folder. */
+static OstStatus shorten_path(OstHdf5 *h5, char path[LONGEST_MPI_PATH + 1])
+{
+    const char *slash = strrchr(h5->path, '/');
+    char *folder = NULL;
+    if (strlen(h5->path) <= LONGEST_MPI_PATH) {
+        strcpy(path, h5->path);
+        return OST_SUCCESS;
+    }
+    if (!slash || strlen(slash) > LONGEST_MPI_PATH - 32)
+        return OST_RAISE(h5->ctx, OST_FILE_FAILED, "%s: the file's name is too long for MPI", h5->path);
+    OST_TRY(ost_copy_string(h5->ctx, h5->path, &folder));
+    folder[slash - h5->path] = 0;
+    h5->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    OST_FREE(folder);
+    if (h5->folder < 0)
+        return OST_RAISE(h5->ctx, OST_FILE_FAILED, "%s: the folder could not be opened: %s", h5->path, strerror(errno));
+    snprintf(path, LONGEST_MPI_PATH + 1, "/proc/self/fd/%d%s", h5->folder, slash);
+    return OST_SUCCESS;
+}
+
 static OstStatus create_together(OstHdf5 *h5)
 {
-    OstStatus status = OST_SUCCESS;
+    char path[LONGEST_MPI_PATH + 1];
+    OstStatus status = shorten_path(h5, path);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    if (access < 0 || H5Pset_fapl_mpio(access, ost_comm(h5->ctx), MPI_INFO_NULL) < 0 ||
-        H5Pset_coll_metadata_write(access, 1) < 0)
+    if (status == OST_SUCCESS && (access < 0 || H5Pset_fapl_mpio(access, ost_comm(h5->ctx), MPI_INFO_NULL) < 0 ||
+                                  H5Pset_coll_metadata_write(access, 1) < 0))
         status = ost_hdf5_raise(h5, "prepare parallel access", "");
     status = ost_agree(h5->ctx, status);
     if (status == OST_SUCCESS) {
-        h5->file = H5Fcreate(h5->path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        h5->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
         status = ost_agree(h5->ctx, h5->file < 0 ? ost_hdf5_raise(h5, "create the file", "") : OST_SUCCESS);
     }
     if (access >= 0)
@@ -120,7 +147,10 @@ OstStatus ost_hdf5_close(OstHdf5 *h5)
         H5Pclose(h5->links);
     if (h5->file >= 0 && H5Fclose(h5->file) < 0)
         status = ost_hdf5_raise(h5, "finish the file", "");
+    if (h5->folder >= 0)
+        close(h5->folder);
     h5->file = H5I_INVALID_HID;
+    h5->folder = -1;
     H5Eset_auto2(H5E_DEFAULT, h5->printer, h5->printer_data);
     return status;
 }

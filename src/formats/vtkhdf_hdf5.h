@@ -13,6 +13,7 @@ typedef struct OstHdf5 {
     OstContext *ctx;
     const char *path; /* for messages; not owned */
     hid_t file;
+    int folder;         /* descriptor of the file's folder where its path is long, or -1 */
     hid_t transfer;     /* how rows are moved: together, or each rank alone */
     hid_t links;        /* make the groups on the way to a dataset */
     size_t block_bytes; /* a rank moves no more than this at once: MPI counts bytes in 32 bits */

@@ -7,8 +7,10 @@
 /* Finds equal keys on different ranks. Keys meet on the rank their hash names, so none ever holds them all. */
 
 /* Four words that are compared bit by bit: a label, a point's coordinates, ... */
+enum { OST_KEY_WORDS = 4 };
+
 typedef struct OstKey {
-    uint64_t word[4];
+    OstGlobal word[OST_KEY_WORDS];
 } OstKey;
 
 /* Collective. Every rank puts in `pool_count` keys with a value each (0 or more), and asks for `query_count` keys: each

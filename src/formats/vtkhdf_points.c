@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/sort.h"
+#include "core/number_set.h"
 #include "formats/vtkhdf_match.h"
 
 #include <stdlib.h>
@@ -15,14 +15,14 @@ typedef enum { PLACE = 1, PIECE = 2, PLACE_AND_LABEL = 4 } Likeness;
 /* Work arrays of a merge, one entry a point of this rank's share. */
 typedef struct Merge {
     const OstHdf5 *h5;
-    OstPoints *points;
+    OstFilePoints *points;
     OstKey *key;
     OstGlobal *self;  /* number in the file */
     OstGlobal *like;  /* the first point of the file that is like it */
     OstGlobal *chief; /* the first point of the file that is the same node */
 } Merge;
 
-void ost_points_free(OstPoints *points)
+void ost_file_points_free(OstFilePoints *points)
 {
     OST_FREE(points->piece_start);
     OST_FREE(points->coordinates);
@@ -30,7 +30,7 @@ void ost_points_free(OstPoints *points)
     OST_FREE(points->node);
 }
 
-static OstGlobal piece_of(const OstPoints *points, OstGlobal point)
+static OstGlobal piece_of(const OstFilePoints *points, OstGlobal point)
 {
     OstGlobal low = 0, high = points->piece_count;
     while (high - low > 1) {
@@ -46,7 +46,7 @@ static OstGlobal piece_of(const OstPoints *points, OstGlobal point)
 /* Keys of the points: label or place, and on top of that the piece, or the place. */
 static void fill_keys(Merge *merge, Likeness likeness)
 {
-    const OstPoints *points = merge->points;
+    const OstFilePoints *points = merge->points;
     for (OstLocal i = 0; i < points->count; i++) {
         OstKey *key = &merge->key[i];
         *key = (OstKey){{0}};
@@ -56,12 +56,12 @@ static void fill_keys(Merge *merge, Likeness likeness)
                 place[k] = points->coordinates[3 * (size_t)i + (size_t)k] + 0.0; /* -0 becomes 0 */
             memcpy(key->word, place, sizeof place);
             if (points->label)
-                key->word[3] = (uint64_t)points->label[i];
+                key->word[3] = points->label[i];
         } else {
-            key->word[0] = (uint64_t)points->label[i];
+            key->word[0] = points->label[i];
         }
         if (likeness == PIECE)
-            key->word[3] = (uint64_t)piece_of(points, merge->self[i]);
+            key->word[3] = piece_of(points, merge->self[i]);
     }
 }
 
@@ -74,7 +74,7 @@ static OstStatus match(Merge *merge, Likeness likeness, OstGlobal *answer)
 
 static OstStatus raise_twin(const Merge *merge, OstLocal i)
 {
-    const OstPoints *points = merge->points;
+    const OstFilePoints *points = merge->points;
     const long long a = merge->like[i], b = merge->self[i];
     const long long piece = piece_of(points, b);
     if (points->label)
@@ -129,7 +129,7 @@ static OstStatus find_chiefs(Merge *merge)
 /* The chunk's nodes are the chiefs of this rank's share. */
 static OstStatus take_nodes(const Merge *merge, OstMeshChunk *chunk)
 {
-    const OstPoints *points = merge->points;
+    const OstFilePoints *points = merge->points;
     OstLocal n = 0;
     for (OstLocal i = 0; i < points->count; i++)
         n += merge->chief[i] == merge->self[i];
@@ -150,20 +150,20 @@ static OstStatus take_nodes(const Merge *merge, OstMeshChunk *chunk)
 /* Chiefs have their numbers; the other points ask for their chief's. */
 static OstStatus number_points(Merge *merge, const OstMeshChunk *chunk)
 {
-    OstPoints *points = merge->points;
+    OstFilePoints *points = merge->points;
     OstLocal pool = 0;
     for (OstLocal i = 0; i < points->count; i++)
         if (merge->chief[i] == merge->self[i]) {
             points->node[i] = chunk->first_node + pool;
             merge->like[pool] = points->node[i];
-            merge->key[pool++] = (OstKey){{(uint64_t)merge->self[i]}};
+            merge->key[pool++] = (OstKey){{merge->self[i]}};
         }
     if (points->piece_count == 1)
         return OST_SUCCESS;
     OstKey *query = NULL;
     OstStatus status = ost_agree(merge->h5->ctx, OST_NEW(merge->h5->ctx, &query, points->count));
     for (OstLocal i = 0; status == OST_SUCCESS && i < points->count; i++)
-        query[i].word[0] = (uint64_t)merge->chief[i];
+        query[i].word[0] = merge->chief[i];
     if (status == OST_SUCCESS)
         status = ost_match_keys(merge->h5->ctx, pool, merge->key, merge->like, points->count, query, points->node);
     OST_FREE(query);
@@ -183,7 +183,7 @@ static OstStatus allocate_merge(OstContext *ctx, Merge *merge)
     return OST_SUCCESS;
 }
 
-OstStatus ost_points_merge(const OstHdf5 *h5, OstPoints *points, OstMeshChunk *chunk)
+OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMeshChunk *chunk)
 {
     OstContext *ctx = h5->ctx;
     Merge merge = {.h5 = h5, .points = points};
@@ -206,70 +206,48 @@ done:
 
 /* --- from points to nodes --- */
 
-static int is_mine(const OstPoints *points, OstGlobal point)
+static int is_mine(const OstFilePoints *points, OstGlobal point)
 {
     return point >= points->first && point < points->first + points->count;
 }
 
-/* The points of others among `point`, sorted, each once. */
-static OstStatus list_others(OstContext *ctx, const OstPoints *points, size_t count, const OstGlobal *point,
-                             OstLocal *others, OstGlobal **list)
-{
-    size_t n = 0, unique = 0;
-    for (size_t i = 0; i < count; i++)
-        n += !is_mine(points, point[i]);
-    OST_TRY(OST_NEW(ctx, list, n));
-    n = 0;
-    for (size_t i = 0; i < count; i++)
-        if (!is_mine(points, point[i]))
-            (*list)[n++] = point[i];
-    ost_sort_numbers(n, *list);
-    for (size_t i = 0; i < n; i++)
-        if (i == 0 || (*list)[i] != (*list)[i - 1])
-            (*list)[unique++] = (*list)[i];
-    if (unique > INT32_MAX)
-        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "a rank's tets use %zu points, more than 2^31 - 1; use more ranks",
-                         unique);
-    *others = (OstLocal)unique;
-    return OST_SUCCESS;
-}
-
-static void fill_number_keys(const OstPoints *points, OstKey *pool, OstLocal others, const OstGlobal *list,
-                             OstKey *query)
+static void fill_number_keys(const OstFilePoints *points, OstKey *pool, const OstNumberSet *others, OstKey *query)
 {
     for (OstLocal i = 0; i < points->count; i++)
-        pool[i].word[0] = (uint64_t)(points->first + i);
-    for (OstLocal i = 0; i < others; i++)
-        query[i].word[0] = (uint64_t)list[i];
+        pool[i].word[0] = points->first + i;
+    for (OstLocal i = 0; i < others->count; i++)
+        query[i].word[0] = others->number[i];
 }
 
-OstStatus ost_points_to_nodes(OstContext *ctx, const OstPoints *points, size_t count, OstGlobal *point)
+OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points, size_t count, OstGlobal *point)
 {
-    OstGlobal *list = NULL, *node = NULL;
+    OstNumberSet others = {0};
+    OstGlobal *node = NULL;
     OstKey *pool = NULL, *query = NULL;
-    OstLocal others = 0;
-    OstStatus status = list_others(ctx, points, count, point, &others, &list);
+    OstStatus status = OST_SUCCESS;
+    for (size_t i = 0; i < count && status == OST_SUCCESS; i++)
+        if (!is_mine(points, point[i]))
+            status = ost_number_set_add(ctx, &others, point[i]);
+    ost_number_set_close(&others);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &node, others);
+        status = OST_NEW(ctx, &node, others.count);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &pool, ost_size(ctx) > 1 ? points->count : 0);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &query, others);
+        status = OST_NEW(ctx, &query, others.count);
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_size(ctx) > 1) {
-        fill_number_keys(points, pool, others, list, query);
-        OST_TRY_DONE(ost_match_keys(ctx, points->count, pool, points->node, others, query, node));
+        fill_number_keys(points, pool, &others, query);
+        OST_TRY_DONE(ost_match_keys(ctx, points->count, pool, points->node, others.count, query, node));
     }
     for (size_t i = 0; i < count; i++) {
-        if (is_mine(points, point[i])) {
+        if (is_mine(points, point[i]))
             point[i] = points->node[point[i] - points->first];
-        } else {
-            const OstGlobal *at = bsearch(&point[i], list, (size_t)others, sizeof *list, ost_compare_numbers);
-            point[i] = node[at - list];
-        }
+        else
+            point[i] = node[ost_numbers_find(others.count, others.number, point[i])];
     }
 done:
-    OST_FREE(list);
+    ost_number_set_clear(&others);
     OST_FREE(node);
     OST_FREE(pool);
     OST_FREE(query);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "formats/vtkhdf_groups.h"
 #include "formats/vtkhdf_points.h"
 #include "formats/vtkhdf_rehearsal.h"
@@ -15,7 +16,7 @@ enum { VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
 /* What is known of a file while it is read. Every rank reads its own share of points and tets. */
 typedef struct Reader {
     OstHdf5 h5;
-    OstPoints points;
+    OstFilePoints points;
     OstGlobal *tet_start; /* points.piece_count + 1: first tet of each piece */
     OstMeshChunk *chunk;
 } Reader;
@@ -72,7 +73,7 @@ static OstStatus take_share(const OstHdf5 *h5, const char *what, OstGlobal total
 static OstStatus read_counts(Reader *reader)
 {
     const OstHdf5 *h5 = &reader->h5;
-    OstPoints *points = &reader->points;
+    OstFilePoints *points = &reader->points;
     OstMeshChunk *chunk = reader->chunk;
     int components = 0;
     OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/NumberOfPoints", &points->piece_count, &components));
@@ -89,7 +90,7 @@ static OstStatus read_counts(Reader *reader)
 static OstStatus read_points(Reader *reader)
 {
     const OstHdf5 *h5 = &reader->h5;
-    OstPoints *points = &reader->points;
+    OstFilePoints *points = &reader->points;
     static const char labels[] = "/VTKHDF/PointData/vertex";
     OstGlobal rows = 0;
     int components = 0;
@@ -143,7 +144,7 @@ static OstStatus agree_on_kind(Reader *reader)
 {
     OstMeshChunk *chunk = reader->chunk;
     int range[2] = {chunk->tet_count > 0 ? -chunk->nodes_per_tet : -INT32_MAX, chunk->nodes_per_tet};
-    OST_TRY(OST_MPI(chunk->ctx, MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_INT, MPI_MAX, ost_comm(chunk->ctx))));
+    OST_TRY(ost_max_ints(chunk->ctx, 2, range));
     chunk->nodes_per_tet = range[1];
     if (-range[0] != range[1])
         return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: tets of %d and of %d nodes are mixed; expected one kind",
@@ -202,7 +203,7 @@ static OstStatus read_offsets(const Reader *reader)
 static OstStatus read_connectivity(Reader *reader)
 {
     OstMeshChunk *chunk = reader->chunk;
-    const OstPoints *points = &reader->points;
+    const OstFilePoints *points = &reader->points;
     const OstGlobal n = chunk->nodes_per_tet;
     OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_nodes, n * chunk->tet_count));
     OST_TRY(ost_hdf5_read_rows(&reader->h5, "/VTKHDF/Connectivity", H5T_NATIVE_INT64, 1, n * chunk->global_tets,
@@ -318,17 +319,17 @@ OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chun
     OST_TRY_DONE(ost_agree(ctx, open_and_look(ctx, path, &reader)));
     OST_TRY_DONE(agree_on_kind(&reader));
     OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));
-    OST_TRY_DONE(ost_points_merge(&reader.h5, &reader.points, reader.chunk));
-    OST_TRY_DONE(ost_points_to_nodes(ctx, &reader.points,
-                                     (size_t)reader.chunk->tet_count * (size_t)reader.chunk->nodes_per_tet,
-                                     reader.chunk->tet_nodes));
+    OST_TRY_DONE(ost_file_points_merge(&reader.h5, &reader.points, reader.chunk));
+    OST_TRY_DONE(ost_file_points_to_nodes(ctx, &reader.points,
+                                          (size_t)reader.chunk->tet_count * (size_t)reader.chunk->nodes_per_tet,
+                                          reader.chunk->tet_nodes));
     OST_TRY_DONE(ost_groups_read_boundaries(&reader.h5, reader.chunk));
     *chunk = reader.chunk;
     reader.chunk = NULL;
 done:
     if (reader.h5.ctx)
         ost_hdf5_close(&reader.h5);
-    ost_points_free(&reader.points);
+    ost_file_points_free(&reader.points);
     OST_FREE(reader.tet_start);
     if (reader.chunk)
         ost_chunk_destroy(&reader.chunk);

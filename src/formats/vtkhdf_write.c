@@ -2,12 +2,12 @@
 #include "formats/vtkhdf.h"
 
 #include "core/error.h"
-#include "core/memory.h"
+#include "core/reduce.h"
+#include "core/write_aside.h"
 #include "formats/disk_space.h"
 #include "formats/vtkhdf_groups.h"
 #include "formats/vtkhdf_piece.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -165,70 +165,44 @@ static OstStatus find_bytes(const OstMesh *mesh, int count, const OstOutputArray
 {
     static const double for_hdf5 = 1 << 18; /* measured: 30 kB */
     double sum = piece_bytes(mesh, count, arrays);
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
+    OST_TRY(ost_sum(mesh->ctx, 1, &sum));
     *bytes = (OstGlobal)(sum + for_hdf5);
     return OST_SUCCESS;
 }
 
 /* A full disk is found before HDF5 has anything to write, and the room is kept for as long as it writes. */
-static OstStatus write_file(const char *path, OstPiece *piece, int count, const OstOutputArray *arrays,
+static OstStatus write_file(const OstAside *aside, OstPiece *piece, int count, const OstOutputArray *arrays,
                             const OstOutputMark *mark)
 {
+    OstContext *ctx = piece->mesh->ctx;
     OstHdf5 h5;
     OstGlobal bytes = 0;
     OST_TRY(find_bytes(piece->mesh, count, arrays, &bytes));
-    OST_TRY(ost_disk_space_check(piece->mesh->ctx, path, bytes));
-    OstStatus status = ost_hdf5_create(piece->mesh->ctx, path, &h5);
+    OST_TRY(ost_disk_space_check(ctx, aside, bytes));
+    OstStatus status = ost_hdf5_create(ctx, aside->aside, &h5);
     if (status == OST_SUCCESS)
-        status = ost_disk_space_keep(piece->mesh->ctx, path, bytes);
+        status = ost_disk_space_keep(ctx, aside, bytes);
     if (status == OST_SUCCESS)
         status = write_contents(&h5, piece, count, arrays, mark);
     const OstStatus closed = ost_hdf5_close(&h5);
-    return ost_agree(piece->mesh->ctx, status != OST_SUCCESS ? status : closed);
-}
-
-/* Rank 0 gives the finished file its name, or removes what there is of it. */
-static OstStatus finish_file(OstContext *ctx, const char *partial, const char *path, OstStatus written)
-{
-    OstStatus status = written;
-    if (ost_rank(ctx) == 0) {
-        if (status == OST_SUCCESS && rename(partial, path) != 0)
-            status = OST_RAISE(ctx, OST_FILE_FAILED, "%s: the finished file could not be given this name: %s", path,
-                               strerror(errno));
-        if (status != OST_SUCCESS)
-            remove(partial);
-    }
-    return ost_agree(ctx, status);
-}
-
-static OstStatus name_partial(OstContext *ctx, const char *path, char **partial)
-{
-    const size_t size = strlen(path) + sizeof ".partial";
-    if (strlen(path) > OST_VTKHDF_LONGEST_PATH)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path '%.60s...' has %zu letters; MPI takes %d of a file of fields",
-                         path, strlen(path), OST_VTKHDF_LONGEST_PATH);
-    OST_TRY(OST_NEW(ctx, partial, size));
-    snprintf(*partial, size, "%s.partial", path);
-    return OST_SUCCESS;
+    return ost_agree(ctx, status != OST_SUCCESS ? status : closed);
 }
 
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
                            const OstOutputArray *arrays, const OstOutputMark *mark)
 {
     OstPiece piece = {0};
-    char *partial = NULL;
+    OstAside aside = {0};
     size_t largest_row = 3 * sizeof(double);
     for (int a = 0; a < array_count; a++)
         largest_row = row_bytes(&arrays[a]) > largest_row ? row_bytes(&arrays[a]) : largest_row;
-    OstStatus status = check_arrays(mesh, path, array_count, arrays);
+    OstStatus status = ost_agree(ctx, check_arrays(mesh, path, array_count, arrays));
     if (status == OST_SUCCESS)
-        status = name_partial(ctx, path, &partial);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_piece_create(mesh, largest_row, &piece));
-    status = write_file(partial, &piece, array_count, arrays, mark);
-    status = finish_file(ctx, partial, path, status);
-done:
+        status = ost_piece_create(mesh, largest_row, &piece);
+    if (status == OST_SUCCESS)
+        status = ost_aside_open_together(ctx, path, &aside);
+    if (status == OST_SUCCESS)
+        status = ost_aside_finish_together(ctx, &aside, write_file(&aside, &piece, array_count, arrays, mark));
     ost_piece_free(&piece);
-    OST_FREE(partial);
     return status;
 }

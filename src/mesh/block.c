@@ -30,8 +30,8 @@ static OstStatus check_shape(OstContext *ctx, const OstBlockShape *block)
 
 OstStatus ost_chunk_create_block(OstContext *ctx, const OstBlockShape *shape, OstMeshChunk **chunk)
 {
-    static const GridSide sides[] = {{"xmin", 0, GRID_LOW},  {"xmax", 0, GRID_HIGH}, {"ymin", 1, GRID_LOW},
-                                     {"ymax", 1, GRID_HIGH}, {"zmin", 2, GRID_LOW},  {"zmax", 2, GRID_HIGH}};
+    static const GridSide sides[] = {{"xmin", 0, HEX_LOW},  {"xmax", 0, HEX_HIGH}, {"ymin", 1, HEX_LOW},
+                                     {"ymax", 1, HEX_HIGH}, {"zmin", 2, HEX_LOW},  {"zmax", 2, HEX_HIGH}};
     *chunk = NULL;
     OST_TRY(ost_agree(ctx, check_shape(ctx, shape)));
     const Grid grid = {

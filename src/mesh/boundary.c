@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/route.h"
+#include "mesh/local_number.h"
 #include "mesh/redistribute.h"
-#include "mesh/route.h"
 
 /* From new global numbers to local ones. A node that is not here belongs to no tet that touches the item. */
 static OstStatus number_locally(OstBoundary *boundary, const OstMesh *mesh)
@@ -27,7 +28,7 @@ OstStatus ost_boundary_redistribute(OstBoundary *boundary, const Slab *slab, con
     const size_t width = (size_t)boundary->nodes_per_item;
     const size_t entries = (size_t)boundary->count * width;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstGlobal *arrived = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, entries)));

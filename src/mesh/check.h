@@ -13,4 +13,7 @@ OstStatus ost_check_chunk(OstMeshChunk *chunk);
  * part of a tet. */
 OstStatus ost_check_mesh(const OstMesh *mesh);
 
+/* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices. */
+OstStatus ost_check_folds(const OstMesh *quadratic);
+
 #endif

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
 #include "mesh/check.h"
 
 #include <math.h>
@@ -17,13 +19,9 @@ static OstGlobal tet_label(const OstMeshChunk *chunk, OstLocal t)
 /* Do the ranks' ranges follow each other, and add up to the whole? An empty range is put in its place. */
 static OstStatus check_range(OstContext *ctx, const char *what, OstGlobal *first, OstLocal count, OstGlobal total)
 {
-    const OstGlobal mine = count;
     OstGlobal before = 0;
     OstGlobal sum = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    if (ost_rank(ctx) == 0)
-        before = 0;
+    OST_TRY(ost_number_from(ctx, count, &before, &sum));
     if (count == 0)
         *first = before;
     OstStatus status = OST_SUCCESS;
@@ -44,7 +42,7 @@ static OstStatus check_kind(const OstMeshChunk *chunk)
                           chunk->global_tets};
     for (int i = 0; i < 5; i++)
         kind[5 + i] = -kind[i];
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, kind, 10, MPI_INT64_T, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max_numbers(ctx, 10, kind));
     for (int i = 0; i < 5; i++)
         if (kind[i] != -kind[5 + i])
             return OST_RAISE(ctx, OST_INVALID_INPUT,

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
+#include "core/reduce.h"
 #include "core/small.h"
-#include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/incidence.h"
-#include "mesh/raise.h"
 #include "mesh/tet.h"
 
 #include <float.h>
@@ -66,9 +66,8 @@ static OstStatus check_volumes(const OstMesh *mesh)
         }
     }
     OstGlobal first = lowest;
-    MPI_Comm comm = ost_comm(mesh->ctx);
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(&lowest, &first, 1, MPI_INT64_T, MPI_MIN, comm)));
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT64_T, MPI_SUM, comm)));
+    OST_TRY(ost_min_numbers(mesh->ctx, 1, &first));
+    OST_TRY(ost_sum_numbers(mesh->ctx, 1, &bad));
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && lowest == first) {
         const OstLocal *nodes = mesh->tet_nodes + (size_t)worst * (size_t)mesh->nodes_per_tet;
@@ -93,7 +92,7 @@ static OstStatus raise_unused(const OstMesh *mesh, OstGlobal count, OstGlobal *l
 {
     OST_TRY(OST_MPI(mesh->ctx, MPI_Allgather(lowest, LABELS_SHOWN, MPI_INT64_T, all, LABELS_SHOWN, MPI_INT64_T,
                                              ost_comm(mesh->ctx))));
-    ost_sort_numbers((size_t)ost_size(mesh->ctx) * LABELS_SHOWN, all);
+    ost_numbers_sort(ost_size(mesh->ctx) * LABELS_SHOWN, all);
     char text[32 * (LABELS_SHOWN + 1)] = "";
     list_labels(all, count, text, sizeof text);
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "%lld %s used by no tet: %s; remove %s", (long long)count,
@@ -124,7 +123,7 @@ static OstStatus check_used(const OstMesh *mesh, const Incidence *incidence)
         count++;
         keep_lowest(mesh->node_label[n], lowest);
     }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum_numbers(ctx, 1, &count));
     if (count == 0)
         return OST_SUCCESS;
     OstGlobal *all = NULL;

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 
 enum {
     CLUSTERS_PER_RANK = 64,  /* fine enough to balance parts to a few percent */
@@ -111,11 +112,7 @@ OstStatus ost_clusters_create(const Slab *slab, const Graph *nodes, Clusters *cl
 {
     OstContext *ctx = slab->ctx;
     OST_TRY(ost_agree(ctx, cut_slab(slab, nodes, clusters)));
-    const OstGlobal count = clusters->count;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&count, &clusters->first, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&count, &clusters->total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    if (ost_rank(ctx) == 0)
-        clusters->first = 0; /* MPI_Exscan leaves rank 0's result undefined */
+    OST_TRY(ost_number_from(ctx, clusters->count, &clusters->first, &clusters->total));
     OST_TRY(ost_graph_check_limits(ctx, "graph of node clusters", clusters->total, 0));
     for (OstLocal i = 0; i < slab->node_count; i++)
         clusters->of_node[i] += (idx_t)clusters->first;

@@ -3,8 +3,10 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
+#include "core/route.h"
 #include "core/small.h"
-#include "mesh/route.h"
 #include "mesh/tet.h"
 
 #include <float.h>
@@ -27,26 +29,6 @@ typedef struct Answer {
     OstGlobal number, lowest;
 } Answer;
 
-int ost_coincident_holder(const OstGlobal *end, int size, OstGlobal number)
-{
-    int low = 0;
-    int high = size - 1;
-    while (low < high) {
-        const int middle = (low + high) / 2;
-        if (number < end[middle])
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
-
-OstStatus ost_coincident_ends(const OstPoints *points, OstGlobal *end)
-{
-    const OstGlobal my_end = points->first + points->count;
-    return OST_MPI(points->ctx, MPI_Allgather(&my_end, 1, MPI_INT64_T, end, 1, MPI_INT64_T, ost_comm(points->ctx)));
-}
-
 static OstStatus find_corner(const OstPoints *points, double corner[3])
 {
     for (int d = 0; d < 3; d++) {
@@ -54,7 +36,7 @@ static OstStatus find_corner(const OstPoints *points, double corner[3])
         for (OstLocal i = 0; i < points->count; i++)
             corner[d] = fmin(corner[d], points->coordinates[3 * (size_t)i + (size_t)d]);
     }
-    return OST_MPI(points->ctx, MPI_Allreduce(MPI_IN_PLACE, corner, 3, MPI_DOUBLE, MPI_MIN, ost_comm(points->ctx)));
+    return ost_min(points->ctx, 3, corner);
 }
 
 static int rank_of_cube(const int64_t cube[3], int size)
@@ -158,15 +140,15 @@ static OstStatus take_answers(const OstPoints *points, OstLocal answers, const A
     OstContext *ctx = points->ctx;
     OstGlobal *end = NULL;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     Answer *arrived = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &to, answers);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_coincident_ends(points, end));
+    OST_TRY_DONE(ost_number_ends(ctx, points->first + points->count, end));
     for (OstLocal i = 0; i < answers; i++)
-        to[i] = ost_coincident_holder(end, ost_size(ctx), answer[i].number);
+        to[i] = ost_number_holder(end, ost_size(ctx), answer[i].number);
     OST_TRY_DONE(ost_route_create(ctx, answers, 1, to, &route));
     OST_TRY_DONE(ost_route_carry(route, sizeof *answer, answer, (void **)&arrived));
     for (OstLocal i = 0; i < route->receives; i++) {
@@ -189,7 +171,7 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     Visitor *visitor = NULL, *arrived = NULL;
     Answer *answer = NULL;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < points->count; i++)
         lowest[i] = points->first + i;
@@ -221,7 +203,7 @@ static OstStatus find_shortest_edge(const OstMesh *mesh, double *shortest)
             *shortest = fmin(*shortest, ost_norm3(d));
         }
     }
-    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(mesh->ctx)));
+    return ost_min(mesh->ctx, 1, shortest);
 }
 
 OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance)
@@ -241,5 +223,5 @@ OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, doubl
         *count += lowest[i] != mesh->first_node + i;
     OST_FREE(lowest);
     OST_TRY(status);
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+    return ost_sum_numbers(ctx, 1, count);
 }

@@ -16,10 +16,6 @@ typedef struct OstPoints {
  * own where it coincides with none before it. */
 OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlobal *lowest);
 
-/* Local. The rank whose points have this number, given where each rank's end (ost_coincident_ends). */
-int ost_coincident_holder(const OstGlobal *end, int size, OstGlobal number);
-OstStatus ost_coincident_ends(const OstPoints *points, OstGlobal *end);
-
 /* Collective. How many vertices of the body coincide with others, to a hundredth of the shortest edge: to `tolerance`,
  * rounded down to one digit, which joins them and can make no tet collapse. */
 OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance);

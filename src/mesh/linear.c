@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/numbering.h"
 #include "mesh/inherit.h"
 #include "mesh/tet.h"
 #include "orthostat/refine.h"
@@ -101,12 +102,7 @@ static OstStatus make_piece(const OstMesh *quadratic, OstLocal **vertex, OstMesh
 
 static OstStatus number_globally(OstMesh *linear)
 {
-    const OstGlobal owned = linear->owned_nodes;
-    MPI_Comm comm = ost_comm(linear->ctx);
-    OST_TRY(OST_MPI(linear->ctx, MPI_Exscan(&owned, &linear->first_node, 1, MPI_INT64_T, MPI_SUM, comm)));
-    OST_TRY(OST_MPI(linear->ctx, MPI_Allreduce(&owned, &linear->global_nodes, 1, MPI_INT64_T, MPI_SUM, comm)));
-    if (ost_rank(linear->ctx) == 0)
-        linear->first_node = 0;
+    OST_TRY(ost_number_from(linear->ctx, linear->owned_nodes, &linear->first_node, &linear->global_nodes));
     for (OstLocal n = 0; n < linear->owned_nodes; n++)
         linear->node_number[n] = linear->first_node + n;
     return ost_agree(linear->ctx, ost_halo_import(linear->halo, sizeof *linear->node_number, linear->node_number));

@@ -4,30 +4,26 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/number_set.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
+#include "core/route.h"
 #include "core/small.h"
-#include "core/sort.h"
 #include "mesh/check.h"
 #include "mesh/coincident.h"
-#include "mesh/route.h"
 #include "mesh/slab.h"
 #include "mesh/tet.h"
 
 #include <float.h>
 #include <string.h>
 
-/* A vertex that goes, the one that stands for it, and that one's new number (-1: it goes, too). */
-typedef struct Request {
-    OstGlobal from, to, number;
-} Request;
-
 typedef struct Merge {
     OstMeshChunk *chunk;
     OstPoints points;
     Slab *slab;
-    OstGlobal *end;    /* per rank: where its vertices end */
     OstGlobal *lowest; /* of this rank's vertices */
     OstGlobal *number; /* new numbers, of the slab's nodes and ghosts */
-    OstGlobal new_first, new_count;
+    OstGlobal new_first, new_total;
 } Merge;
 
 /* The shortest edge, and the lowest label of a tet with it. */
@@ -57,10 +53,10 @@ static OstStatus find_shortest_edge(const Merge *merge, double *shortest, OstGlo
             at = chunk->tet_label ? chunk->tet_label[t] : chunk->first_tet + t + 1;
         }
     }
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&mine, shortest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
-    if (mine > *shortest)
-        at = INT64_MAX;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allreduce(&at, label, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    *shortest = mine;
+    OST_TRY_DONE(ost_min(ctx, 1, shortest));
+    *label = mine > *shortest ? INT64_MAX : at;
+    OST_TRY_DONE(ost_min_numbers(ctx, 1, label));
 done:
     OST_FREE(x);
     return status;
@@ -83,76 +79,78 @@ static OstStatus check_tolerance(const Merge *merge, double tolerance)
 static OstStatus number_kept(Merge *merge)
 {
     OstContext *ctx = merge->chunk->ctx;
-    OstGlobal before = 0;
+    OstGlobal kept = 0;
     for (OstLocal i = 0; i < merge->points.count; i++)
-        merge->new_count += merge->lowest[i] == merge->points.first + i;
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(&merge->new_count, &before, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    merge->new_first = ost_rank(ctx) == 0 ? 0 : before;
+        kept += merge->lowest[i] == merge->points.first + i;
+    OST_TRY(ost_number_from(ctx, kept, &merge->new_first, &merge->new_total));
     OstGlobal next = merge->new_first;
     for (OstLocal i = 0; i < merge->points.count; i++)
         merge->number[i] = merge->lowest[i] == merge->points.first + i ? next++ : -1;
     return OST_SUCCESS;
 }
 
-/* Carries requests to the ranks that hold one of their vertices; `back`: the one that goes. */
-static OstStatus carry_requests(const Merge *merge, int back, OstLocal *count, Request **request)
+/* What the ranks that hold the vertices `asked` for say: their new numbers, or -1 for a vertex that goes itself. */
+static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal *asked, OstGlobal *number)
 {
     OstContext *ctx = merge->chunk->ctx;
+    OstGlobal *end = NULL, *arrived = NULL;
     int *to = NULL;
-    Route *route = NULL;
-    Request *arrived = NULL;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, *count)));
-    for (OstLocal i = 0; i < *count; i++)
-        to[i] = ost_coincident_holder(merge->end, ost_size(ctx), back ? (*request)[i].from : (*request)[i].to);
-    OST_TRY_DONE(ost_route_create(ctx, *count, 1, to, &route));
-    OST_TRY_DONE(ost_route_carry(route, sizeof **request, *request, (void **)&arrived));
-    OST_FREE(*request);
-    *request = arrived;
-    *count = route->receives;
+    OstRoute *route = NULL;
+    OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &to, count);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_number_ends(ctx, merge->points.first + merge->points.count, end));
+    for (OstLocal i = 0; i < count; i++)
+        to[i] = ost_number_holder(end, ost_size(ctx), asked[i]);
+    OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof *asked, asked, (void **)&arrived));
+    for (OstLocal i = 0; i < route->receives; i++)
+        arrived[i] = merge->number[arrived[i] - merge->points.first];
+    OST_TRY_DONE(ost_route_answer(route, sizeof *number, arrived, number));
 done:
+    OST_FREE(end);
+    OST_FREE(arrived);
     OST_FREE(to);
     ost_route_destroy(&route);
     return status;
 }
 
-static OstStatus take_numbers(const Merge *merge, OstLocal count, const Request *request, double tolerance)
+static OstStatus raise_chain(const Merge *merge, OstLocal local, double tolerance)
 {
     const OstMeshChunk *chunk = merge->chunk;
-    for (OstLocal i = 0; i < count; i++) {
-        const OstLocal local = (OstLocal)(request[i].from - merge->points.first);
-        if (request[i].number < 0)
-            return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
-                             "merge: %g joins vertex %lld with one that is joined with another, farther off; give a "
-                             "smaller distance",
-                             tolerance,
-                             (long long)(chunk->node_label ? chunk->node_label[local] : request[i].from + 1));
-        merge->number[local] = request[i].number;
-    }
-    return OST_SUCCESS;
+    return OST_RAISE(
+        chunk->ctx, OST_INVALID_INPUT,
+        "merge: %g joins vertex %lld with one that is joined with another, farther off; give a smaller distance",
+        tolerance, (long long)(chunk->node_label ? chunk->node_label[local] : merge->points.first + local + 1));
 }
 
 /* Vertices that go take the number of the one that stands for them, which any rank may hold. */
 static OstStatus number_merged(Merge *merge, double tolerance)
 {
     OstContext *ctx = merge->chunk->ctx;
-    Request *request = NULL;
+    OstGlobal *asked = NULL, *number = NULL;
     OstLocal count = 0;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &request, merge->points.count)));
+    OstStatus status = OST_NEW(ctx, &asked, merge->points.count);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &number, merge->points.count);
+    OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal i = 0; i < merge->points.count; i++)
-        if (merge->lowest[i] != merge->points.first + i)
-            request[count++] = (Request){merge->points.first + i, merge->lowest[i], -1};
-    OST_TRY_DONE(carry_requests(merge, 0, &count, &request));
-    for (OstLocal i = 0; i < count; i++) {
-        const OstLocal local = (OstLocal)(request[i].to - merge->points.first);
-        request[i].number = merge->lowest[local] == request[i].to ? merge->number[local] : -1;
-    }
-    OST_TRY_DONE(carry_requests(merge, 1, &count, &request));
-    OST_TRY_DONE(ost_agree(ctx, take_numbers(merge, count, request, tolerance)));
+        if (merge->number[i] < 0)
+            asked[count++] = merge->lowest[i];
+    OST_TRY_DONE(ask_holders(merge, count, asked, number));
+    count = 0;
+    for (OstLocal i = 0; i < merge->points.count && status == OST_SUCCESS; i++)
+        if (merge->number[i] < 0) {
+            merge->number[i] = number[count++];
+            if (merge->number[i] < 0)
+                status = raise_chain(merge, i, tolerance);
+        }
+    OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_import(merge->slab->halo, sizeof *merge->number, merge->number)));
 done:
-    OST_FREE(request);
+    OST_FREE(asked);
+    OST_FREE(number);
     return status;
 }
 
@@ -160,19 +158,6 @@ static void renumber(const Merge *merge, size_t count, OstGlobal *nodes)
 {
     for (size_t i = 0; i < count; i++)
         nodes[i] = merge->number[ost_slab_local(merge->slab, nodes[i])];
-}
-
-/* A group of points may have had several of those that are one now. */
-static void remove_repeated_points(OstBoundary *boundary)
-{
-    OstLocal kept = 0;
-    if (boundary->count == 0)
-        return;
-    ost_sort_numbers((size_t)boundary->count, boundary->nodes);
-    for (OstLocal i = 0; i < boundary->count; i++)
-        if (i == 0 || boundary->nodes[i] != boundary->nodes[kept - 1])
-            boundary->nodes[kept++] = boundary->nodes[i];
-    boundary->count = kept;
 }
 
 static void renumber_all(const Merge *merge)
@@ -183,7 +168,7 @@ static void renumber_all(const Merge *merge)
         OstBoundary *boundary = &chunk->boundaries[b];
         renumber(merge, (size_t)boundary->count * (size_t)boundary->nodes_per_item, boundary->nodes);
         if (boundary->dimension == 0)
-            remove_repeated_points(boundary);
+            boundary->count = ost_numbers_sort(boundary->count, boundary->nodes);
     }
 }
 
@@ -217,24 +202,19 @@ static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merge
     OstContext *ctx = chunk->ctx;
     OST_TRY(ost_slab_create(chunk, &merge->slab));
     OST_TRY(check_tolerance(merge, tolerance));
-    OstStatus status = OST_NEW(ctx, &merge->end, ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &merge->lowest, chunk->node_count);
+    OstStatus status = OST_NEW(ctx, &merge->lowest, chunk->node_count);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count);
     if (status == OST_SUCCESS)
         status = keep_labels(chunk);
     OST_TRY(ost_agree(ctx, status));
-    OST_TRY(ost_coincident_ends(&merge->points, merge->end));
     OST_TRY(ost_coincident_find(&merge->points, tolerance, merge->lowest));
     OST_TRY(number_kept(merge));
     OST_TRY(number_merged(merge, tolerance));
     renumber_all(merge);
     drop_merged(merge);
-    OstGlobal total = chunk->node_count;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    *merged = chunk->global_nodes - total;
-    chunk->global_nodes = total;
+    *merged = chunk->global_nodes - merge->new_total;
+    chunk->global_nodes = merge->new_total;
     return OST_SUCCESS;
 }
 
@@ -246,7 +226,6 @@ OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merg
     Merge merge = {.chunk = chunk, .points = {chunk->ctx, chunk->first_node, chunk->node_count, chunk->coordinates}};
     if (status == OST_SUCCESS)
         status = merge_vertices(&merge, tolerance, merged);
-    OST_FREE(merge.end);
     OST_FREE(merge.lowest);
     OST_FREE(merge.number);
     ost_slab_destroy(&merge.slab);

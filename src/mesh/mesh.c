@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/names.h"
 
 #include <math.h>
@@ -46,7 +47,7 @@ OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3])
             outer[3 + d] = fmax(outer[3 + d], mesh->coordinates[3 * i + d]);
         }
     }
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, outer, 6, MPI_DOUBLE, MPI_MAX, ost_comm(mesh->ctx))));
+    OST_TRY(ost_max(mesh->ctx, 6, outer));
     for (int d = 0; d < 3; d++) {
         low[d] = -outer[d];
         high[d] = outer[3 + d];

@@ -4,8 +4,10 @@
 #include "core/error.h"
 #include "core/halo.h"
 #include "core/memory.h"
-#include "mesh/redistribute.h"
-#include "mesh/route.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
+#include "core/route.h"
+#include "mesh/local_number.h"
 
 #include <string.h>
 
@@ -40,12 +42,7 @@ static OstStatus number_owned(MidNodes *mid)
 {
     const OstMesh *mesh = mid->mesh;
     mid->owned_nodes = mesh->owned_nodes + mid->edges.start[mesh->owned_nodes];
-    const OstGlobal owned = mid->owned_nodes;
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Exscan(&owned, &mid->first_node, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
-    OST_TRY(
-        OST_MPI(mesh->ctx, MPI_Allreduce(&owned, &mid->global_nodes, 1, MPI_INT64_T, MPI_SUM, ost_comm(mesh->ctx))));
-    if (ost_rank(mesh->ctx) == 0)
-        mid->first_node = 0;
+    OST_TRY(ost_number_from(mesh->ctx, mid->owned_nodes, &mid->first_node, &mid->global_nodes));
     OstGlobal next = mid->first_node;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         mid->number[n] = next++;
@@ -76,53 +73,42 @@ static void list_questions(const MidNodes *mid, Ends *ends, int *to)
     }
 }
 
-static OstStatus look_up(const MidNodes *mid, const Route *route, const Ends *ends, OstGlobal *answer, int *to)
+static OstStatus look_up(const MidNodes *mid, OstLocal count, const Ends *ends, OstGlobal *answer)
 {
     const OstMesh *mesh = mid->mesh;
-    for (int r = 0; r < ost_size(mesh->ctx); r++)
-        for (int i = 0; i < route->receive_count[r]; i++)
-            to[route->receive_start[r] + i] = r;
-    for (OstLocal i = 0; i < route->receives; i++) {
+    for (OstLocal i = 0; i < count; i++) {
         const OstLocal low = ost_mesh_local(mesh, ends[i].low);
         const OstLocal high = ost_mesh_local(mesh, ends[i].high);
         const OstLocal edge = low < 0 || high < 0 ? -1 : ost_edge_find(&mid->edges, mesh, low, high);
         if (edge < 0)
-            return OST_RAISE(
-                mesh->ctx, OST_INVALID_INPUT,
-                "nodes %lld and %lld share a tet on rank %d, but not on rank %d that owns them; give every "
-                "rank all tets that touch its nodes",
-                (long long)ends[i].low, (long long)ends[i].high, to[i], ost_rank(mesh->ctx));
+            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                             "nodes %lld and %lld share a tet on another rank, but not on rank %d that owns them; give "
+                             "every rank all tets that touch its nodes",
+                             (long long)ends[i].low, (long long)ends[i].high, ost_rank(mesh->ctx));
         answer[i] = mid->number[mesh->node_count + edge];
     }
     return OST_SUCCESS;
 }
 
-/* Takes questions to the owners and brings their answers back, which come in the questions' order. */
-static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *ends, const int *to, OstGlobal **number)
+/* Takes questions to the owners and brings their answers back. */
+static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *ends, const int *to, OstGlobal *number)
 {
     OstContext *ctx = mid->mesh->ctx;
-    Route *there = NULL;
-    Route *back = NULL;
+    OstRoute *route = NULL;
     Ends *asked = NULL;
     OstGlobal *answer = NULL;
-    int *asker = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &there));
-    OST_TRY_DONE(ost_route_carry(there, sizeof *ends, ends, (void **)&asked));
-    status = OST_NEW(ctx, &answer, there->receives);
+    OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof *ends, ends, (void **)&asked));
+    status = OST_NEW(ctx, &answer, route->receives);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &asker, there->receives);
-    if (status == OST_SUCCESS)
-        status = look_up(mid, there, asked, answer, asker);
+        status = look_up(mid, route->receives, asked, answer);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_route_create(ctx, there->receives, 1, asker, &back));
-    OST_TRY_DONE(ost_route_carry(back, sizeof *answer, answer, (void **)number));
+    OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, number));
 done:
     OST_FREE(asked);
     OST_FREE(answer);
-    OST_FREE(asker);
-    ost_route_destroy(&there);
-    ost_route_destroy(&back);
+    ost_route_destroy(&route);
     return status;
 }
 
@@ -133,19 +119,15 @@ static OstStatus number_ghosts(MidNodes *mid)
     const OstLocal count = mid->edges.count - owned;
     Ends *ends = NULL;
     int *to = NULL;
-    OstGlobal *number = NULL;
     OstStatus status = OST_NEW(mesh->ctx, &ends, count);
     if (status == OST_SUCCESS)
         status = OST_NEW(mesh->ctx, &to, count);
     OST_TRY_DONE(ost_agree(mesh->ctx, status));
     list_questions(mid, ends, to);
-    OST_TRY_DONE(ask_owners(mid, count, ends, to, &number));
-    if (count > 0)
-        memcpy(mid->number + mesh->node_count + owned, number, (size_t)count * sizeof *number);
+    status = ask_owners(mid, count, ends, to, mid->number + mesh->node_count + owned);
 done:
     OST_FREE(ends);
     OST_FREE(to);
-    OST_FREE(number);
     return status;
 }
 
@@ -160,7 +142,7 @@ static OstStatus find_highest_label(const OstMesh *mesh, OstGlobal *highest)
         most[1] = label > most[1] ? label : most[1];
         most[2] = label < 1 ? 0 : most[2];
     }
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_INT64_T, MPI_MAX, ost_comm(mesh->ctx))));
+    OST_TRY(ost_max_numbers(mesh->ctx, 3, most));
     if (most[2] == 0)
         return OST_RAISE(
             mesh->ctx, OST_INVALID_INPUT,

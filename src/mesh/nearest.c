@@ -2,6 +2,7 @@
 #include "mesh/nearest.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 #include "core/small.h"
 
 #include <float.h>
@@ -38,15 +39,15 @@ static void keep_nearer(const OstMesh *mesh, const double place[3], OstLocal nod
 static OstStatus agree_on_vertex(const OstMesh *mesh, OstNearest *vertex)
 {
     OstContext *ctx = mesh->ctx;
-    double nearest = DBL_MAX;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&vertex->distance, &nearest, 1, MPI_DOUBLE, MPI_MIN, ost_comm(ctx))));
+    double nearest = vertex->distance;
+    OST_TRY(ost_min(ctx, 1, &nearest));
     const int candidate = vertex->node >= 0 && vertex->distance == nearest;
     const OstGlobal label = candidate ? mesh->node_label[vertex->node] : INT64_MAX;
-    OstGlobal lowest = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&label, &lowest, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    OstGlobal lowest = label;
+    OST_TRY(ost_min_numbers(ctx, 1, &lowest));
     const int chosen = candidate && label == lowest;
-    const int mine = chosen ? ost_rank(ctx) : -1;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &vertex->owner, 1, MPI_INT, MPI_MAX, ost_comm(ctx))));
+    vertex->owner = chosen ? ost_rank(ctx) : -1;
+    OST_TRY(ost_max_ints(ctx, 1, &vertex->owner));
     vertex->distance = nearest;
     if (!chosen)
         vertex->node = -1;

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "mesh/cluster.h"
 
 #include <limits.h>
@@ -76,7 +77,7 @@ static OstStatus gather_graph(OstContext *ctx, const Graph *mine, Gathering *gat
     OstGlobal total[2] = {rows, entries};
     Graph *whole = &gathering->whole;
     MPI_Comm comm = ost_comm(ctx);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, total, 2, MPI_INT64_T, MPI_SUM, comm)));
+    OST_TRY(ost_sum_numbers(ctx, 2, total));
     OST_TRY(ost_agree(ctx, make_room(ctx, total[0], total[1], gathering)));
     OST_TRY(gather_counts(ctx, rows, entries, gathering));
     OST_TRY(OST_MPI(ctx, MPI_Gatherv(mine->start + 1, rows, idx_type(), whole->start ? whole->start + 1 : NULL,

@@ -7,7 +7,4 @@
 /* Collective. The quadratic mesh over new nodes that are already placed. */
 OstStatus ost_mesh_raise_over(const MidNodes *mid, OstMesh **quadratic);
 
-/* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices. */
-OstStatus ost_check_folds(const OstMesh *quadratic);
-
 #endif

@@ -3,8 +3,10 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "mesh/number_set.h"
-#include "mesh/route.h"
+#include "core/number_set.h"
+#include "core/reduce.h"
+#include "core/route.h"
+#include "mesh/local_number.h"
 
 #include <string.h>
 
@@ -42,7 +44,7 @@ done:
 static OstStatus send_nodes(OstMeshChunk *chunk, const int *part, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_route_create(ctx, chunk->node_count, 1, part, &route));
     OST_TRY_DONE(ost_route_carry(route, 3 * sizeof(double), chunk->coordinates, (void **)&mesh->coordinates));
@@ -59,7 +61,7 @@ done:
 static OstStatus has_axes(const OstMeshChunk *chunk, int *axes)
 {
     *axes = chunk->tet_axes != NULL;
-    OST_TRY(OST_MPI(chunk->ctx, MPI_Allreduce(MPI_IN_PLACE, axes, 1, MPI_INT, MPI_MAX, ost_comm(chunk->ctx))));
+    OST_TRY(ost_max_ints(chunk->ctx, 1, axes));
     OstStatus status = OST_SUCCESS;
     if (*axes && !chunk->tet_axes && chunk->tet_count > 0)
         status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "tets %lld and on come without axes, but others have them",
@@ -68,7 +70,7 @@ static OstStatus has_axes(const OstMeshChunk *chunk, int *axes)
 }
 
 /* Carries the tets' arrays; `nodes` receives their nodes by new global number. */
-static OstStatus carry_tets(OstMeshChunk *chunk, const Route *route, OstMesh *mesh, OstGlobal **nodes)
+static OstStatus carry_tets(OstMeshChunk *chunk, const OstRoute *route, OstMesh *mesh, OstGlobal **nodes)
 {
     int axes = 0;
     OST_TRY(has_axes(chunk, &axes));
@@ -91,7 +93,7 @@ static OstStatus send_tets(OstMeshChunk *chunk, const Slab *slab, const int *par
     OstContext *ctx = chunk->ctx;
     const size_t entries = (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet;
     int *to = NULL;
-    Route *route = NULL;
+    OstRoute *route = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, entries)));
     for (size_t i = 0; i < entries; i++) {
@@ -163,33 +165,24 @@ done:
 static OstStatus number_ghosts(OstMesh *mesh, const OstGlobal *nodes)
 {
     const size_t entries = (size_t)mesh->tet_count * (size_t)mesh->nodes_per_tet;
-    NumberSet ghosts = {0};
+    OstNumberSet ghosts = {0};
     OstStatus status = OST_SUCCESS;
     for (size_t i = 0; i < entries; i++)
         if (!is_owned_number(mesh, nodes[i]))
             OST_TRY_DONE(ost_number_set_add(mesh->ctx, &ghosts, nodes[i]));
-    OST_TRY_DONE(ost_number_set_close(mesh->ctx, &ghosts));
+    ost_number_set_close(&ghosts);
     if (mesh->owned_nodes + (OstGlobal)ghosts.count > INT32_MAX)
         OST_TRY_DONE(OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED, "a rank would hold more than %d nodes; use more ranks",
                                INT32_MAX));
-    mesh->node_count = mesh->owned_nodes + (OstLocal)ghosts.count;
+    mesh->node_count = mesh->owned_nodes + ghosts.count;
     OST_TRY_DONE(OST_NEW(mesh->ctx, &mesh->node_number, mesh->node_count));
     for (OstLocal i = 0; i < mesh->owned_nodes; i++)
         mesh->node_number[i] = mesh->first_node + i;
     if (ghosts.count > 0)
-        memcpy(mesh->node_number + mesh->owned_nodes, ghosts.number, ghosts.count * sizeof(OstGlobal));
+        memcpy(mesh->node_number + mesh->owned_nodes, ghosts.number, (size_t)ghosts.count * sizeof(OstGlobal));
 done:
     ost_number_set_clear(&ghosts);
     return status;
-}
-
-OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number)
-{
-    if (is_owned_number(mesh, number))
-        return (OstLocal)(number - mesh->first_node);
-    const OstLocal ghost =
-        ost_number_find(mesh->node_number + mesh->owned_nodes, mesh->node_count - mesh->owned_nodes, number);
-    return ghost < 0 ? -1 : mesh->owned_nodes + ghost;
 }
 
 static OstStatus number_locally(OstMesh *mesh, OstGlobal **nodes)

@@ -13,7 +13,4 @@ OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int
 OstStatus ost_boundary_redistribute(OstBoundary *boundary, const Slab *slab, const int *part, const OstGlobal *number,
                                     const OstMesh *mesh);
 
-/* Local. The mesh's local number of a node by its new global number, or -1. */
-OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
-
 #endif

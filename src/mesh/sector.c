@@ -63,8 +63,8 @@ static OstStatus check_shape(OstContext *ctx, const OstSectorShape *sector)
 
 OstStatus ost_chunk_create_sector(OstContext *ctx, const OstSectorShape *shape, OstMeshChunk **chunk)
 {
-    static const GridSide sides[] = {{"bottom", 0, GRID_LOW}, {"top", 0, GRID_HIGH},  {"inner", 2, GRID_LOW},
-                                     {"outer", 2, GRID_HIGH}, {"start", 1, GRID_LOW}, {"finish", 1, GRID_HIGH}};
+    static const GridSide sides[] = {{"bottom", 0, HEX_LOW}, {"top", 0, HEX_HIGH},  {"inner", 2, HEX_LOW},
+                                     {"outer", 2, HEX_HIGH}, {"start", 1, HEX_LOW}, {"finish", 1, HEX_HIGH}};
     *chunk = NULL;
     OST_TRY(ost_agree(ctx, check_shape(ctx, shape)));
     const Grid grid = {"sector", {shape->axial, shape->around, shape->radial}, {0, 0, 0}, shape, place};

@@ -3,8 +3,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "mesh/number_set.h"
-#include "mesh/route.h"
+#include "core/number_set.h"
+#include "core/numbering.h"
+#include "core/route.h"
 
 void ost_slab_destroy(Slab **slab)
 {
@@ -25,22 +26,7 @@ OstLocal ost_slab_local(const Slab *slab, OstGlobal node)
 {
     if (is_mine(slab, node))
         return (OstLocal)(node - slab->first_node);
-    return slab->node_count + ost_number_find(slab->ghost_number, slab->ghost_count, node);
-}
-
-/* The rank that holds a node, given where each rank's nodes end. */
-static int holder_of(const OstGlobal *end, int size, OstGlobal node)
-{
-    int low = 0;
-    int high = size - 1;
-    while (low < high) {
-        const int middle = (low + high) / 2;
-        if (node < end[middle])
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
+    return slab->node_count + ost_numbers_find(slab->ghost_count, slab->ghost_number, node);
 }
 
 /* Where the tets of the chunk have to visit: the other ranks that hold nodes of theirs. */
@@ -48,7 +34,8 @@ static void list_visits(const OstMeshChunk *chunk, const Slab *slab, const OstGl
 {
     const size_t count = (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet;
     for (size_t i = 0; i < count; i++)
-        to[i] = is_mine(slab, chunk->tet_nodes[i]) ? -1 : holder_of(end, ost_size(slab->ctx), chunk->tet_nodes[i]);
+        to[i] =
+            is_mine(slab, chunk->tet_nodes[i]) ? -1 : ost_number_holder(end, ost_size(slab->ctx), chunk->tet_nodes[i]);
 }
 
 /* Receives the global node numbers of the tets that this rank's nodes touch and other ranks hold. */
@@ -58,13 +45,12 @@ static OstStatus receive_visitors(const OstMeshChunk *chunk, const Slab *slab, O
     const size_t width = (size_t)chunk->nodes_per_tet;
     OstGlobal *end = NULL;
     int *to = NULL;
-    Route *route = NULL;
-    const OstGlobal my_end = chunk->first_node + chunk->node_count;
+    OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &to, (size_t)chunk->tet_count * width);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&my_end, 1, MPI_INT64_T, end, 1, MPI_INT64_T, ost_comm(ctx))));
+    OST_TRY_DONE(ost_number_ends(ctx, chunk->first_node + chunk->node_count, end));
     list_visits(chunk, slab, end, to);
     OST_TRY_DONE(ost_route_create(ctx, chunk->tet_count, chunk->nodes_per_tet, to, &route));
     OST_TRY_DONE(ost_route_carry(route, width * sizeof(OstGlobal), chunk->tet_nodes, (void **)nodes));
@@ -76,7 +62,7 @@ done:
     return status;
 }
 
-static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nodes, NumberSet *ghosts)
+static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nodes, OstNumberSet *ghosts)
 {
     for (size_t i = 0; i < count; i++)
         if (!is_mine(slab, nodes[i]))
@@ -87,7 +73,7 @@ static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nod
 static OstStatus find_ghosts(const OstMeshChunk *chunk, Slab *slab, OstLocal visitors, const OstGlobal *visitor_nodes)
 {
     const size_t width = (size_t)chunk->nodes_per_tet;
-    NumberSet ghosts = {0};
+    OstNumberSet ghosts = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(add_ghosts(slab, (size_t)chunk->tet_count * width, chunk->tet_nodes, &ghosts));
     OST_TRY_DONE(add_ghosts(slab, (size_t)visitors * width, visitor_nodes, &ghosts));
@@ -96,8 +82,8 @@ static OstStatus find_ghosts(const OstMeshChunk *chunk, Slab *slab, OstLocal vis
         OST_TRY_DONE(
             add_ghosts(slab, (size_t)boundary->count * (size_t)boundary->nodes_per_item, boundary->nodes, &ghosts));
     }
-    OST_TRY_DONE(ost_number_set_close(slab->ctx, &ghosts));
-    slab->ghost_count = (OstLocal)ghosts.count;
+    ost_number_set_close(&ghosts);
+    slab->ghost_count = ghosts.count;
     slab->ghost_number = ghosts.number;
     return OST_SUCCESS;
 done:

@@ -41,11 +41,11 @@ static OstStatus check_shape(OstContext *ctx, const OstTubeShape *tube)
 
 OstStatus ost_chunk_create_tube(OstContext *ctx, const OstTubeShape *shape, OstMeshChunk **chunk)
 {
-    static const GridSide sides[] = {{"bottom", 0, GRID_LOW},
-                                     {"top", 0, GRID_HIGH},
-                                     {"ends", 0, GRID_LOW | GRID_HIGH},
-                                     {"inner", 2, GRID_LOW},
-                                     {"outer", 2, GRID_HIGH}};
+    static const GridSide sides[] = {{"bottom", 0, HEX_LOW},
+                                     {"top", 0, HEX_HIGH},
+                                     {"ends", 0, HEX_LOW | HEX_HIGH},
+                                     {"inner", 2, HEX_LOW},
+                                     {"outer", 2, HEX_HIGH}};
     *chunk = NULL;
     OST_TRY(ost_agree(ctx, check_shape(ctx, shape)));
     const Grid grid = {"tube", {shape->axial, shape->around, shape->radial}, {0, 1, 0}, shape, place};

@@ -35,6 +35,7 @@ static void print_solve(const OstResult *result)
     const OstSolveReport *report = &result->solve;
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
+    printf("  engine           %s\n", report->engine);
     print_ladder(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
@@ -58,8 +59,8 @@ static void print_digits(const OstChecks *checks)
 
 static void print_objections(const OstResult *result)
 {
-    for (int i = 0; i < result->objections.count; i++)
-        printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->objections.text[i]);
+    for (int i = 0; i < result->verdict.count; i++)
+        printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
 }
 
 /* Beyond this it is worth a word: strains of 4 %, or parts that turn by 0.2, which is 11 degrees. The mesh rarely
@@ -71,7 +72,7 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
     const double error = ost_linear_error(checks);
     char off[32] = "by more than 100 %";
     text[0] = '\0';
-    if (!checks->finite || !(error > small_error))
+    if (!checks->linear || !checks->finite || !(error > small_error))
         return 0;
     if (error < 1.0)
         snprintf(off, sizeof off, "by about %.0f %%", 100.0 * error);
@@ -113,6 +114,6 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     print_warning(&result->checks);
     print_objections(result);
     if (file)
-        printf("  written to       %s%s%s\n", file, result->objections.count > 0 ? ", marked as " : "",
-               result->objections.count > 0 ? ost_result_status(result) : "");
+        printf("  written to       %s%s%s\n", file, result->verdict.count > 0 ? ", marked as " : "",
+               result->verdict.count > 0 ? ost_result_status(result) : "");
 }

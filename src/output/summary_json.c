@@ -2,12 +2,10 @@
 #include "output/summary.h"
 
 #include "core/error.h"
+#include "core/json_file.h"
 
-#include <errno.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* JSON has no word for what is no number. */
 static json_t *number_json(double number)
@@ -52,9 +50,9 @@ static json_t *solver_json(const OstSolveReport *report)
     json_t *levels = json_array();
     for (int l = 0; l < report->levels; l++)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
-    return json_pack("{s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "recipe",
-                     ost_recipe_name(report->recipe), "iterations", report->iterations, "relative_residual",
-                     number_json(report->relative_residual), "attainable_residual",
+    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "recipe",
+                     ost_recipe_name(report->recipe), "engine", report->engine, "iterations", report->iterations,
+                     "relative_residual", number_json(report->relative_residual), "attainable_residual",
                      estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
                      "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
                      levels, "operator_complexity", report->operator_complexity, "condition_estimate",
@@ -87,7 +85,7 @@ static json_t *warnings_json(const OstChecks *checks)
     return warnings;
 }
 
-static json_t *objections_json(const OstObjections *objections)
+static json_t *objections_json(const OstVerdict *objections)
 {
     json_t *reasons = json_array();
     for (int i = 0; i < objections->count; i++)
@@ -135,8 +133,8 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 {
     const OstMesh *mesh = result->mesh;
     return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
-                     "case", scene->c->path, "title", scene->c->title, "accepted", result->objections.count == 0,
-                     "status", ost_result_status(result), "reasons", objections_json(&result->objections), "warnings",
+                     "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0,
+                     "status", ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
                      warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices",
                      (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
                      (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
@@ -144,21 +142,6 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                      "largest_at", vector_json(result->largest_at), "watched",
                      watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan), "ledger",
                      ledger_json(summary), "output", file);
-}
-
-static OstStatus write_file(OstContext *ctx, const json_t *document, const char *path)
-{
-    char partial[4096];
-    const int length = snprintf(partial, sizeof partial, "%s.partial", path);
-    if (length < 0 || (size_t)length >= sizeof partial)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the JSON file is too long: %.200s...", path);
-    if (json_dump_file(document, partial, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
-        rename(partial, path) != 0) {
-        const char *reason = strerror(errno);
-        remove(partial);
-        return OST_RAISE(ctx, OST_FILE_FAILED, "cannot write '%s': %s", path, reason);
-    }
-    return OST_SUCCESS;
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
@@ -170,11 +153,5 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
     json_t *document = run_json(scene, result, summary, watched, file);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds a number that JSON cannot: not finite");
-    OstStatus status = OST_SUCCESS;
-    if (strcmp(path, "-") != 0)
-        status = write_file(ctx, document, path);
-    else if (json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 || puts("") < 0)
-        status = OST_RAISE(ctx, OST_FILE_FAILED, "cannot write JSON to standard output");
-    json_decref(document);
-    return status;
+    return ost_json_write(ctx, document, path);
 }

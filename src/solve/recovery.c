@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/recovery.h"
 
-#include "assembly/batch.h"
+#include "assembly/means.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/case.h"
@@ -12,32 +12,22 @@ static int asks(unsigned fields, OstOutputFieldBit field)
     return (fields >> field & 1U) != 0;
 }
 
-static void write_means(OstResult *result, const OstMeans *means, OstLocal tet, int lane)
+static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+                        const OstMeans *means)
 {
-    for (size_t p = 0; p < 6; p++) {
-        if (result->strain)
-            result->strain[6 * (size_t)tet + p] = means->strain[p][lane];
-        if (result->stress)
-            result->stress[6 * (size_t)tet + p] = means->stress[p][lane];
-    }
-    if (result->strain_energy_density)
-        result->strain_energy_density[tet] = means->energy[lane];
-}
-
-static void recover_tets(OstResult *result)
-{
-    const OstMesh *mesh = result->mesh;
-    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    OstBatch batch;
-    ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_LANES) {
-        OstLanes u[3 * OST_MAX_TET_NODES];
-        OstMeans means;
-        ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->owned_tets);
-        ost_batch_gather_vectors(&batch, element->nodes, result->displacement, u);
-        element->means(batch.x, &batch.elasticity, u, &means);
-        for (int lane = 0; lane < batch.count; lane++)
-            write_means(result, &means, batch.tet[lane], lane);
+    OstResult *result = data;
+    (void)element;
+    (void)u;
+    for (int lane = 0; lane < batch->count; lane++) {
+        const size_t tet = (size_t)batch->tet[lane];
+        for (size_t p = 0; p < 6; p++) {
+            if (result->strain)
+                result->strain[6 * tet + p] = means->strain[p][lane];
+            if (result->stress)
+                result->stress[6 * tet + p] = means->stress[p][lane];
+        }
+        if (result->strain_energy_density)
+            result->strain_energy_density[tet] = means->energy[lane];
     }
 }
 
@@ -52,7 +42,7 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
     if (asks(fields, OST_FIELD_ENERGY))
         OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
     if (result->strain || result->stress || result->strain_energy_density)
-        recover_tets(result);
+        ost_visit_means(result->mesh, result->field, result->displacement, write_means, result);
     return OST_SUCCESS;
 }
 

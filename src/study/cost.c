@@ -10,15 +10,15 @@
 
 static const double default_max_seconds = 600.0;
 
-OstCostLadder ost_cost_default_ladder(void)
+OstCostVariants ost_cost_default_variants(void)
 {
-    return (OstCostLadder){.order_count = 2,
-                           .refinement_count = 3,
-                           .tolerance_count = 3,
-                           .order = {1, 2},
-                           .refinement = {0, 1, 2},
-                           .tolerance = {1e-2, 1e-4, 1e-8},
-                           .max_seconds = default_max_seconds};
+    return (OstCostVariants){.order_count = 2,
+                             .refinement_count = 3,
+                             .tolerance_count = 3,
+                             .order = {1, 2},
+                             .refinement = {0, 1, 2},
+                             .tolerance = {1e-2, 1e-4, 1e-8},
+                             .max_seconds = default_max_seconds};
 }
 
 const char *ost_cost_phase_label(OstCostPhase phase)
@@ -41,8 +41,8 @@ double ost_cost_target(int number)
     return targets[number];
 }
 
-/* By refinement, then order, then tolerance with the tightest first: what is cheap comes early, and what the reference
- * is made of comes before its looser neighbours. */
+/* By refinement, then order, then tolerance with the tightest first: cheap runs come early, and the tight ones, from
+ * which references are made, before the loose ones. */
 static int compare_runs(const void *a, const void *b)
 {
     const OstCostRun *x = a;
@@ -59,35 +59,35 @@ static int is_same(const OstCostRun *a, const OstCostRun *b)
     return compare_runs(a, b) == 0;
 }
 
-static OstStatus check_ladder(OstContext *ctx, const OstCostLadder *l)
+static OstStatus check_variants(OstContext *ctx, const OstCostVariants *v)
 {
-    if (l->order_count < 1 || l->refinement_count < 1 || l->tolerance_count < 1)
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "the ladder needs an order, a refinement and a tolerance at least");
-    for (int i = 0; i < l->order_count; i++)
-        if (l->order[i] != 1 && l->order[i] != 2)
-            return OST_RAISE(ctx, OST_INVALID_INPUT, "elements are of order 1 or 2, not %d", l->order[i]);
-    for (int i = 0; i < l->refinement_count; i++)
-        if (l->refinement[i] < 0 || l->refinement[i] > OST_COST_MOST_REFINEMENTS)
+    if (v->order_count < 1 || v->refinement_count < 1 || v->tolerance_count < 1)
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "at least one order, one refinement and one tolerance are needed");
+    for (int i = 0; i < v->order_count; i++)
+        if (v->order[i] != 1 && v->order[i] != 2)
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "elements are of order 1 or 2, not %d", v->order[i]);
+    for (int i = 0; i < v->refinement_count; i++)
+        if (v->refinement[i] < 0 || v->refinement[i] > OST_COST_MOST_REFINEMENTS)
             return OST_RAISE(ctx, OST_INVALID_INPUT, "a mesh is refined 0 to %d times, not %d",
-                             OST_COST_MOST_REFINEMENTS, l->refinement[i]);
-    for (int i = 0; i < l->tolerance_count; i++)
-        if (!(l->tolerance[i] >= 1e-15 && l->tolerance[i] < 1.0))
+                             OST_COST_MOST_REFINEMENTS, v->refinement[i]);
+    for (int i = 0; i < v->tolerance_count; i++)
+        if (!(v->tolerance[i] >= 1e-15 && v->tolerance[i] < 1.0))
             return OST_RAISE(ctx, OST_INVALID_INPUT, "a tolerance is a number from 1e-15 to below 1, not %g",
-                             l->tolerance[i]);
+                             v->tolerance[i]);
     return OST_SUCCESS;
 }
 
-/* A rung that was given twice runs once. */
+/* A combination that occurs twice runs once. */
 static OstStatus list_runs(OstCost *cost)
 {
-    const OstCostLadder *l = &cost->ladder;
-    OST_TRY(OST_NEW(cost->ctx, &cost->run, l->order_count * l->refinement_count * l->tolerance_count));
+    const OstCostVariants *v = &cost->variants;
+    OST_TRY(OST_NEW(cost->ctx, &cost->run, v->order_count * v->refinement_count * v->tolerance_count));
     int count = 0;
-    for (int o = 0; o < l->order_count; o++)
-        for (int r = 0; r < l->refinement_count; r++)
-            for (int t = 0; t < l->tolerance_count; t++)
+    for (int o = 0; o < v->order_count; o++)
+        for (int r = 0; r < v->refinement_count; r++)
+            for (int t = 0; t < v->tolerance_count; t++)
                 cost->run[count++] =
-                    (OstCostRun){.order = l->order[o], .refinement = l->refinement[r], .tolerance = l->tolerance[t]};
+                    (OstCostRun){.order = v->order[o], .refinement = v->refinement[r], .tolerance = v->tolerance[t]};
     qsort(cost->run, (size_t)count, sizeof *cost->run, compare_runs);
     for (int i = 0; i < count; i++)
         if (cost->run_count == 0 || !is_same(&cost->run[i], &cost->run[cost->run_count - 1]))
@@ -102,7 +102,8 @@ static void add_quantity(OstCost *cost, const char *name, const OstWatch *watch)
     quantity->watch = watch;
 }
 
-/* The energy, unless it is watched under a name of its own; and what the case watches, or the largest displacement. */
+/* The case's quantities of interest, or the largest displacement if it has none; and the strain energy, unless it is
+ * among them. */
 static void list_quantities(OstCost *cost)
 {
     const OstCase *c = cost->c;
@@ -121,16 +122,16 @@ static void list_quantities(OstCost *cost)
     }
 }
 
-OstStatus ost_cost_create(const OstCase *c, const OstCostLadder *ladder, OstCost **cost)
+OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, OstCost **cost)
 {
     OstContext *ctx = c->ctx;
     *cost = NULL;
-    OST_TRY(check_ladder(ctx, ladder));
+    OST_TRY(check_variants(ctx, variants));
     OstStatus status = OST_NEW(ctx, cost, 1);
     if (status == OST_SUCCESS) {
         (*cost)->ctx = ctx;
         (*cost)->c = c;
-        (*cost)->ladder = *ladder;
+        (*cost)->variants = *variants;
         (*cost)->measure = ost_cost_measure;
         list_quantities(*cost);
         status = list_runs(*cost);

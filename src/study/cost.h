@@ -5,26 +5,26 @@
 #include "study/cost_reference.h"
 #include "study/watch.h"
 
-/* What accuracy costs: one case, run over a ladder of element order × uniform refinement × solver tolerance, every
- * answer's error against a reference, and what each took. */
+/* What accuracy costs: one case, solved with every combination of element order, uniform refinement and solver
+ * tolerance; each run's error against a reference, its seconds and its memory. */
 
 enum {
     OST_COST_MOST_REFINEMENTS = 8,
-    OST_COST_MOST_RUNGS = 16,
-    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_RUNGS,
+    OST_COST_MOST_VALUES = 16,
+    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_VALUES,
     OST_COST_REASON_SIZE = OST_ERROR_TEXT_SIZE
 };
 
-typedef struct OstCostLadder {
+typedef struct OstCostVariants {
     int order_count, refinement_count, tolerance_count;
-    int order[OST_COST_MOST_RUNGS];
-    int refinement[OST_COST_MOST_RUNGS];
-    double tolerance[OST_COST_MOST_RUNGS];
+    int order[OST_COST_MOST_VALUES];
+    int refinement[OST_COST_MOST_VALUES];
+    double tolerance[OST_COST_MOST_VALUES];
     double max_seconds; /* for all runs together */
     double max_bytes;   /* of our own arrays, over all ranks; 0: no bound */
-} OstCostLadder;
+} OstCostVariants;
 
-/* What a run's seconds go to. */
+/* Phases of a run, by which its seconds are listed. */
 #define OST_COST_PHASE_TABLE(X)      \
     X(OST_COST_REST, "rest")         \
     X(OST_COST_MESH, "mesh")         \
@@ -42,7 +42,7 @@ typedef struct OstCostRun {
     double tolerance; /* of the relative residual */
     OstCostState state;
     char reason[OST_COST_REASON_SIZE]; /* NOT_RUN, FAILED */
-    double foreseen_seconds;           /* before it ran; 0: not known */
+    double predicted_seconds;          /* from earlier runs; 0: not known */
     int repeats;                       /* short runs are repeated, and the fastest counts */
     OstGlobal unknowns, tets;
     int iterations;
@@ -51,8 +51,8 @@ typedef struct OstCostRun {
     double phase[OST_COST_PHASES];
     double bytes; /* our own arrays at their peak, over all ranks */
     OstWatched watched[OST_COST_MOST_QUANTITIES];
-    double error[OST_COST_MOST_QUANTITIES];    /* relative; NaN: not known */
-    double accident[OST_COST_MOST_QUANTITIES]; /* relative: an error below this is luck, not order */
+    double error[OST_COST_MOST_QUANTITIES];       /* relative; NaN: not known */
+    double least_error[OST_COST_MOST_QUANTITIES]; /* relative: a smaller one is by accident */
 } OstCostRun;
 
 typedef struct OstCostQuantity {
@@ -63,17 +63,17 @@ typedef struct OstCostQuantity {
 
 typedef struct OstCost OstCost;
 
-/* Measures one run of the variant of the case that it is told to: fills unknowns to watched. Collective. */
+/* Collective. Solves a variant of the case; fills `unknowns` to `watched` of the run. */
 typedef OstStatus (*OstCostMeasure)(OstCost *cost, const OstCase *variant, OstCostRun *run);
 
 struct OstCost {
     OstContext *ctx;
     const OstCase *c;
-    OstCostLadder ladder;
+    OstCostVariants variants;
     OstCostMeasure measure;
-    int placed;             /* are the watched places moved to vertices? */
-    int heard[2];           /* have the warnings of order 1, 2 been said? */
-    OstWatch strain_energy; /* watched in any case */
+    int placed;             /* are the points of quantities moved to vertices? */
+    int heard[2];           /* were the warnings of order 1, 2 printed? */
+    OstWatch strain_energy; /* a quantity of every case */
     OstWatch watch[OST_MOST_WATCHES];
     int quantity_count;
     OstCostQuantity quantity[OST_COST_MOST_QUANTITIES];
@@ -83,48 +83,45 @@ struct OstCost {
 };
 
 /* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8. */
-OstCostLadder ost_cost_default_ladder(void);
+OstCostVariants ost_cost_default_variants(void);
 
-/* Collective. Memory of the machines the ranks are on, in bytes. */
-OstStatus ost_cost_machine_bytes(OstContext *ctx, double *bytes);
-
-/* Collective. Lists the runs; the case outlives the study. Raises OST_INVALID_INPUT for a rung that is out of range. */
-OstStatus ost_cost_create(const OstCase *c, const OstCostLadder *ladder, OstCost **cost);
+/* Collective. Lists the runs; the case must outlive the study. Raises OST_INVALID_INPUT for a value out of range. */
+OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, OstCost **cost);
 void ost_cost_destroy(OstCost **cost);
 
-/* Collective. Runs what fits into the bounds, in order, and judges it. What is refused or does not converge is listed
- * with its reason; fails, with the reason of the last one, only if no run has an answer. */
+/* Collective. Runs, in order, what fits into the bounds of time and memory, and judges it. A run that fails is listed
+ * with its reason; returns the last failure if no run has an answer. */
 OstStatus ost_cost_run(OstCost *cost);
 
-/* Collective. One run as it is: mesh, assembly, solve; no fields are recovered or written. */
+/* Collective. One run: mesh, assembly, solve. No fields are recovered or written. */
 OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run);
 
-/* Local. Chooses the references and fills the errors; ost_cost_run does it at its end. */
+/* Local. Chooses the references and fills the errors. ost_cost_run ends with it. */
 void ost_cost_judge(OstCost *cost);
 
-/* Local. The error of a run that may be claimed: not below what is known of the reference, nor below what the change
- * from the refinement before can leave at the best rate of its order (values on their way past the reference come near
- * it by accident). NaN if there is none. */
+/* Local. An upper estimate of a run's error: its distance from the reference, but at least the reference's uncertainty
+ * and at least what the change from the previous refinement leaves at the best possible rate (a value that passes the
+ * reference is near it by accident). NaN if there is none. */
 double ost_cost_claim(const OstCost *cost, const OstCostRun *run, int quantity);
 
-/* Local. The fastest run whose error may be claimed to be at most `target`; -1: none. */
+/* Local. The fastest run whose estimated error is at most `target`; -1: none. */
 int ost_cost_cheapest(const OstCost *cost, int quantity, double target);
 
-/* Local. The runs that no faster one beats, from fast to exact; `runs` has room for OST_COST_MOST_RUNS. Returns
- * how many. */
+/* Local. The runs that no faster run beats, the fastest first; `runs` has room for OST_COST_MOST_RUNS. Returns how
+ * many. */
 int ost_cost_frontier(const OstCost *cost, int quantity, int *runs);
 
-/* Local. The errors that are priced in the end. */
+/* Local. The errors for which the cheapest run is listed. */
 enum { OST_COST_TARGETS = 4 };
 double ost_cost_target(int number);
 
 const char *ost_cost_phase_label(OstCostPhase phase);
 const char *ost_cost_state_word(OstCostState state);
 
-/* Local; rank 0 prints. The price list for a person. */
+/* Local; rank 0 prints. The tables for a person. */
 void ost_cost_print(const OstCost *cost);
 
-/* Local; rank 0 writes. All of it, to a file (written aside and renamed) or, for "-", to standard output. */
+/* Local; rank 0 writes the whole study to a file (aside, then renamed) or, for "-", to standard output. */
 OstStatus ost_cost_write_csv(const OstCost *cost, const char *path);
 OstStatus ost_cost_write_json(const OstCost *cost, const char *path);
 

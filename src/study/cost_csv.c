@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
-#include "study/cost_file.h"
+
+#include "core/write_aside.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* A text in quotes, with those within doubled. */
+/* In quotes; quotes within the text are doubled. */
 static void write_text(FILE *file, const char *text)
 {
     fputc('"', file);
@@ -17,7 +18,7 @@ static void write_text(FILE *file, const char *text)
     fputc('"', file);
 }
 
-/* Nothing where there is no number. */
+/* An empty field where there is no number. */
 static void write_number(FILE *file, int known, double number)
 {
     fputc(',', file);
@@ -27,7 +28,7 @@ static void write_number(FILE *file, int known, double number)
 
 static void write_heading(FILE *file, const OstCost *cost)
 {
-    fputs("order,refinement,tolerance,state,reason,foreseen_seconds,unknowns,tets,iterations,residual,repeats,seconds",
+    fputs("order,refinement,tolerance,state,reason,predicted_seconds,unknowns,tets,iterations,residual,repeats,seconds",
           file);
     for (int p = 0; p < OST_COST_PHASES; p++)
         fprintf(file, ",%s_seconds", ost_cost_phase_label((OstCostPhase)p));
@@ -50,7 +51,7 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
     const int done = run->state == OST_COST_DONE;
     fprintf(file, "%d,%d,%g,%s,", run->order, run->refinement, run->tolerance, ost_cost_state_word(run->state));
     write_text(file, run->reason);
-    write_number(file, run->foreseen_seconds > 0.0, run->foreseen_seconds);
+    write_number(file, run->predicted_seconds > 0.0, run->predicted_seconds);
     if (done)
         fprintf(file, ",%lld,%lld,%d", (long long)run->unknowns, (long long)run->tets, run->iterations);
     else
@@ -73,8 +74,9 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
     fputc('\n', file);
 }
 
-static OstStatus write_csv(FILE *file, const OstCost *cost)
+static OstStatus write_csv(FILE *file, const void *content)
 {
+    const OstCost *cost = content;
     write_heading(file, cost);
     for (int i = 0; i < cost->run_count; i++)
         write_run(file, cost, &cost->run[i]);
@@ -83,5 +85,5 @@ static OstStatus write_csv(FILE *file, const OstCost *cost)
 
 OstStatus ost_cost_write_csv(const OstCost *cost, const char *path)
 {
-    return ost_cost_write_file(cost, path, write_csv);
+    return ost_rank(cost->ctx) == 0 ? ost_write_aside(cost->ctx, path, write_csv, cost) : OST_SUCCESS;
 }

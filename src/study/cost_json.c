@@ -1,46 +1,36 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/json_file.h"
 #include "study/cost.h"
-#include "study/cost_file.h"
-
-#include <jansson.h>
-#include <math.h>
-
-/* null where there is no number. */
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
 
 static json_t *index_json(int index)
 {
     return index >= 0 ? json_integer(index) : json_null();
 }
 
-/* A formula has no order and no refinement; only a formula has a source. */
+/* A formula's value has a source, but no order and no refinement. */
 static json_t *reference_json(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
     const int is_formula = reference->kind == OST_REFERENCE_FORMULA;
     return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word(reference->kind),
-                     "value", reference->value, "uncertainty", number_json(reference->uncertainty), "rate",
+                     "value", reference->value, "uncertainty", ost_json_number(reference->uncertainty), "rate",
                      reference->rate, "order", index_json(is_formula ? -1 : reference->order), "finest_refinement",
                      index_json(is_formula ? -1 : reference->finest), "note", reference->note, "source",
                      is_formula ? quantity->watch->source : NULL);
 }
 
-/* Runs are named by their number in the list. */
-static json_t *prices_json(const OstCost *cost, int quantity)
+/* Runs are given by their index. */
+static json_t *cheapest_json(const OstCost *cost, int quantity)
 {
-    json_t *prices = json_array();
+    json_t *list = json_array();
     for (int t = 0; t < OST_COST_TARGETS; t++) {
         const double target = ost_cost_target(t);
-        json_array_append_new(prices,
-                              json_pack("{s:f, s:o, s:o}", "error", target, "run",
-                                        index_json(ost_cost_cheapest(cost, quantity, target)), "run_one_digit_more",
-                                        index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
+        json_array_append_new(list, json_pack("{s:f, s:o, s:o}", "error", target, "run",
+                                              index_json(ost_cost_cheapest(cost, quantity, target)), "run_for_a_tenth",
+                                              index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
     }
-    return prices;
+    return list;
 }
 
 static json_t *frontier_json(const OstCost *cost, int quantity)
@@ -59,7 +49,7 @@ static json_t *quantities_json(const OstCost *cost)
     for (int q = 0; q < cost->quantity_count; q++)
         json_array_append_new(quantities, json_pack("{s:s, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
                                                     reference_json(&cost->quantity[q]), "cheapest",
-                                                    prices_json(cost, q), "frontier", frontier_json(cost, q)));
+                                                    cheapest_json(cost, q), "frontier", frontier_json(cost, q)));
     return quantities;
 }
 
@@ -68,8 +58,9 @@ static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
     json_t *answers = json_object();
     for (int q = 0; q < cost->quantity_count; q++)
         json_object_set_new(answers, cost->quantity[q].name,
-                            json_pack("{s:o, s:o, s:o}", "value", number_json(run->watched[q].value), "error",
-                                      number_json(run->error[q]), "claim", number_json(ost_cost_claim(cost, run, q))));
+                            json_pack("{s:o, s:o, s:o}", "value", ost_json_number(run->watched[q].value), "error",
+                                      ost_json_number(run->error[q]), "claim",
+                                      ost_json_number(ost_cost_claim(cost, run, q))));
     return answers;
 }
 
@@ -77,7 +68,7 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 {
     json_t *item = json_pack("{s:i, s:i, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
                              "tolerance", run->tolerance, "state", ost_cost_state_word(run->state), "reason",
-                             run->reason, "foreseen_seconds", run->foreseen_seconds);
+                             run->reason, "predicted_seconds", run->predicted_seconds);
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
@@ -98,24 +89,18 @@ static json_t *study_json(const OstCost *cost)
     for (int i = 0; i < cost->run_count; i++)
         json_array_append_new(runs, run_json(cost, &cost->run[i]));
     return json_pack("{s:s, s:s, s:i, s:f, s:f, s:o, s:o}", "case", cost->c->path, "title", cost->c->title, "ranks",
-                     ost_size(cost->ctx), "max_seconds", cost->ladder.max_seconds, "seconds", cost->seconds,
+                     ost_size(cost->ctx), "max_seconds", cost->variants.max_seconds, "seconds", cost->seconds,
                      "quantities", quantities_json(cost), "runs", runs);
-}
-
-static OstStatus write_json(FILE *file, const OstCost *cost)
-{
-    json_t *document = study_json(cost);
-    const int failed = !document || json_dumpf(document, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 ||
-                       fputc('\n', file) == EOF;
-    const int impossible = !document;
-    json_decref(document);
-    if (impossible)
-        return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
-                         "%s: the prices cannot be written as JSON (are its title and names UTF-8?)", cost->c->path);
-    return failed ? OST_RAISE(cost->ctx, OST_FILE_FAILED, "the JSON file cannot be written") : OST_SUCCESS;
 }
 
 OstStatus ost_cost_write_json(const OstCost *cost, const char *path)
 {
-    return ost_cost_write_file(cost, path, write_json);
+    if (ost_rank(cost->ctx) != 0)
+        return OST_SUCCESS;
+    json_t *document = study_json(cost);
+    if (!document)
+        return OST_RAISE(cost->ctx, OST_CHECK_FAILED,
+                         "%s: the cost study cannot be written as JSON (are its title and names UTF-8?)",
+                         cost->c->path);
+    return ost_json_write(cost->ctx, document, path);
 }

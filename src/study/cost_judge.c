@@ -3,50 +3,50 @@
 
 #include <math.h>
 
-/* The energy norm of the error is bounded by the residual times the square root of a condition number; this is what
- * multigrid leaves of that. */
+/* The relative error in the energy norm, over the solver's tolerance: at most the square root of the condition number
+ * of the preconditioned matrix, which multigrid keeps small. */
 static const double noise_of_tolerance = 10.0;
 
-/* The answers of one order to a quantity: each refinement at the tightest tolerance that was reached. */
-typedef struct Ladder {
+/* A quantity by elements of one order: each refinement at its tightest tolerance. */
+typedef struct Series {
     int count;
     int refinement[OST_COST_MOST_REFINEMENTS + 1];
     double value[OST_COST_MOST_REFINEMENTS + 1];
     double tolerance;
     double scale;
-} Ladder;
+} Series;
 
-static void collect(const OstCost *cost, int quantity, int order, Ladder *ladder)
+static void collect(const OstCost *cost, int quantity, int order, Series *series)
 {
-    ladder->count = 0;
-    ladder->tolerance = ladder->scale = 0.0;
+    series->count = 0;
+    series->tolerance = series->scale = 0.0;
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
         if (run->state != OST_COST_DONE || run->order != order)
             continue;
-        if (ladder->count > 0 && ladder->refinement[ladder->count - 1] == run->refinement)
-            continue; /* a looser one of the same */
-        ladder->refinement[ladder->count] = run->refinement;
-        ladder->value[ladder->count++] = run->watched[quantity].value;
-        ladder->tolerance = fmax(ladder->tolerance, run->tolerance);
-        ladder->scale = run->watched[quantity].scale;
+        if (series->count > 0 && series->refinement[series->count - 1] == run->refinement)
+            continue; /* the same refinement, less tightly solved */
+        series->refinement[series->count] = run->refinement;
+        series->value[series->count++] = run->watched[quantity].value;
+        series->tolerance = fmax(series->tolerance, run->tolerance);
+        series->scale = run->watched[quantity].scale;
     }
 }
 
-static void judge_order(const OstCost *cost, int quantity, int order, Ladder *ladder, OstCostReference *found)
+static void judge_order(const OstCost *cost, int quantity, int order, Series *series, OstCostReference *found)
 {
-    collect(cost, quantity, order, ladder);
+    collect(cost, quantity, order, series);
     const OstAnswers answers = {.order = order,
-                                .count = ladder->count,
-                                .refinement = ladder->refinement,
-                                .value = ladder->value,
-                                .noise = noise_of_tolerance * ladder->tolerance,
-                                .scale = ladder->scale};
+                                .count = series->count,
+                                .refinement = series->refinement,
+                                .value = series->value,
+                                .noise = noise_of_tolerance * series->tolerance,
+                                .scale = series->scale};
     ost_reference_of(&answers, found);
 }
 
-/* Order 1 as it is never tells more than order 2; what it tends to may, where order 2 had less to go on. Order 2 that
- * has no limit is believed. */
+/* Prefer order 2, unless it has no reference or order 1 extrapolates to a better known limit. An infinite uncertainty
+ * of order 2 means that there may be no limit at all: then order 1 is no better. */
 static int lower_tells_more(const OstCostReference *lower, const OstCostReference *higher)
 {
     if (lower->kind == OST_REFERENCE_NONE || higher->kind == OST_REFERENCE_NONE)
@@ -55,25 +55,25 @@ static int lower_tells_more(const OstCostReference *lower, const OstCostReferenc
            lower->uncertainty < higher->uncertainty;
 }
 
-/* The formula's value where the case has one. */
+/* The case's expected value, if there is one; else what the runs tend to. */
 static void choose_reference(OstCost *cost, int quantity)
 {
-    Ladder ladder[2];
+    Series series[2];
     OstCostReference found[2];
     for (int i = 0; i < 2; i++)
-        judge_order(cost, quantity, i + 1, &ladder[i], &found[i]);
+        judge_order(cost, quantity, i + 1, &series[i], &found[i]);
     const OstWatch *watch = cost->quantity[quantity].watch;
     if (watch && !isnan(watch->expected)) {
-        ost_reference_of_formula(watch->expected, fmax(ladder[0].scale, ladder[1].scale),
+        ost_reference_of_formula(watch->expected, fmax(series[0].scale, series[1].scale),
                                  &cost->quantity[quantity].reference);
         return;
     }
-    if (ladder[1].count == 1 && ladder[0].count > 0)
-        ost_reference_compare(&found[1], ladder[0].value[ladder[0].count - 1]);
+    if (series[1].count == 1 && series[0].count > 0)
+        ost_reference_compare(&found[1], series[0].value[series[0].count - 1]);
     cost->quantity[quantity].reference = found[!lower_tells_more(&found[0], &found[1])];
 }
 
-/* The finest answer says nothing about itself. */
+/* A run that is itself the reference has no known error. */
 static double error_of(const OstCostReference *reference, const OstCostRun *run, int quantity)
 {
     const int is_reference = run->order == reference->order && run->refinement == reference->finest;
@@ -84,7 +84,7 @@ static double error_of(const OstCostReference *reference, const OstCostRun *run,
     return fabs(run->watched[quantity].value - reference->value) / reference->size;
 }
 
-/* Of the change from one refinement to the next at least this is left as error. */
+/* The error that the change from the previous refinement leaves, at the best possible rate of convergence. */
 static double least_left(const OstCost *cost, const OstCostRun *run, int quantity)
 {
     const OstCostReference *reference = &cost->quantity[quantity].reference;
@@ -106,7 +106,7 @@ void ost_cost_judge(OstCost *cost)
         choose_reference(cost, q);
         for (int i = 0; i < cost->run_count; i++) {
             cost->run[i].error[q] = error_of(&cost->quantity[q].reference, &cost->run[i], q);
-            cost->run[i].accident[q] = least_left(cost, &cost->run[i], q);
+            cost->run[i].least_error[q] = least_left(cost, &cost->run[i], q);
         }
     }
 }
@@ -114,7 +114,7 @@ void ost_cost_judge(OstCost *cost)
 double ost_cost_claim(const OstCost *cost, const OstCostRun *run, int quantity)
 {
     const double error = run->state == OST_COST_DONE ? run->error[quantity] : NAN;
-    const double known = fmax(run->accident[quantity], cost->quantity[quantity].reference.uncertainty);
+    const double known = fmax(run->least_error[quantity], cost->quantity[quantity].reference.uncertainty);
     return isnan(error) ? NAN : fmax(error, known);
 }
 
@@ -129,7 +129,7 @@ int ost_cost_cheapest(const OstCost *cost, int quantity, double target)
     return cheapest;
 }
 
-/* The fastest run that is more exact than the last one found, and so on to the most exact of all. */
+/* The fastest run of all, then the fastest with a smaller error than that, and so on. */
 int ost_cost_frontier(const OstCost *cost, int quantity, int *runs)
 {
     int count = 0;

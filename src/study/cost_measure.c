@@ -5,11 +5,11 @@
 
 #include <string.h>
 
-/* A short run is at the mercy of whatever else the machine does: it is repeated, and the fastest counts. */
+/* Other work on the machine disturbs short runs most: they are repeated, and the fastest counts. */
 enum { MOST_REPEATS = 3 };
 static const double long_enough = 0.5;
 
-/* Accounts that are not named here are part of the rest. */
+/* Accounts that are not listed count as the rest. */
 static const OstCostPhase phase_of[OST_LEDGER_COUNT] = {
     [OST_LEDGER_MESH] = OST_COST_MESH,
     [OST_LEDGER_PARTITION] = OST_COST_MESH,
@@ -30,7 +30,7 @@ static const OstCostPhase phase_of[OST_LEDGER_COUNT] = {
     [OST_EFFECT_BODY_FORCE] = OST_COST_ASSEMBLY,
 };
 
-/* What this rank had booked when a run began. */
+/* This rank's ledger when a run began. */
 typedef struct Meter {
     double start;
     double seconds[OST_LEDGER_COUNT];
@@ -80,7 +80,7 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     return OST_SUCCESS;
 }
 
-/* What there is to warn of is said once for each order, not for each run. */
+/* Warnings are printed for the first run of each order, not for every run. */
 static void hush(const OstCost *cost, int order)
 {
     if (cost->heard[order - 1] && ost_log_level(cost->ctx) == OST_LOG_NORMAL)

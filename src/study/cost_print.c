@@ -39,7 +39,7 @@ static void percent(double share, char *text, size_t size)
         snprintf(text, size, hundredths >= 99.5 ? "%.0f %%" : "%.2g %%", hundredths);
 }
 
-/* An error below what the reference is known to is only known to be below that. */
+/* An error smaller than its estimate is printed as an upper bound. */
 static void error_cell(const OstCost *cost, const OstCostRun *run, int quantity, char *text, size_t size)
 {
     const double error = run->error[quantity];
@@ -116,30 +116,31 @@ static void print_reference(const OstCostQuantity *quantity)
                reference->note, isinf(reference->uncertainty) ? "not to be trusted" : "good to ",
                isinf(reference->uncertainty) ? "" : known);
     if (reference->size > fabs(reference->value))
-        printf("; it is nothing beside %.4g, of which errors are shares", reference->size);
+        printf("; that is negligible beside %.4g, to which errors are relative", reference->size);
     printf("\n");
 }
 
-/* What the best claim is, where a target is out of reach. */
+/* Where no run reaches the target: the smallest estimated error. */
 static void print_out_of_reach(const OstCost *cost, int quantity)
 {
     double best = INFINITY;
     char number[CELL_SIZE];
     for (int i = 0; i < cost->run_count; i++)
-        best = fmin(best, ost_cost_claim(cost, &cost->run[i], quantity)); /* fmin passes over NaN */
+        best = fmin(best, ost_cost_claim(cost, &cost->run[i], quantity)); /* fmin ignores NaN */
     percent(best, number, sizeof number);
     if (isinf(best))
-        printf("no run can claim it: nothing tells how good the reference is\n");
+        printf("no run reaches it: the accuracy of the reference is not known\n");
     else
-        printf("no run can claim it: the best has %s\n", number);
+        printf("no run reaches it: the best has %s\n", number);
 }
 
 static void print_ratio(double ratio)
 {
-    printf(ratio < 10.0 ? "   one digit more costs %.1f times that" : "   one digit more costs %.0f times that", ratio);
+    printf(ratio < 10.0 ? "   a tenth of that costs %.1f times as much" : "   a tenth of that costs %.0f times as much",
+           ratio);
 }
 
-static void print_price(const OstCost *cost, int quantity, double target)
+static void print_cheapest_for(const OstCost *cost, int quantity, double target)
 {
     const int cheapest = ost_cost_cheapest(cost, quantity, target);
     const int next = ost_cost_cheapest(cost, quantity, 0.1 * target);
@@ -155,15 +156,15 @@ static void print_price(const OstCost *cost, int quantity, double target)
     if (next >= 0 && next != cheapest)
         print_ratio(cost->run[next].seconds / run->seconds);
     else if (next == cheapest)
-        printf("   one digit more comes with it");
+        printf("   and less than a tenth of that");
     printf("\n");
 }
 
-static void print_prices(const OstCost *cost, int quantity)
+static void print_cheapest(const OstCost *cost, int quantity)
 {
     for (int t = 0; t < OST_COST_TARGETS; t++) {
         printf("  %-14s", t == 0 ? cost->quantity[quantity].name : "");
-        print_price(cost, quantity, ost_cost_target(t));
+        print_cheapest_for(cost, quantity, ost_cost_target(t));
     }
 }
 
@@ -175,16 +176,16 @@ void ost_cost_print(const OstCost *cost)
     for (int i = 0; i < cost->run_count; i++)
         done += cost->run[i].state == OST_COST_DONE;
     printf("%s: %s\n  %d of %d runs done in %.3g s on %d rank%s\n\n"
-           "prices (seconds of the slowest rank, memory of our own arrays on all ranks)\n",
+           "errors and costs (seconds of the slowest rank, memory of Orthostat's own arrays on all ranks)\n",
            cost->c->path, cost->c->title, done, cost->run_count, cost->seconds, ost_size(cost->ctx),
            ost_size(cost->ctx) == 1 ? "" : "s");
     print_heading(cost);
     for (int i = 0; i < cost->run_count; i++)
         print_run(cost, &cost->run[i]);
-    printf("\nerrors are against\n");
+    printf("\nerrors are relative to\n");
     for (int q = 0; q < cost->quantity_count; q++)
         print_reference(&cost->quantity[q]);
     printf("\ncheapest for an error of\n");
     for (int q = 0; q < cost->quantity_count; q++)
-        print_prices(cost, q);
+        print_cheapest(cost, q);
 }

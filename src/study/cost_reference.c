@@ -8,8 +8,8 @@
 static const double lowest_rate = 0.4;
 static const double rate_surplus = 0.5;
 
-/* Beside the largest of its kind a value this small is nothing. */
-static const double nothing = 1e-6;
+/* A value is negligible if it is smaller than this, relative to the scale of its kind. */
+static const double negligible = 1e-6;
 
 /* (q1 - q0) / (q2 - q1) at a rate; grows with it. */
 static double ratio_at(const double h[3], double rate)
@@ -38,11 +38,11 @@ int ost_extrapolate(const double h[3], const double q[3], OstExtrapolation *foun
     return 1;
 }
 
-/* Errors are shares of the value, or of its kind's scale where the value is nothing beside that or is lost in what is
- * not known of it. `doubt`: how far it may be off. */
+/* Errors are relative to the value, or to the scale of its kind where the value is negligible or smaller than `doubt`,
+ * by which it may be off. */
 static void set_value(OstCostReference *reference, OstReferenceKind kind, double value, double doubt, double scale)
 {
-    const int counts = fabs(value) > nothing * scale && fabs(value) > doubt;
+    const int counts = fabs(value) > negligible * scale && fabs(value) > doubt;
     reference->kind = kind;
     reference->value = value;
     reference->size = counts ? fabs(value) : scale;
@@ -54,7 +54,7 @@ static double in_percent(const OstCostReference *reference, double difference)
     return reference->size > 0.0 ? 100.0 * difference / reference->size : 0.0;
 }
 
-/* Two differences tell more than one, for they may have changed sign: the larger of them. */
+/* The larger of the last two differences bounds the uncertainty: just before they change sign, one may be small. */
 static void take_finest(const OstAnswers *a, OstCostReference *reference)
 {
     const double *q = a->value + a->count - 1;
@@ -64,7 +64,7 @@ static void take_finest(const OstAnswers *a, OstCostReference *reference)
     if (a->count < 3) {
         reference->uncertainty = a->count == 1 ? INFINITY : reference->uncertainty;
         snprintf(reference->note, sizeof reference->note,
-                 a->count == 1 ? "it is the only refinement, and nothing tells its own error"
+                 a->count == 1 ? "it is the only refinement, so its own error is not known"
                                : "two refinements give no rate to extrapolate by");
         return;
     }
@@ -107,7 +107,7 @@ static int take_limit(const OstAnswers *a, OstCostReference *reference)
 static int take_settled(const OstAnswers *a, OstCostReference *reference)
 {
     const double *q = a->value + a->count - 1;
-    const double size = fabs(q[0]) > nothing * a->scale ? fabs(q[0]) : a->scale;
+    const double size = fabs(q[0]) > negligible * a->scale ? fabs(q[0]) : a->scale;
     if (fabs(q[0] - q[-1]) > a->noise * size)
         return 0;
     set_value(reference, OST_REFERENCE_SETTLED, q[0], a->noise * size, a->scale);

@@ -7,22 +7,22 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A refinement has 8 times the tets, and multigrid's work grows with them; a factorisation's faster, so the growth that
- * was seen counts, within bounds. */
+/* A refinement has 8 times the tets. The work of multigrid grows as much, that of a factorisation faster: the growth
+ * that was measured counts, within these bounds. */
 static const double least_growth = 8.0, most_growth = 32.0;
 
-/* Order 2 on a mesh has the nodes of order 1 on its refinement, and about three times as many entries to a row. */
+/* Order 2 has the nodes of order 1 on the refined mesh, and about three times as many entries per row. */
 static const double denser_rows = 3.0;
 
-/* Memory of the libraries and of the program beside our own arrays. */
+/* Memory of the process, with libraries, over that of Orthostat's own arrays. */
 static const double memory_beside = 2.0;
 
 typedef struct Forecast {
     double seconds, bytes; /* 0: not known */
 } Forecast;
 
-/* The run that tells most about another: of its own order rather than the one below, of the finest mesh, and then the
- * slowest, or that of the same tolerance. */
+/* The finished run to predict another from: of its own order rather than the one below, on the finest mesh, of the same
+ * tolerance; else the slowest. */
 static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
 {
     const OstCostRun *best = NULL;
@@ -43,7 +43,7 @@ static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
     return best;
 }
 
-/* How the seconds grew to the model from the refinement before it. */
+/* The factor by which the seconds grew from the previous refinement to the model. */
 static double growth_to(const OstCost *cost, const OstCostRun *model)
 {
     double growth = least_growth;
@@ -56,7 +56,7 @@ static double growth_to(const OstCost *cost, const OstCostRun *model)
     return fmin(fmax(growth, least_growth), most_growth);
 }
 
-static Forecast foresee(const OstCost *cost, const OstCostRun *run)
+static Forecast predict(const OstCost *cost, const OstCostRun *run)
 {
     const OstCostRun *model = find_model(cost, run);
     if (!model)
@@ -80,22 +80,22 @@ static void describe_seconds(double seconds, char *text, size_t size)
         snprintf(text, size, "about %.0f h", seconds / 3600.0);
 }
 
-/* Collective: the clocks of the ranks differ, that of rank 0 decides. */
+/* Collective. Clocks differ between ranks; rank 0's decides. */
 static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
 {
-    const Forecast forecast = foresee(cost, run);
-    const OstCostLadder *ladder = &cost->ladder;
+    const Forecast forecast = predict(cost, run);
+    const OstCostVariants *variants = &cost->variants;
     const double gibibytes = memory_beside * forecast.bytes / 1073741824.0;
     double elapsed = ost_seconds() - start;
     OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
-    run->foreseen_seconds = forecast.seconds;
-    *yes = forecast.seconds == 0.0 || elapsed + forecast.seconds <= ladder->max_seconds;
+    run->predicted_seconds = forecast.seconds;
+    *yes = forecast.seconds == 0.0 || elapsed + forecast.seconds <= variants->max_seconds;
     if (!*yes)
         describe_seconds(forecast.seconds, run->reason, sizeof run->reason);
-    else if (ladder->max_bytes > 0.0 && memory_beside * forecast.bytes > ladder->max_bytes) {
+    else if (variants->max_bytes > 0.0 && memory_beside * forecast.bytes > variants->max_bytes) {
         *yes = 0;
-        snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, and there are %.2g", gibibytes,
-                 ladder->max_bytes / 1073741824.0);
+        snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, of %.2g there are", gibibytes,
+                 variants->max_bytes / 1073741824.0);
     }
     return OST_SUCCESS;
 }
@@ -103,8 +103,8 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
 static void announce(const OstCost *cost, const OstCostRun *run, int number)
 {
     char line[160], about[32] = "";
-    if (run->foreseen_seconds > 0.0)
-        describe_seconds(run->foreseen_seconds, about, sizeof about);
+    if (run->predicted_seconds > 0.0)
+        describe_seconds(run->predicted_seconds, about, sizeof about);
     snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1, cost->run_count,
              run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);

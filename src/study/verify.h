@@ -4,13 +4,13 @@
 
 #include "orthostat/scene.h"
 #include "orthostat/verify.h"
-#include "study/formula.h"
+#include "study/formula/formula.h"
 
-/* Runs a case up the ladder of its verify section and holds what is measured against its formula. */
+/* Solves a case on the meshes of its verify section and compares what is measured with its formula. */
 
 /* One quantity on one mesh. Over faces and nodes the error is the larger of the mean's and of the root mean square of
  * the answer's distance from the formula's field: errors of both signs cannot cancel, and so converge with their order.
- * The energy norm is that of the method: of a mode that quadratic tets see by its mean alone, the mean counts. */
+ * With the mean-dilatation element the energy norm uses the element's mean of the stiff mode. */
 typedef struct OstVerifyReading {
     double expected, obtained; /* FIELD: norms of the formula's field, and of the difference */
     double error;              /* relative */
@@ -28,10 +28,10 @@ typedef struct OstVerifyRun {
     OstVerifyReading *reading; /* quantity_count */
 } OstVerifyRun;
 
-/* One quantity on one step of the ladder: its finest mesh, and the rate at which it got there. */
+/* One quantity, by elements of one order: the result on the finest mesh, and the rate of convergence. */
 typedef struct OstVerifyVerdict {
-    int run;     /* the finest, or -1: the step was not run */
-    double rate; /* between the last two meshes; NAN: one mesh only, or nothing left but rounding */
+    int run;     /* the finest, or -1: none was run */
+    double rate; /* between the last two meshes; NAN: one mesh only, or the error is rounding */
     double error_limit;
     double order; /* of convergence in theory, or as OstVerifyQuantity.rate */
     int passed;
@@ -50,16 +50,16 @@ typedef struct OstVerifyReport {
     int passed;
 } OstVerifyReport;
 
-/* Loads and reactions balance to the first in every run, in force and moment; strain energy and work to the second. */
+/* Largest relative imbalance of loads and reactions (forces and moments), and of strain energy and work, in any run. */
 extern const double ost_verify_balance, ost_verify_energy_balance;
 
-/* The order that is observed between the last two meshes is at least this share of theory's. Where an order is lost no
- * more than three quarters of it are left. Quick runs end before orders settle, and are held to less. */
+/* The observed order of convergence must be at least this share of the theoretical one. An implementation that loses an
+ * order reaches three quarters at most. Quick runs stop before the order settles, so less is asked of them. */
 extern const double ost_verify_share_of_order, ost_verify_quick_share_of_order;
 
-/* Collective. Runs a case; `quick` stops at the levels marked so. A run that does not converge, or whose result does
- * not pass its own checks, is a case that fails, not a failure of this function, which raises for files that cannot be
- * read or used. */
+/* Collective. Runs a case; `quick` stops at the levels that the case marks. Where a run does not converge, or its
+ * result fails its own checks, the report says that the case failed. Raises only for files that cannot be read or used.
+ */
 OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerifyReport **report);
 void ost_verify_report_destroy(OstVerifyReport **report);
 
@@ -67,8 +67,8 @@ void ost_verify_report_destroy(OstVerifyReport **report);
 OstStatus ost_verify_measure(const OstScene *scene, const OstResult *result, const OstExact *exact,
                              const OstVerifyQuantity *quantity, OstVerifyReading *reading);
 
-/* Local; rank 0 prints and writes. A case's table: the finest meshes or, with `all`, every one; the summary of several
- * cases; and the JSON of them. */
+/* Local; rank 0 prints and writes: a case's table (the finest meshes; with `all`, every one), the summary of several
+ * cases, and their JSON. */
 void ost_verify_print(const OstVerifyReport *report, int all);
 void ost_verify_print_summary(int count, OstVerifyReport *const *reports);
 OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *const *reports, int quick,

@@ -11,8 +11,8 @@
 
 typedef OstVerifyView View;
 
-/* What is summed over a selection: the quantity, the square of the distance from the formula's field, and the area (or
- * the number of nodes). */
+/* Sums over a selection: of the quantity, of the squared distance from the formula's field, and of the area (or the
+ * number of nodes). */
 enum { VALUE, SQUARE, SIZE, SUMS };
 
 static void find_direction(const OstVerifyQuantity *quantity, const double place[3], double direction[3])
@@ -49,7 +49,7 @@ static double pick_component(OstStressComponent component, const double s[6], co
                                           : sine * sine * s[0] + cosine * cosine * s[1] - shear;
 }
 
-/* Stress as the method has it: of the mode that is seen by its mean over the tet, the mean's. */
+/* The element's stress: with mean dilatation, the stiff mode enters by its mean over the tet. */
 static OstStatus stress_in_tet(const View *view, const OstViewTet *tet, const double at[4], const double place[3],
                                double stress[6])
 {
@@ -70,7 +70,7 @@ static double size_of_stress(const double s[6])
     return sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* The distance is that of the whole stress. */
+/* The distance is that of all components, also where one of them is the quantity. */
 static OstStatus find_stress(const View *view, const Point *point, double *value, double *distance)
 {
     const OstLocal number = point->surface->tet[point->face];
@@ -147,7 +147,7 @@ static OstStatus sum_faces(const View *view, const unsigned char *selected, cons
     return OST_SUCCESS;
 }
 
-/* Owned nodes; a reaction, which no formula gives by place, has no distance from it. */
+/* Owned nodes. Formulas give no reactions at nodes, so a reaction has no distance. */
 static OstStatus sum_nodes(const View *view, OstLocal count, const OstLocal *nodes, double sums[SUMS])
 {
     const int reaction = view->quantity->kind == OST_MEASURE_REACTION;
@@ -207,8 +207,8 @@ static OstStatus sum_selection(const View *view, const OstCase *c, double sums[S
     return status;
 }
 
-/* The mean, or the sum of reactions, and what it may be off by as a root mean square over the selection: a mean can
- * come out right by accident, where errors of both signs meet, and then says nothing of the order of convergence. */
+/* The mean, or the sum of reactions; and the root mean square of the distance over the selection, because a mean can
+ * come out right by accident, where errors of both signs cancel, and then says nothing of the order of convergence. */
 static OstStatus measure_selection(const View *view, const OstCase *c, double *value, double *distance)
 {
     double sums[SUMS] = {0.0};

@@ -31,13 +31,12 @@ static OstStatus add_displacement(const OstVerifyView *view, const OstViewTet *t
     return OST_SUCCESS;
 }
 
-/* Integrals of m'strain over a tet. */
+/* Integrals of m'strain over a tet, m being the stiff mode. */
 typedef struct Modes {
     double of[SQUARES];
 } Modes;
 
-/* The energy as the method sees it: of the mode that is seen by its mean, no more than the mean counts, and goes to
- * `modes`. */
+/* The element's energy: with mean dilatation, the stiff mode is left out here and its integral goes to `modes`. */
 static OstStatus add_energy(const OstVerifyView *view, const OstViewTet *tet, const Point *point,
                             double squares[SQUARES], Modes *modes)
 {

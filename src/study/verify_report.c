@@ -2,9 +2,8 @@
 #include "study/verify.h"
 
 #include "core/error.h"
-#include "study/json_file.h"
+#include "core/json_file.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -92,18 +91,12 @@ void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
 
 /* --- JSON --- */
 
-/* Numbers that JSON cannot write are null. */
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
-
 static json_t *level_json(const OstVerifyRun *run, int quantity)
 {
     const OstVerifyReading *reading = &run->reading[quantity];
     return json_pack("{s:i, s:f, s:I, s:o, s:o, s:o}", "refinement", run->refinement, "h", run->h, "unknowns",
-                     (json_int_t)run->unknowns, "expected", number_json(reading->expected), "obtained",
-                     number_json(reading->obtained), "error", number_json(reading->error));
+                     (json_int_t)run->unknowns, "expected", ost_json_number(reading->expected), "obtained",
+                     ost_json_number(reading->obtained), "error", ost_json_number(reading->error));
 }
 
 static json_t *step_json(const OstVerifyReport *report, int quantity, int step)
@@ -115,8 +108,8 @@ static json_t *step_json(const OstVerifyReport *report, int quantity, int step)
         if (report->run[r].step == step)
             json_array_append_new(levels, level_json(&report->run[r], quantity));
     return json_pack("{s:i, s:o, s:f, s:o, s:o, s:b, s:b}", "order", verify->step[step].order, "levels", levels,
-                     "error_limit", verdict->error_limit, "rate", number_json(verdict->rate), "order_of_theory",
-                     number_json(verdict->order), "locks", verdict->order == OST_RATE_LOCKED, "passed",
+                     "error_limit", verdict->error_limit, "rate", ost_json_number(verdict->rate), "order_of_theory",
+                     ost_json_number(verdict->order), "locks", verdict->order == OST_RATE_LOCKED, "passed",
                      verdict->passed);
 }
 
@@ -144,10 +137,10 @@ static json_t *runs_json(const OstVerifyReport *report)
                                               report->c->verify->step[run->step].order, "refinement", run->refinement,
                                               "tets", (json_int_t)run->tets, "unknowns", (json_int_t)run->unknowns, "h",
                                               run->h, "seconds", run->seconds, "iterations", run->iterations,
-                                              "relative_residual", number_json(run->checks.relative_residual),
-                                              "force_imbalance", number_json(run->checks.force_imbalance),
-                                              "moment_imbalance", number_json(run->checks.moment_imbalance),
-                                              "energy_imbalance", number_json(run->checks.energy_imbalance)));
+                                              "relative_residual", ost_json_number(run->checks.relative_residual),
+                                              "force_imbalance", ost_json_number(run->checks.force_imbalance),
+                                              "moment_imbalance", ost_json_number(run->checks.moment_imbalance),
+                                              "energy_imbalance", ost_json_number(run->checks.energy_imbalance)));
     }
     return runs;
 }
@@ -176,7 +169,5 @@ OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *con
         json_pack("{s:b, s:b, s:i, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx), "cases", cases);
     if (!document)
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
-    const OstStatus status = ost_json_file_write(ctx, document, path);
-    json_decref(document);
-    return status;
+    return ost_json_write(ctx, document, path);
 }

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 
 #include <stdio.h>
@@ -10,19 +11,18 @@
 
 const double ost_verify_balance = 1e-10;
 
-/* Energy and work differ by u·r, the relative error that the compliance is solved with. Rounding leaves of that up to
- * 2^-53 |u|·|K| |u| / f·u, which is 2.4e-9 for the finest beam (10 × 1 × 1, 245,760 tets), whose tets are as stiff as
- * E h and as a whole F/u: nearly all of it, as equal tets are rounded alike.
- */
+/* Strain energy and work differ by u·r. Rounding alone leaves a relative difference of up to 2^-53 |u|·|K| |u| / f·u:
+ * 2.4e-9 for the finest beam (10 × 1 × 1, 245,760 tets), where the stiffness of one tet is far above that of the beam.
+ * Nearly all of it occurs, because equal tets have equal rounding errors. */
 const double ost_verify_energy_balance = 2.4e-9;
 
 const double ost_verify_share_of_order = 0.9;
 const double ost_verify_quick_share_of_order = 0.6;
 
-/* Errors below this are rounding, and have no rate. */
+/* Errors below this are rounding errors, and have no rate of convergence. */
 static const double rounding = 1e-10;
 
-/* Where linear tets lock, the error is as large as the limit says: at least this share of it. */
+/* Where linear tets are expected to lock, the error must be at least this share of its limit. */
 static const double locked_share = 0.5;
 
 static OstStatus body_volume(const OstMesh *mesh, double *volume)
@@ -30,7 +30,7 @@ static OstStatus body_volume(const OstMesh *mesh, double *volume)
     *volume = 0.0;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
         *volume += ost_tet_volume(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet);
-    return OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, volume, 1, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx)));
+    return ost_sum(mesh->ctx, 1, volume);
 }
 
 static OstStatus measure_all(const OstScene *scene, const OstResult *result, const OstExact *exact, OstVerifyRun *run)
@@ -48,7 +48,7 @@ static OstStatus measure_all(const OstScene *scene, const OstResult *result, con
     return OST_SUCCESS;
 }
 
-/* Rank 0 alone hears warnings. */
+/* Warnings reach rank 0 alone. */
 static void hear_locking(void *listener, const char *text)
 {
     OstVerifyRun *run = listener;
@@ -93,7 +93,7 @@ static OstStatus run_level(OstVerifyReport *report, const OstExact *exact, int s
     return solve_and_measure(c, exact, run);
 }
 
-static OstStatus run_ladder(OstVerifyReport *report, const OstExact *exact, int quick)
+static OstStatus run_all_meshes(OstVerifyReport *report, const OstExact *exact, int quick)
 {
     const OstVerify *verify = report->c->verify;
     char what[256];
@@ -124,9 +124,8 @@ static void find_last_runs(const OstVerifyReport *report, int step, int *last, i
     }
 }
 
-/* Locked: the error is as large as foretold, its cause was said, and it falls with each refinement, from the stiff
- * side.
- */
+/* Locking as expected: the program warned of it, the error falls with each refinement and from the stiff side, and (on
+ * all meshes: `whole`) it ends within its limits. */
 static int is_locked(const OstVerifyReport *report, int quantity, int step, const OstVerifyVerdict *verdict, int whole)
 {
     const int is_field = report->c->verify->quantity[quantity].kind == OST_MEASURE_FIELD;
@@ -151,7 +150,7 @@ static int holds_exactly(const OstVerifyReport *report, int quantity, int step, 
     return holds;
 }
 
-/* The error on the finest mesh of a quick run is as much larger as the order foretells. */
+/* A quick run leaves out the finest meshes; its limit is scaled up by the theoretical order. */
 static void judge(const OstVerifyReport *report, int quantity, int step, OstVerifyVerdict *verdict)
 {
     const OstVerifyQuantity *stated = &report->c->verify->quantity[quantity];
@@ -203,7 +202,7 @@ static OstStatus conclude(OstVerifyReport *report)
     return OST_SUCCESS;
 }
 
-/* A run without an answer is what verification is there to find; a file that is no case is not. */
+/* A run without an answer fails the case; any other failure ends the study. */
 static OstStatus take_failure(OstVerifyReport *report, OstStatus status)
 {
     if (status != OST_NOT_CONVERGED && status != OST_CHECK_FAILED)
@@ -239,7 +238,7 @@ OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerif
         goto done;
     OST_TRY_DONE(ost_case_read(ctx, path, &report->c));
     OST_TRY_DONE(ost_agree(ctx, ost_exact_create(report->c, &exact)));
-    OST_TRY_DONE(take_failure(report, run_ladder(report, &exact, quick)));
+    OST_TRY_DONE(take_failure(report, run_all_meshes(report, &exact, quick)));
     OST_TRY_DONE(ost_agree(ctx, conclude(report)));
     report->seconds = ost_seconds() - start;
 done:

@@ -2,6 +2,7 @@
 #include "study/verify_view.h"
 
 #include "core/error.h"
+#include "core/reduce.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 
@@ -96,5 +97,5 @@ void ost_view_stress(const double c[36], const double strain[6], double stress[6
 
 OstStatus ost_view_reduce(OstContext *ctx, int count, double *sums)
 {
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, count, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
+    return ost_sum(ctx, count, sums);
 }

@@ -5,7 +5,7 @@
 #include "element/element.h"
 #include "study/verify.h"
 
-/* What a measure looks at. */
+/* What is measured, and where. */
 typedef struct OstVerifyView {
     const OstMesh *mesh;
     const OstResult *result;
@@ -20,8 +20,8 @@ typedef struct OstViewTet {
     double x[3 * OST_MAX_TET_NODES], u[3 * OST_MAX_TET_NODES];
 } OstViewTet;
 
-/* Where the method sees one mode of the strain by its mean over the tet alone (ost_field_mean_dilatation), that mode's
- * stress m at a place in world axes; zeros where it sees all of the strain. */
+/* Quadratic tets of a nearly incompressible material see one mode of the strain by its mean over the tet alone
+ * (ost_field_mean_dilatation). m: that mode's stress at a point, in world axes; zeros for other tets. */
 typedef struct OstViewMode {
     int split;
     double m[6];
@@ -38,7 +38,7 @@ void ost_view_strain(const OstViewTet *tet, const double at[4], double strain[6]
 
 void ost_view_mode(const OstVerifyView *view, OstLocal tet, const double place[3], OstViewMode *mode);
 
-/* Local. Mean over a tet of m'(strain of the answer); 0 where C is not split. */
+/* Local. Mean over a tet of m'(strain of the answer); 0 without mean dilatation. */
 double ost_view_mean_of_mode(const OstVerifyView *view, const OstViewTet *tet);
 
 /* Local. a'b, and C times a strain. */

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 #include "core/small.h"
 #include "mesh/nearest.h"
 #include "orthostat/verify.h"
@@ -11,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A place this share of an edge away from its vertex is another place. */
+/* A vertex further from the stated point than this share of an edge is worth a warning. */
 static const double near_enough = 0.1;
 
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
@@ -25,7 +26,7 @@ OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
     OST_TRY(ost_mesh_edges_at(mesh, &vertex, &edge, &longest));
     if (vertex.distance > near_enough * edge)
         ost_warn(mesh->ctx,
-                 "'%s' is watched at (%g, %g, %g), the vertex nearest to (%g, %g, %g); the edges there are %g "
+                 "'%s' is taken at (%g, %g, %g), the vertex nearest to (%g, %g, %g); the edges there are %g "
                  "long",
                  watch->name, vertex.at[0], vertex.at[1], vertex.at[2], place[0], place[1], place[2], edge);
     memcpy(place, vertex.at, sizeof vertex.at);
@@ -62,7 +63,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
         for (int i = 0; i < 3 && nodes[n] < scene->mesh->owned_nodes; i++)
             sum[i] += result->reaction[3 * (size_t)nodes[n] + (size_t)i];
     OST_FREE(nodes);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum(ctx, 3, sum));
     take(sum, watch->component, watched);
     watched->scale = ost_norm3(sum);
     return OST_SUCCESS;
@@ -79,10 +80,11 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
         watched->value = watched->scale = result->checks.strain_energy;
         return OST_SUCCESS;
     }
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: nothing is watched", scene->c->path, watch->line);
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
+                     watch->line);
 }
 
-/* --- what a case watches, before and after --- */
+/* --- all quantities of a case --- */
 
 static OstStatus check_selection(const OstScene *scene, const char *what, const char *name, int line,
                                  const OstSelection *on)
@@ -90,29 +92,28 @@ static OstStatus check_selection(const OstScene *scene, const char *what, const 
     OstContext *ctx = scene->ctx;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
-    int some = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, on, &count, &nodes));
     OST_FREE(nodes);
-    const int mine = count > 0;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&mine, &some, 1, MPI_INT, MPI_MAX, ost_comm(ctx))));
+    int some = count > 0;
+    OST_TRY(ost_max_ints(ctx, 1, &some));
     return some ? OST_SUCCESS
-                : OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: %s '%s' is of no vertex: its selection is empty",
-                            scene->c->path, line, what, name);
+                : OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: %s '%s' selects no vertex", scene->c->path, line, what,
+                            name);
 }
 
 OstStatus ost_watch_check(const OstScene *scene)
 {
     const OstCase *c = scene->c;
     for (int w = 0; w < c->watch_count; w++) {
-        OstWatch placed = c->watches[w]; /* placed for the warning alone: a solve looks for its vertex by itself */
+        OstWatch placed = c->watches[w]; /* for the warning alone: the solve finds the vertex itself */
         OST_TRY(ost_watch_place(scene->mesh, &placed));
         if (placed.kind == OST_WATCH_REACTION)
-            OST_TRY(check_selection(scene, "the watched", placed.name, placed.line, &placed.on));
+            OST_TRY(check_selection(scene, "the quantity", placed.name, placed.line, &placed.on));
     }
     for (int q = 0; c->verify && q < c->verify->quantity_count; q++) {
         const OstVerifyQuantity *quantity = &c->verify->quantity[q];
         if (quantity->kind != OST_MEASURE_FIELD && quantity->kind != OST_MEASURE_ENERGY)
-            OST_TRY(check_selection(scene, "the verified", quantity->name, quantity->line, &quantity->on));
+            OST_TRY(check_selection(scene, "the verified quantity", quantity->name, quantity->line, &quantity->on));
     }
     return OST_SUCCESS;
 }

@@ -4,27 +4,27 @@
 
 #include "orthostat/scene.h"
 
-/* A watched quantity of one answer, and the size of its kind: the largest displacement, the whole reaction. Beside
- * that a quantity may be zero, and then has no relative error of its own. */
+/* A quantity of interest (the case's `watch`): its value in one answer, and the scale of its kind (the largest
+ * displacement, the whole reaction). A value that is nearly zero has no relative error of its own; the scale serves. */
 typedef struct OstWatched {
     double value;
     double scale;
 } OstWatched;
 
-/* Collective. Moves the place of a watched displacement to the vertex of this mesh that is nearest (mid-edge nodes do
- * not count), where it stays when the mesh is refined; warns if that is further away than a tenth of the vertex's
- * shortest edge. Other quantities have no place and are left alone. */
+/* Collective. Moves the point of a displacement to the nearest vertex of this mesh (not a mid-edge node), so that it
+ * stays the same when the mesh is refined; warns if the vertex is further away than a tenth of its shortest edge.
+ * Leaves other quantities alone. */
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
 
 /* Collective. The quantity in a result of the scene. */
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                              OstWatched *watched);
 
-/* Collective. Refuses a scene whose case watches, or verifies, on a selection that is not there or selects nothing;
- * warns of a displacement that is watched at another place than the one asked for, as ost_watch_place does. */
+/* Collective. Checks the case's quantities, those of its verify section too: raises OST_INVALID_INPUT for a selection
+ * that does not exist or is empty; warns as ost_watch_place does. */
 OstStatus ost_watch_check(const OstScene *scene);
 
-/* Collective. All that the case watches, in its order: memory from the context, the caller's to free; names are the
+/* Collective. All quantities of the case, in its order: memory from the context, which the caller frees; names are the
  * case's. */
 OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values);
 

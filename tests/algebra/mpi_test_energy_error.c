@@ -299,7 +299,7 @@ static void what_rounding_does_is_told_by_factors_that_miss_a_soft_mode(void **s
 }
 
 /* The same pair, and nothing else that moves, loses nearly a digit: whether it does, eight throws cannot tell. */
-static void near_the_least_digit_more_throws_are_made(void **state)
+static void near_the_least_digit_more_samples_are_made(void **state)
 {
     (void)state;
     Missed missed = make_missed(1.0);
@@ -425,7 +425,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(with_factors_it_is_the_error_of_the_displacement_itself),
     cmocka_unit_test(rounding_is_what_other_roundings_of_the_matrix_do),
     cmocka_unit_test(what_rounding_does_is_told_by_factors_that_miss_a_soft_mode),
-    cmocka_unit_test(near_the_least_digit_more_throws_are_made),
+    cmocka_unit_test(near_the_least_digit_more_samples_are_made),
     cmocka_unit_test(a_matrix_that_rounding_left_indefinite_holds_no_digit),
     cmocka_unit_test(a_negative_energy_that_no_rounding_reaches_is_found_by_the_residual),
     cmocka_unit_test(a_displacement_where_little_of_the_energy_is_is_told_and_said_to_be_hidden),

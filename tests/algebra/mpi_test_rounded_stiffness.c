@@ -215,29 +215,29 @@ static void signs_do_not_depend_on_ranks(void **state)
 static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
 {
     (void)state;
-    OstThrows throws = {0, 0.0};
-    ost_throws_add(&throws, 3.0);
-    ost_throws_add(&throws, 4.0);
-    assert_close(ost_throws_size(&throws), sqrt(12.5), 1e-15);
-    assert_close(ost_throws_spread(&throws), 0.5, 1e-15); /* of chi squared with 2 degrees of freedom: 1/sqrt(2·2) */
+    OstSamples throws = {0, 0.0};
+    ost_samples_add(&throws, 3.0);
+    ost_samples_add(&throws, 4.0);
+    assert_close(ost_samples_size(&throws), sqrt(12.5), 1e-15);
+    assert_close(ost_samples_spread(&throws), 0.5, 1e-15); /* of chi squared with 2 degrees of freedom: 1/sqrt(2·2) */
 }
 
 /* Eight throws tell a size but for 75 % (three times 1/sqrt(2·8)), 32 but for 37.5 %. */
-static void more_throws_are_called_for_near_the_limit(void **state)
+static void more_samples_are_called_for_near_the_limit(void **state)
 {
     (void)state;
-    OstThrows throws = {7, 7 * 100.0};
-    assert_true(ost_throws_undecided(&throws, 1.0, 8, 32)); /* too few, whatever they say */
+    OstSamples throws = {7, 7 * 100.0};
+    assert_true(ost_samples_undecided(&throws, 1.0, 8, 32)); /* too few, whatever they say */
     const double decided[] = {0.24, 1.76, (double)NAN, (double)INFINITY}, undecided[] = {0.26, 1.0, 1.74};
     for (int i = 0; i < 4; i++) {
-        throws = (OstThrows){8, 8 * decided[i] * decided[i]};
-        assert_false(ost_throws_undecided(&throws, 1.0, 8, 32));
+        throws = (OstSamples){8, 8 * decided[i] * decided[i]};
+        assert_false(ost_samples_undecided(&throws, 1.0, 8, 32));
     }
     for (int i = 0; i < 3; i++) {
-        throws = (OstThrows){8, 8 * undecided[i] * undecided[i]};
-        assert_true(ost_throws_undecided(&throws, 1.0, 8, 32));
-        throws = (OstThrows){32, 32 * undecided[i] * undecided[i]};
-        assert_false(ost_throws_undecided(&throws, 1.0, 8, 32)); /* as many as there may be */
+        throws = (OstSamples){8, 8 * undecided[i] * undecided[i]};
+        assert_true(ost_samples_undecided(&throws, 1.0, 8, 32));
+        throws = (OstSamples){32, 32 * undecided[i] * undecided[i]};
+        assert_false(ost_samples_undecided(&throws, 1.0, 8, 32)); /* as many as there may be */
     }
 }
 
@@ -259,7 +259,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(entries_of_a_row_are_rounded_independently),
     cmocka_unit_test(signs_do_not_depend_on_ranks),
     cmocka_unit_test(sizes_are_told_by_the_root_of_their_mean_square),
-    cmocka_unit_test(more_throws_are_called_for_near_the_limit),
+    cmocka_unit_test(more_samples_are_called_for_near_the_limit),
     cmocka_unit_test(what_is_surely_beyond_is_three_standard_errors_beyond),
 };
 

@@ -402,6 +402,37 @@ static void options_out_of_range_are_refused_by_name(void **state)
     elastic_destroy(&problem);
 }
 
+/* New values on the same pattern: with the hierarchy kept as with a new one, the solution is that of the new matrix. */
+static void new_values_are_solved_with(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof recipes / sizeof *recipes; k++)
+        for (OstSolverUpdate how = OST_UPDATE_REBUILD; how <= OST_UPDATE_KEEP; how++) {
+            ElasticProblem problem;
+            assert_success(elastic_create(ctx, &column, &problem));
+            const OstSolverOptions options = options_for(recipes[k], 1e-9);
+            const size_t n = 3 * (size_t)problem.matrix->rows;
+            OstSolver *solver = NULL;
+            OstSolveReport report;
+            double *u = NULL, *first = NULL;
+            assert_success(OST_NEW(ctx, &u, n));
+            assert_success(OST_NEW(ctx, &first, n));
+            assert_success(ost_solver_create(ctx, problem.matrix, &problem.geometry, &options, &solver));
+            assert_success(ost_solver_solve(solver, problem.force, first, &report));
+            for (OstLocal i = 0; i < 9 * problem.matrix->row_start[problem.matrix->rows]; i++)
+                problem.matrix->value[i] *= 3.0;
+            assert_success(ost_solver_update(solver, how));
+            assert_success(ost_solver_solve(solver, problem.force, u, &report));
+            assert_true(true_residual(&problem, u) <= 1e-9);
+            for (size_t i = 0; i < n; i++)
+                assert_close(3.0 * u[i], first[i], 1e-6 * (1.0 + fabs(first[i])));
+            ost_solver_destroy(&solver);
+            OST_FREE(u);
+            OST_FREE(first);
+            elastic_destroy(&problem);
+        }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_recipe_reaches_the_requested_true_residual),
     cmocka_unit_test(every_recipe_agrees_with_dense_cholesky_on_any_number_of_ranks),
@@ -412,6 +443,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(nothing_to_solve_is_solved),
     cmocka_unit_test(no_force_gives_no_displacement),
     cmocka_unit_test(one_solver_solves_for_many_forces),
+    cmocka_unit_test(new_values_are_solved_with),
     cmocka_unit_test(a_body_afloat_is_refused),
     cmocka_unit_test(an_indefinite_matrix_is_refused),
     cmocka_unit_test(a_row_without_stiffness_is_refused_by_its_number),

@@ -35,7 +35,7 @@ static void potentials_between_parallel_faces_are_linear(void **state)
     double *u = numbers(3 * (size_t)mesh->node_count);
     assert_success(ost_system_fill_laplacian(system, rhs));
     solve(ctx, system->matrix, rhs, v);
-    assert_success(ost_system_displacement(system, v, u));
+    assert_success(ost_system_displacement(system, 1.0, v, u));
     for (OstLocal i = 0; i < 3 * mesh->node_count; i++)
         assert_close(u[i], 1.0 + 2.0 * mesh->coordinates[i] / size_of_body[i % 3], 1e-12);
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {

@@ -42,7 +42,7 @@ static void check_patch(AxesOfBody axes)
     double *u = numbers(3 * (size_t)mesh->node_count);
     assert_success(ost_system_right_hand_side(system, field, force, rhs));
     solve(ctx, system->matrix, rhs, v);
-    assert_success(ost_system_displacement(system, v, u));
+    assert_success(ost_system_displacement(system, 1.0, v, u));
     for (OstLocal node = 0; node < mesh->node_count; node++) { /* ghosts too */
         double expected[3];
         displacement_at(mesh->coordinates + 3 * node, expected);
@@ -240,7 +240,7 @@ static void displacements_obey_the_supports(void **state)
         v[i] = random_of(mesh->node_label[held.system->node_of_row[i / 3]], i % 3);
     for (OstLocal i = 0; i < 3 * mesh->node_count; i++)
         u[i] = NAN;
-    assert_success(ost_system_displacement(held.system, v, u));
+    assert_success(ost_system_displacement(held.system, 1.0, v, u));
     for (OstLocal node = 0; node < mesh->node_count; node++) {
         const double *x = mesh->coordinates + 3 * node;
         const double free_part[3] = {random_of(mesh->node_label[node], 0), random_of(mesh->node_label[node], 1),

@@ -13,7 +13,7 @@ static void read_material(const char *text)
 
 static void assert_constants(const double expected[9])
 {
-    const OstOrthotropic *k = &c->materials[0].constants;
+    const OstOrthotropic *k = &c->materials[0].material.constants;
     for (int i = 0; i < 3; i++) {
         assert_close(k->youngs_modulus[i], expected[i], 1e-15 * fabs(expected[i]));
         assert_close(k->poissons_ratio[i], expected[3 + i], 1e-15 + 1e-15 * fabs(expected[3 + i]));
@@ -97,7 +97,7 @@ static void one_modulus_is_isotropic(void **state)
 {
     (void)state;
     read_material("youngs_modulus: 2.6e6, poissons_ratio: 0.3, density: 1000");
-    assert_close(c->materials[0].density, 1000.0, 0.0);
+    assert_close(c->materials[0].material.density, 1000.0, 0.0);
     assert_constants((double[9]){2.6e6, 2.6e6, 2.6e6, 0.3, 0.3, 0.3, 1e6, 1e6, 1e6});
 }
 
@@ -374,7 +374,7 @@ static void aliases_stand_for_their_anchors(void **state)
              cube);
     assert_success(read_text(whole, &c));
     assert_int_equal(c->material_count, 2);
-    assert_close(c->materials[1].constants.youngs_modulus[2], 3.0, 0.0);
+    assert_close(c->materials[1].material.constants.youngs_modulus[2], 3.0, 0.0);
     assert_int_equal(c->materials[1].line, 4);
     ost_case_destroy(&c);
 }

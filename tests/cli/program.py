@@ -25,8 +25,8 @@ def new_folder():
     return folder
 
 
-def run(*arguments, ranks=1, folder=None, timeout=240):
-    command = [PROGRAM, *map(str, arguments)]
+def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
+    command = [program, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
     process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

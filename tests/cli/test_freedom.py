@@ -49,15 +49,15 @@ REFUSED = [
      "  the body, 6 tets around (0.5, 0.5, 0.5): can move in any direction normal to (0, 0, 1), and turn about any line "
      "along (0, 0, 1)\n"),
     ("a loose block", case(HELD), [ONE, (4, 0, 0, 0)],
-     "  part 2, 6 tets around (4.5, 0.5, 0.5): can move in any direction, and turn about any axis\n"),
+     "  component 2, 6 tets around (4.5, 0.5, 0.5): can move in any direction, and turn about any axis\n"),
     ("a block on an edge", case(HELD), [ONE, EDGE],
-     "  part 2, 6 tets around (1.5, 1.5, 0.5), joined to part 1 along one line only: can turn about the line through "
+     "  component 2, 6 tets around (1.5, 1.5, 0.5), joined to component 1 along one line only: can turn about the line through "
      "(1, 1, 0.5) along (0, 0, 1)\n"),
     ("a block on a vertex", case(HELD), [ONE, CORNER],
-     "  part 2, 6 tets around (1.5, 1.5, 1.5), joined to part 1 at one point only: can turn about any line through "
+     "  component 2, 6 tets around (1.5, 1.5, 1.5), joined to component 1 at one point only: can turn about any line through "
      "(1, 1, 1)\n"),
     ("coincident vertices", case(HELD), [ONE, SIDE],
-     "or join the parts: 4 vertices coincide with others, and mesh: {merge: 0.01} joins them"),
+     "or join the components: 4 vertices coincide with others, and mesh: {merge: 0.01} joins them"),
     ("a merge of whole edges", case(HELD, mesh="file: m.veg, merge: 1"), [ONE, SIDE], "an edge of length 1"),
     ("loads that do not balance", case("free_body"), [ONE],
      "these leave a force (0, 0, -1) of loads of size 1, and a moment (0.5, -0.5, 0) of size 0.866025 about "
@@ -136,7 +136,7 @@ def held_apart():
         finished, _, _ = solve(case("[{on: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, displacement: [0, 0, 0]}]"),
                                ranks=ranks, folder=folder)
         check(finished.exit_code == 0, finished.errors)
-        check("the mesh is 2 parts, and 4 vertices coincide with others; mesh: {merge: 0.01} joins them"
+        check("the mesh falls into 2 components, and 4 vertices coincide with others; mesh: {merge: 0.01} joins them"
               in finished.errors, finished.errors)
 
 

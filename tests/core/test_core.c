@@ -2,7 +2,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
-#include "core/sort.h"
 #include "support.h"
 
 static void memory_is_booked_and_released(void **state)
@@ -87,19 +86,6 @@ static void inverse_times_matrix_is_identity(void **state)
         assert_close(c[i], i % 4 == 0 ? 1.0 : 0.0, 1e-15);
 }
 
-static void numbers_are_sorted_and_found(void **state)
-{
-    (void)state;
-    OstGlobal numbers[6] = {INT64_MAX, -1, 7, INT64_MIN, 7, 0};
-    const OstGlobal expected[6] = {INT64_MIN, -1, 0, 7, 7, INT64_MAX};
-    const OstGlobal wanted = INT64_MAX, missing = 6;
-    ost_sort_numbers(0, NULL);
-    ost_sort_numbers(6, numbers);
-    assert_memory_equal(numbers, expected, sizeof numbers);
-    assert_ptr_equal(bsearch(&wanted, numbers, 6, sizeof wanted, ost_compare_numbers), &numbers[5]);
-    assert_null(bsearch(&missing, numbers, 6, sizeof missing, ost_compare_numbers));
-}
-
 static void hear(void *listener, const char *text)
 {
     snprintf(listener, 64, "%s", text);
@@ -130,11 +116,10 @@ static void every_status_has_its_exit_code(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(memory_is_booked_and_released),      cmocka_unit_test(impossible_sizes_are_refused),
-    cmocka_unit_test(accounts_nest_and_add_up),           cmocka_unit_test(eigenvalues_of_a_known_matrix),
-    cmocka_unit_test(cholesky_finds_the_bad_pivot),       cmocka_unit_test(inverse_times_matrix_is_identity),
-    cmocka_unit_test(every_status_has_its_exit_code),     cmocka_unit_test(numbers_are_sorted_and_found),
-    cmocka_unit_test(warnings_are_heard_even_when_quiet),
+    cmocka_unit_test(memory_is_booked_and_released),  cmocka_unit_test(impossible_sizes_are_refused),
+    cmocka_unit_test(accounts_nest_and_add_up),       cmocka_unit_test(eigenvalues_of_a_known_matrix),
+    cmocka_unit_test(cholesky_finds_the_bad_pivot),   cmocka_unit_test(inverse_times_matrix_is_identity),
+    cmocka_unit_test(every_status_has_its_exit_code), cmocka_unit_test(warnings_are_heard_even_when_quiet),
 };
 
 OST_TEST_MAIN(tests)

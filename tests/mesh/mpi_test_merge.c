@@ -6,14 +6,14 @@
 #include "mesh/coincident.h"
 #include "mesh/lattice.h"
 #include "mesh/merge.h"
-#include "mesh/part.h"
+#include "mesh/component.h"
 
 static int count_parts(const OstMesh *mesh)
 {
-    OstParts *parts = NULL;
-    assert_success(ost_parts_create(mesh, &parts));
-    const int count = parts->count;
-    ost_parts_destroy(&parts);
+    OstComponents *components = NULL;
+    assert_success(ost_components_create(mesh, &components));
+    const int count = components->count;
+    ost_components_destroy(&components);
     return count;
 }
 

@@ -75,7 +75,7 @@ static void solve_directly(Pose *pose)
     options.recipe = OST_RECIPE_DIRECT;
     assert_success(ost_solver_create(ctx, pose->system->matrix, &nothing, &options, &solver));
     assert_success(ost_solver_solve(solver, rhs, v, &report));
-    assert_success(ost_system_displacement(pose->system, v, pose->result.displacement));
+    assert_success(ost_system_displacement(pose->system, 1.0, v, pose->result.displacement));
     ost_solver_destroy(&solver);
     free(rhs);
     free(v);

@@ -19,12 +19,12 @@ static const char watch[] = "watch:\n"
 static OstCase *c;
 static OstCost *cost;
 
-static void make_study(const char *more, const OstCostLadder *ladder)
+static void make_study(const char *more, const OstCostVariants *variants)
 {
     char text[2048];
     snprintf(text, sizeof text, "%s%s", beam, more);
     assert_success(read_text(text, &c));
-    assert_success(ost_cost_create(c, ladder, &cost));
+    assert_success(ost_cost_create(c, variants, &cost));
 }
 
 static void drop_study(void)
@@ -63,17 +63,17 @@ static OstStatus pretend_all_fail(OstCost *study, const OstCase *variant, OstCos
     return OST_RAISE(study->ctx, OST_NOT_CONVERGED, "never");
 }
 
-static void the_ladder_is_listed_once_and_in_order(void **state)
+static void the_variants_are_listed_once_and_in_order(void **state)
 {
     (void)state;
-    const OstCostLadder ladder = {.order_count = 3,
-                                  .refinement_count = 2,
-                                  .tolerance_count = 2,
-                                  .order = {2, 1, 2},
-                                  .refinement = {1, 0},
-                                  .tolerance = {1e-2, 1e-6},
-                                  .max_seconds = 1.0};
-    make_study("", &ladder);
+    const OstCostVariants variants = {.order_count = 3,
+                                      .refinement_count = 2,
+                                      .tolerance_count = 2,
+                                      .order = {2, 1, 2},
+                                      .refinement = {1, 0},
+                                      .tolerance = {1e-2, 1e-6},
+                                      .max_seconds = 1.0};
+    make_study("", &variants);
     assert_int_equal(cost->run_count, 8);
     for (int i = 0; i < 8; i++) {
         assert_int_equal(cost->run[i].refinement, i / 4);
@@ -86,19 +86,19 @@ static void the_ladder_is_listed_once_and_in_order(void **state)
     drop_study();
 }
 
-static void rungs_out_of_range_are_refused(void **state)
+static void values_out_of_range_are_refused(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
+    OstCostVariants variants = ost_cost_default_variants();
     assert_success(read_text(beam, &c));
-    ladder.order[1] = 3;
-    assert_failure(ost_cost_create(c, &ladder, &cost), OST_INVALID_INPUT, "order 1 or 2, not 3");
-    ladder = ost_cost_default_ladder();
-    ladder.refinement[0] = 9;
-    assert_failure(ost_cost_create(c, &ladder, &cost), OST_INVALID_INPUT, "0 to 8 times, not 9");
-    ladder = ost_cost_default_ladder();
-    ladder.tolerance[2] = 1.0;
-    assert_failure(ost_cost_create(c, &ladder, &cost), OST_INVALID_INPUT, "below 1, not 1");
+    variants.order[1] = 3;
+    assert_failure(ost_cost_create(c, &variants, &cost), OST_INVALID_INPUT, "order 1 or 2, not 3");
+    variants = ost_cost_default_variants();
+    variants.refinement[0] = 9;
+    assert_failure(ost_cost_create(c, &variants, &cost), OST_INVALID_INPUT, "0 to 8 times, not 9");
+    variants = ost_cost_default_variants();
+    variants.tolerance[2] = 1.0;
+    assert_failure(ost_cost_create(c, &variants, &cost), OST_INVALID_INPUT, "below 1, not 1");
     assert_null(cost);
     ost_case_destroy(&c);
 }
@@ -106,9 +106,9 @@ static void rungs_out_of_range_are_refused(void **state)
 static void time_bounds_what_runs(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.max_seconds = 50.0;
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.max_seconds = 50.0;
+    make_study("", &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     for (int i = 0; i < cost->run_count; i++) {
@@ -124,10 +124,10 @@ static void time_bounds_what_runs(void **state)
 static void memory_bounds_what_runs(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.order_count = 1;
-    ladder.max_bytes = 1e8;
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.order_count = 1;
+    variants.max_bytes = 1e8;
+    make_study("", &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     assert_int_equal(cost->run[5].state, OST_COST_DONE);
@@ -139,8 +139,8 @@ static void memory_bounds_what_runs(void **state)
 static void errors_are_against_the_extrapolated_answer(void **state)
 {
     (void)state;
-    const OstCostLadder ladder = ost_cost_default_ladder();
-    make_study("", &ladder);
+    const OstCostVariants variants = ost_cost_default_variants();
+    make_study("", &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     const OstCostReference *energy = &cost->quantity[0].reference;
@@ -164,10 +164,10 @@ static void errors_are_against_the_extrapolated_answer(void **state)
 static void errors_are_against_the_formula_where_there_is_one(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.refinement_count = 2;
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.refinement_count = 2;
     make_study("watch: {work: {strain_energy: all, expected: 1.6}, tip: {displacement: {nearest: [4, 0, 0]}}}\n",
-               &ladder);
+               &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     assert_int_equal(cost->quantity_count, 2);
@@ -188,9 +188,9 @@ static void errors_are_against_the_formula_where_there_is_one(void **state)
 static void a_lone_answer_of_order_two_is_measured_by_order_one(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.refinement_count = 1;
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.refinement_count = 1;
+    make_study("", &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     const OstCostReference *energy = &cost->quantity[0].reference;
@@ -215,10 +215,10 @@ static OstStatus pretend_a_crossing(OstCost *study, const OstCase *variant, OstC
 static void near_by_accident_is_not_exact(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.tolerance_count = 1;
-    ladder.tolerance[0] = 1e-8;
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.tolerance_count = 1;
+    variants.tolerance[0] = 1e-8;
+    make_study("", &variants);
     cost->measure = pretend_a_crossing;
     assert_success(ost_cost_run(cost));
     const OstCostRun *run = &cost->run[4];
@@ -233,8 +233,8 @@ static void near_by_accident_is_not_exact(void **state)
 static void what_diverges_has_no_price(void **state)
 {
     (void)state;
-    const OstCostLadder ladder = ost_cost_default_ladder();
-    make_study("", &ladder);
+    const OstCostVariants variants = ost_cost_default_variants();
+    make_study("", &variants);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
     assert_true(isinf(cost->quantity[1].reference.uncertainty));
@@ -247,9 +247,9 @@ static void what_diverges_has_no_price(void **state)
 static void a_run_that_fails_is_listed_with_its_reason(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.max_seconds = 1e6;
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.max_seconds = 1e6;
+    make_study("", &variants);
     cost->measure = pretend_order_two_fails;
     assert_success(ost_cost_run(cost));
     for (int i = 0; i < cost->run_count; i++) {
@@ -260,7 +260,7 @@ static void a_run_that_fails_is_listed_with_its_reason(void **state)
     }
     assert_int_equal(cost->quantity[0].reference.order, 1);
     drop_study();
-    make_study("", &ladder);
+    make_study("", &variants);
     cost->measure = pretend_all_fail;
     assert_failure(ost_cost_run(cost), OST_NOT_CONVERGED, "never");
     drop_study();
@@ -269,11 +269,11 @@ static void a_run_that_fails_is_listed_with_its_reason(void **state)
 static void the_frontier_is_what_nothing_beats(void **state)
 {
     (void)state;
-    OstCostLadder ladder = ost_cost_default_ladder();
-    ladder.tolerance_count = OST_COST_MOST_RUNGS;
-    for (int t = 0; t < OST_COST_MOST_RUNGS; t++)
-        ladder.tolerance[t] = 1e-3 / (t + 1);
-    make_study("", &ladder);
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.tolerance_count = OST_COST_MOST_VALUES;
+    for (int t = 0; t < OST_COST_MOST_VALUES; t++)
+        variants.tolerance[t] = 1e-3 / (t + 1);
+    make_study("", &variants);
     unsigned random = 1;
     for (int i = 0; i < cost->run_count; i++) {
         OstCostRun *run = &cost->run[i];
@@ -310,8 +310,8 @@ static double tip_error(int order, int refinement)
 static void a_cantilever_has_its_price_list(void **state)
 {
     (void)state;
-    const OstCostLadder ladder = ost_cost_default_ladder();
-    make_study(watch, &ladder);
+    const OstCostVariants variants = ost_cost_default_variants();
+    make_study(watch, &variants);
     const size_t before = ost_ledger_bytes(ctx);
     assert_success(ost_cost_run(cost));
     assert_int_equal(ost_ledger_bytes(ctx), before);
@@ -378,17 +378,9 @@ static void the_ledgers_peak_can_start_again(void **state)
     assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_OTHER).peak_bytes, ost_ledger_entry(ctx, OST_LEDGER_OTHER).bytes);
 }
 
-static void the_machine_has_memory(void **state)
-{
-    (void)state;
-    double bytes = 0.0;
-    assert_success(ost_cost_machine_bytes(ctx, &bytes));
-    assert_true(bytes > 1e8 && bytes < 1e15);
-}
-
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_ladder_is_listed_once_and_in_order),
-    cmocka_unit_test(rungs_out_of_range_are_refused),
+    cmocka_unit_test(the_variants_are_listed_once_and_in_order),
+    cmocka_unit_test(values_out_of_range_are_refused),
     cmocka_unit_test(time_bounds_what_runs),
     cmocka_unit_test(memory_bounds_what_runs),
     cmocka_unit_test(errors_are_against_the_extrapolated_answer),
@@ -401,7 +393,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_cantilever_has_its_price_list),
     cmocka_unit_test(a_place_is_a_vertex_and_stays_there),
     cmocka_unit_test(the_ledgers_peak_can_start_again),
-    cmocka_unit_test(the_machine_has_memory),
 };
 
 OST_TEST_MAIN(tests)

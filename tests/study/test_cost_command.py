@@ -75,7 +75,7 @@ class Cost(unittest.TestCase):
         self.assertEqual(sizes[1, 1], 8 * sizes[1, 0])
         self.assertEqual(sizes[2, 2], 64 * sizes[1, 0])
         self.assertEqual([entry["name"] for entry in study["quantities"]], ["energy", "tip"])
-        self.assertFalse([name for name in os.listdir(self.folder) if "partial" in name])
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith(".orthostat-")])
 
     def test_ranks_do_not_change_the_answers(self):
         answers = []

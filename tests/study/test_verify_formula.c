@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_text.h"
 #include "core/small.h"
-#include "study/formula.h"
+#include "study/formula/formula.h"
 
 /* Closed forms against published numbers, and against the equations that any of them must satisfy. */
 

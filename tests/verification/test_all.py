@@ -1,4 +1,4 @@
-"""Answers against closed forms, on all the meshes that the README tells of."""
+"""Answers compared with closed-form solutions, on all the meshes that the README tells of."""
 import os
 import sys
 

@@ -1,4 +1,4 @@
-"""Answers against closed forms, on coarse meshes; and mistakes that verification is there to catch."""
+"""Answers compared with closed-form solutions, on coarse meshes; and mistakes that verification is there to catch."""
 import json
 import os
 import sys

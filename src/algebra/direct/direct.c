@@ -9,6 +9,7 @@
 #include "core/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* A step by factors costs little beside making them: u is refined until this is all that it moves. */
 static const double settled = 1e-3;
@@ -68,8 +69,10 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;
+    snprintf(report->engine, sizeof report->engine, "MUMPS factors, refined by CG");
     goal->settled = settled;
-    goal->exact |= direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
+    goal->compensated |=
+        direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
     OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
     return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
 }

@@ -119,7 +119,7 @@ static OstStatus start(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-static OstStatus number_unknowns(OstMumps *mumps, const OstExactMatrix *matrix)
+static OstStatus number_unknowns(OstMumps *mumps, const OstDoubleMatrix *matrix)
 {
     OstContext *ctx = mumps->ctx;
     const OstGlobal mine = (OstGlobal)matrix->size * matrix->rows;
@@ -136,7 +136,7 @@ static OstStatus number_unknowns(OstMumps *mumps, const OstExactMatrix *matrix)
 }
 
 /* This rank's entries on and above the diagonal, by global numbers from 1; `number` has each column's first. */
-static void fill_entries(const OstExactMatrix *matrix, const OstGlobal *number, DMUMPS_STRUC_C *id)
+static void fill_entries(const OstDoubleMatrix *matrix, const OstGlobal *number, DMUMPS_STRUC_C *id)
 {
     const int size = matrix->size;
     MUMPS_INT8 n = 0;
@@ -146,7 +146,7 @@ static void fill_entries(const OstExactMatrix *matrix, const OstGlobal *number, 
             const OstLocal j = matrix->column[k];
             if (number[j] < number[i])
                 continue;
-            const double *block = ost_exact_matrix_block(matrix, size, i, k, room);
+            const double *block = ost_double_matrix_block(matrix, size, i, k, room);
             for (int c = 0; c < size; c++)
                 for (int d = i == j ? c : 0; d < size; d++, n++) {
                     id->irn_loc[n] = (MUMPS_INT)(number[i] + c + 1);
@@ -157,7 +157,7 @@ static void fill_entries(const OstExactMatrix *matrix, const OstGlobal *number, 
     id->nnz_loc = n;
 }
 
-static OstStatus global_numbers(const OstMumps *mumps, const OstExactMatrix *matrix, OstGlobal **number)
+static OstStatus global_numbers(const OstMumps *mumps, const OstDoubleMatrix *matrix, OstGlobal **number)
 {
     OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, number, matrix->columns)));
     for (OstLocal i = 0; i < matrix->rows; i++)
@@ -165,7 +165,7 @@ static OstStatus global_numbers(const OstMumps *mumps, const OstExactMatrix *mat
     return ost_halo_import(matrix->halo, sizeof **number, *number);
 }
 
-static OstStatus allocate_entries(const OstExactMatrix *matrix, DMUMPS_STRUC_C *id)
+static OstStatus allocate_entries(const OstDoubleMatrix *matrix, DMUMPS_STRUC_C *id)
 {
     const size_t most = (size_t)(matrix->size * matrix->size) * (size_t)matrix->row_start[matrix->rows];
     OST_TRY(OST_NEW(matrix->ctx, &id->irn_loc, most));
@@ -233,7 +233,7 @@ static OstStatus factor(OstMumps *mumps)
     return status;
 }
 
-static OstStatus factor_matrix(OstMumps *mumps, const OstExactMatrix *matrix)
+static OstStatus factor_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
 {
     DMUMPS_STRUC_C *id = &mumps->id;
     OstGlobal *number = NULL;
@@ -271,7 +271,7 @@ static OstStatus gather_counts(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-static OstStatus create(const OstExactMatrix *matrix, double memory, double most_shift, OstMumps **mumps)
+static OstStatus create(const OstDoubleMatrix *matrix, double memory, double most_shift, OstMumps **mumps)
 {
     OstContext *ctx = matrix->ctx;
     OstMumps *made = NULL;
@@ -293,7 +293,7 @@ done:
     return status;
 }
 
-OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps **mumps)
+OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps)
 {
     return create(matrix, memory, 0.0, mumps);
 }
@@ -301,13 +301,13 @@ OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
                                    double *shift, OstMumps **mumps)
 {
-    OstExactMatrix *view = NULL;
+    OstDoubleMatrix *view = NULL;
     *mumps = NULL;
-    OST_TRY(ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &view)));
+    OST_TRY(ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &view)));
     const OstStatus status = create(view, memory, shift ? rounding_shift : 0.0, mumps);
     if (status == OST_SUCCESS && shift)
         *shift = (*mumps)->shift;
-    ost_exact_matrix_destroy(&view);
+    ost_double_matrix_destroy(&view);
     return status;
 }
 

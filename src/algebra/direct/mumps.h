@@ -11,7 +11,7 @@ typedef struct OstMumps OstMumps;
  * (OstScaling). Raises OST_OUT_OF_MEMORY, before it takes any, if the analysis foresees more than `memory` bytes over
  * all ranks, or than the machines have free where `memory` is 0; OST_NOT_CONVERGED if the matrix is singular or
  * indefinite, OST_LIMIT_EXCEEDED, OST_LIBRARY_FAILED with MUMPS's code. */
-OstStatus ost_mumps_create(const OstExactMatrix *matrix, double memory, OstMumps **mumps);
+OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps);
 /* Collective. The same of S A S^T, or of A where `scaling` is NULL. `shift` (or NULL): where the matrix is singular or
  * indefinite by no more than rounding makes it, the factors are those of the matrix with this added to its diagonal,
  * 5e-13 at most of the order of 1 that it is; 0 where it is definite. */

@@ -107,7 +107,8 @@ static OstStatus report_error(Cg *cg, const double *f, const double *u, const Os
     OstEnergyError error = {.whole = NAN};
     note_spectrum(cg);
     if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
-        OST_TRY(ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->exact, &error));
+        OST_TRY(
+            ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
     const int known = !isnan(error.whole) && !isnan(error.rounding);
     report->condition_estimate = cg->smallest > 0.0 ? cg->largest / cg->smallest : 0.0;
     /* Factors whose steps do not settle are what rounding made them. */
@@ -134,7 +135,7 @@ static OstStatus go_on(Cg *cg, const double *f, double *u, double *before, OstGo
         return OST_SUCCESS;
     }
     goal->norm = further.norm;
-    goal->exact = further.exact;
+    goal->compensated = further.compensated;
     return OST_SUCCESS;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/energy_error.h"
 
-#include "algebra/matrix/exact_residual.h"
-#include "algebra/matrix/exact_step.h"
+#include "algebra/matrix/compensated_residual.h"
+#include "algebra/matrix/compensated_step.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
@@ -16,7 +16,7 @@
 static const double six_digits = 1e-6;
 
 /* As many where the error is near to the least digit. */
-enum { FEWEST_THROWS = 8, MOST_THROWS = 64 };
+enum { FEWEST_SAMPLES = 8, MOST_SAMPLES = 64 };
 
 const double ost_least_digit = 0.1;
 
@@ -31,27 +31,27 @@ enum { MOST_STEPS = 40 };
 typedef struct Work {
     const OstCgSystem *system;
     const OstPreconditioner *preconditioner;
-    size_t n;            /* unknowns this rank owns */
-    double *u;           /* with room for ghosts */
-    double *residual;    /* f - A u */
-    double *vector;      /* the one that is measured */
-    double *corrected;   /* M^-1 of that */
-    OstExactStep *step;  /* where factors are led: then also */
-    double *left;        /* what of the vector is left to solve for, */
-    double *solution;    /* and A^-1 of the rest, over |u| */
-    int lost;            /* is A not positive definite, or does none settle? */
-    double smallest;     /* eigenvalue of M^-1 A */
-    double energy_norm;  /* |u|_A sqrt(smallest) */
-    double displacement; /* |u| */
-    double moved;        /* |M^-1 v| over that, of the last vector that was measured, where M is not factors */
+    size_t n;                 /* unknowns this rank owns */
+    double *u;                /* with room for ghosts */
+    double *residual;         /* f - A u */
+    double *vector;           /* the one that is measured */
+    double *corrected;        /* M^-1 of that */
+    OstCompensatedStep *step; /* where factors are led: then also */
+    double *left;             /* what of the vector is left to solve for, */
+    double *solution;         /* and A^-1 of the rest, over |u| */
+    int lost;                 /* is A not positive definite, or does none settle? */
+    double smallest;          /* eigenvalue of M^-1 A */
+    double energy_norm;       /* |u|_A sqrt(smallest) */
+    double displacement;      /* |u| */
+    double moved;             /* |M^-1 v| over that, of the last vector that was measured, where M is not factors */
 } Work;
 
 /* f - A u; fills u's ghosts. */
-static OstStatus find_residual(Work *work, const double *f, int exact)
+static OstStatus find_residual(Work *work, const double *f, int compensated)
 {
     const OstBlockMatrix *matrix = work->system->matrix;
-    if (exact)
-        return ost_exact_residual(matrix, f, work->u, work->residual);
+    if (compensated)
+        return ost_compensated_residual(matrix, f, work->u, work->residual);
     OST_TRY(ost_block_matrix_apply(matrix, work->u, work->residual));
     for (size_t i = 0; i < work->n; i++)
         work->residual[i] = f[i] - work->residual[i];
@@ -59,7 +59,7 @@ static OstStatus find_residual(Work *work, const double *f, int exact)
 }
 
 /* The vector is what a rounding of A leaves of the residual. */
-static void throw_rounding(Work *work, int which)
+static void sample_rounding(Work *work, int which)
 {
     ost_rounded_stiffness_force(work->system->matrix, work->u, which, work->vector);
 }
@@ -119,7 +119,7 @@ static OstStatus lead(Work *work, double *moved)
     memcpy(work->vector, work->left, work->n * sizeof(double));
     OST_TRY(correct(work, &size));
     unscale(work, size);
-    OST_TRY(ost_exact_step_turn(work->step, work->left, work->corrected));
+    OST_TRY(ost_compensated_step_turn(work->step, work->left, work->corrected));
     for (size_t i = 0; i < work->n; i++) {
         work->solution[i] += work->corrected[i];
         work->left[i] -= work->step->length * work->step->product[i];
@@ -151,11 +151,11 @@ static OstStatus look(Work *work, double *error)
     return work->step ? measure_closely(work, error) : measure(work, error);
 }
 
-static int more_throws(const OstThrows *throws)
+static int more_samples(const OstSamples *throws)
 {
-    if (throws->count > 0 && ost_throws_size(throws) <= six_digits)
+    if (throws->count > 0 && ost_samples_size(throws) <= six_digits)
         return 0;
-    return ost_throws_undecided(throws, ost_least_digit, FEWEST_THROWS, MOST_THROWS);
+    return ost_samples_undecided(throws, ost_least_digit, FEWEST_SAMPLES, MOST_SAMPLES);
 }
 
 /* The error that the residual leaves. */
@@ -172,17 +172,17 @@ static OstStatus look_at_residual(Work *work, OstEnergyError *error)
 static OstStatus look_closer(Work *work, OstEnergyError *error)
 {
     double one;
-    OstThrows throws = {0, 0.0};
+    OstSamples throws = {0, 0.0};
     OST_TRY(look_at_residual(work, error));
-    while (!work->lost && more_throws(&throws)) {
-        throw_rounding(work, 1 + throws.count);
+    while (!work->lost && more_samples(&throws)) {
+        sample_rounding(work, 1 + throws.count);
         OST_TRY(look(work, &one));
-        ost_throws_add(&throws, at_least(one, work->moved));
+        ost_samples_add(&throws, at_least(one, work->moved));
     }
     if (work->lost)
         return OST_SUCCESS;
-    error->rounding = ost_throws_size(&throws);
-    error->spread = ost_throws_spread(&throws);
+    error->rounding = ost_samples_size(&throws);
+    error->spread = ost_samples_spread(&throws);
     error->whole = hypot(error->whole, error->rounding);
     error->energy = hypot(error->energy, error->rounding);
     return OST_SUCCESS;
@@ -207,15 +207,15 @@ static OstStatus prepare_to_lead(Work *work)
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &work->solution, work->n);
     OST_TRY(ost_agree(ctx, status));
-    return ost_exact_step_create(work->system->matrix, &work->step);
+    return ost_compensated_step_create(work->system->matrix, &work->step);
 }
 
 static const OstEnergyError unknown = {.whole = INFINITY, .energy = INFINITY, .rounding = INFINITY};
 
-static OstStatus estimate(Work *work, const double *f, int exact, OstEnergyError *error)
+static OstStatus estimate(Work *work, const double *f, int compensated, OstEnergyError *error)
 {
     double energy;
-    OST_TRY(find_residual(work, f, exact));
+    OST_TRY(find_residual(work, f, compensated));
     OST_TRY(ost_vector_dot(work->system->matrix->ctx, work->n, f, work->u, &energy));
     *error = unknown;
     work->energy_norm = energy > 0.0 ? sqrt(energy) * sqrt(work->smallest) : 0.0;
@@ -223,10 +223,10 @@ static OstStatus estimate(Work *work, const double *f, int exact, OstEnergyError
         return OST_SUCCESS;
     OST_TRY(find_displacement(work));
     error->rounding = 0.0;
-    throw_rounding(work, 0);
+    sample_rounding(work, 0);
     for (size_t i = 0; i < work->n; i++)
         work->vector[i] += work->residual[i];
-    if (exact && work->preconditioner->factors)
+    if (compensated && work->preconditioner->factors)
         OST_TRY(prepare_to_lead(work));
     OST_TRY(look(work, &error->energy));
     error->whole = at_least(error->energy, work->moved / work->smallest);
@@ -246,7 +246,7 @@ static OstStatus allocate(OstContext *ctx, Work *work)
 }
 
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
-                           const double *f, const double *u, int exact, OstEnergyError *error)
+                           const double *f, const double *u, int compensated, OstEnergyError *error)
 {
     const OstBlockMatrix *matrix = system->matrix;
     Work work = {
@@ -254,7 +254,7 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
     OstStatus status = ost_agree(matrix->ctx, allocate(matrix->ctx, &work));
     if (status == OST_SUCCESS) {
         memcpy(work.u, u, work.n * sizeof *u);
-        status = estimate(&work, f, exact, error);
+        status = estimate(&work, f, compensated, error);
     }
     OST_FREE(work.u);
     OST_FREE(work.residual);
@@ -262,6 +262,6 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
     OST_FREE(work.corrected);
     OST_FREE(work.left);
     OST_FREE(work.solution);
-    ost_exact_step_destroy(&work.step);
+    ost_compensated_step_destroy(&work.step);
     return status;
 }

@@ -22,7 +22,7 @@
  * roundings (algebra/rounded_stiffness.h). It is added to r, so that one application of the preconditioner tells both.
  * Where that leaves less than six digits, the two are told apart, and rounding by several throws: what rounding does to
  * a badly conditioned body is its share in one softest mode, which one throw may miss. So may factors, by as much as
- * they like, where u itself is hidden by rounding (`exact`): there they are led to A^-1 of each throw
+ * they like, where u itself is hidden by rounding (`compensated`): there they are led to A^-1 of each throw
  * (algebra/exact_step.h). Near to the least digit, where a body is refused or not, there are more throws. */
 typedef struct OstEnergyError {
     double whole;    /* over |u|; NAN where M is not positive definite, INFINITY where f·u <= 0, as of no solution, or
@@ -40,8 +40,8 @@ extern const double ost_least_digit;
 
 /* Collective. Applies the preconditioner once, or where less than six digits are left, three times; ten times if they
  * are lost to rounding, and up to 66 times near to the least digit. Factors that are led take two or three each time,
- * 40 at most. `exact`: rounding is so near that r is summed by ost_exact_residual. */
+ * 40 at most. `compensated`: rounding is so near that r is summed by ost_compensated_residual. */
 OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
-                           const double *f, const double *u, int exact, OstEnergyError *error);
+                           const double *f, const double *u, int compensated, OstEnergyError *error);
 
 #endif

@@ -42,7 +42,7 @@ static OstStatus look_for_rounding(FactorRun *work, double energy)
 {
     double scale;
     work->blind = 1;
-    if (work->goal->exact)
+    if (work->goal->compensated)
         return OST_SUCCESS;
     OST_TRY(ost_cg_rounding_scale(work->run, &scale));
     work->blind = fabs(energy) <= ost_cg_rounding * scale;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/refine.h"
 
-#include "algebra/matrix/exact_residual.h"
-#include "algebra/matrix/exact_step.h"
+#include "algebra/matrix/compensated_residual.h"
+#include "algebra/matrix/compensated_step.h"
 #include "algebra/matrix/term_rounding.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
@@ -17,13 +17,13 @@
 /* Solving again for the recomputed residual must gain this much, or it stalls; so often in a row it may, and where
  * factors are led, whose steps may grow until the modes that they miss are found, and move u yet. */
 static const double least_gain = 0.5;
-enum { MOST_STALLS = 3, MOST_LED_STALLS = 12 };
+enum { MOST_STALLS = 3, MOST_FACTOR_STALLS = 12 };
 
 /* The limit is an estimate for terms rounded at random: a residual this many times above it may still be rounding's. */
 static const double rounding_slack = 3.0;
 
 /* Below so many times the limit the rounding of a product would hide what can still be gained. */
-static const double exact_below = 10.0;
+static const double compensated_below = 10.0;
 
 typedef struct Refinement {
     const OstBlockMatrix *matrix;
@@ -39,7 +39,7 @@ typedef struct Refinement {
     double moved;       /* largest number of the correction over that of u + correction; where goal->settled asks */
     double least_moved; /* of all corrections */
     int contracts;      /* did the last one lower that by least_gain? Noise would, against the one before */
-    OstExactStep *step; /* of factors' corrections, once residuals are summed exactly */
+    OstCompensatedStep *step; /* of factors' corrections, once residuals are computed with compensated sums */
     OstGoal *goal;
 } Refinement;
 
@@ -53,18 +53,18 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
     goal->iterations++;
-    ost_pace_add(&goal->pace, norm, weight);
+    ost_convergence_add(&goal->pace, norm, weight);
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
     if (norm <= goal->target)
         return 0;
-    const double remaining = ost_pace_remaining(&goal->pace, goal->target);
+    const double remaining = ost_convergence_remaining(&goal->pace, goal->target);
     if (goal->iterations >= goal->most_iterations) {
         say_iterations(goal);
     } else if (goal->patience > 0 && remaining > goal->patience) {
         goal->end = OST_END_SLOW;
         snprintf(goal->words, sizeof goal->words,
                  "after %d iterations the residual fell by no more than %.4f a step: too slow", goal->pace.count,
-                 ost_pace_factor(&goal->pace));
+                 ost_convergence_factor(&goal->pace));
     }
     return goal->end == OST_END_REACHED;
 }
@@ -104,7 +104,7 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
     OST_TRY(ost_sum(ctx, 1, &square));
     goal->start = goal->norm = sqrt(square);
     goal->target = options->relative_residual * goal->start;
-    ost_pace_start(&goal->pace, goal->start);
+    ost_convergence_start(&goal->pace, goal->start);
     if (!isfinite(goal->start))
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
     return OST_SUCCESS;
@@ -116,8 +116,8 @@ enum { SQUARE, ENERGY, SUMS };
 /* left = f - A candidate, and what it says: its square, and twice the energy that the correction takes away. */
 static OstStatus examine(Refinement *work, double sums[SUMS])
 {
-    if (work->goal->exact) {
-        OST_TRY(ost_exact_residual(work->matrix, work->f, work->candidate, work->left));
+    if (work->goal->compensated) {
+        OST_TRY(ost_compensated_residual(work->matrix, work->f, work->candidate, work->left));
     } else {
         OST_TRY(ost_block_matrix_apply(work->matrix, work->candidate, work->left));
         for (size_t i = 0; i < work->n; i++)
@@ -160,9 +160,9 @@ static OstStatus find_moved(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* u + correction, if that is better. Where u's own rounding is all that residuals show, they are summed exactly, and
- * corrections that contract tell it (Demmel et al., Error bounds from extra-precise iterative refinement, ACM Trans.
- * Math. Softw. 32, 2006). */
+/* u + correction, if that is better. Where u's own rounding is all that residuals show, they are computed with
+ * compensated sums, and corrections that contract tell it (Demmel et al., Error bounds from extra-precise iterative
+ * refinement, ACM Trans. Math. Softw. 32, 2006). */
 static OstStatus take_correction(Refinement *work)
 {
     double sums[SUMS];
@@ -208,11 +208,12 @@ static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
     const int missed = goal->norm > goal->target || (work->contraction > 0.0 && !is_done(work));
-    if (goal->exact || !missed)
+    if (goal->compensated || !missed)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
-    goal->exact = goal->norm <= exact_below * goal->limit || (goal->settled > 0.0 && goal->norm > goal->start);
-    return goal->exact ? first_residual(work) : OST_SUCCESS;
+    goal->compensated =
+        goal->norm <= compensated_below * goal->limit || (goal->settled > 0.0 && goal->norm > goal->start);
+    return goal->compensated ? first_residual(work) : OST_SUCCESS;
 }
 
 double ost_goal_attainable(const OstGoal *goal)
@@ -246,11 +247,11 @@ static OstStatus find_correction(Refinement *work, OstInnerSolve inner, void *da
     OstGoal *goal = work->goal;
     memset(work->correction, 0, work->n * sizeof(double));
     OST_TRY(inner(data, work->residual, work->correction, goal));
-    if (!goal->exact || goal->settled == 0.0)
+    if (!goal->compensated || goal->settled == 0.0)
         return OST_SUCCESS;
     if (!work->step)
-        OST_TRY(ost_exact_step_create(work->matrix, &work->step));
-    return ost_exact_step_turn(work->step, work->residual, work->correction);
+        OST_TRY(ost_compensated_step_create(work->matrix, &work->step));
+    return ost_compensated_step_turn(work->step, work->residual, work->correction);
 }
 
 /* Led steps are not at their end while they move u by more than the relative residual asked for, or leave a residual
@@ -259,14 +260,14 @@ static int most_stalls(const Refinement *work)
 {
     const OstGoal *goal = work->goal;
     const int moves = work->moved > goal->target / goal->start;
-    return work->step && (moves || goal->norm > rounding_slack * goal->limit) ? MOST_LED_STALLS : MOST_STALLS;
+    return work->step && (moves || goal->norm > rounding_slack * goal->limit) ? MOST_FACTOR_STALLS : MOST_STALLS;
 }
 
 static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
     OstGoal *goal = work->goal;
     OST_TRY(first_residual(work));
-    ost_pace_start(&goal->pace, goal->norm);
+    ost_convergence_start(&goal->pace, goal->norm);
     int stalls = 0;
     work->moved = work->least_moved = HUGE_VAL;
     double least_norm = goal->norm;
@@ -309,7 +310,7 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
     OST_TRY_DONE(refine(&work, inner, data));
 done:
     ost_progress(ctx, "solve", -1.0);
-    ost_exact_step_destroy(&work.step);
+    ost_compensated_step_destroy(&work.step);
     OST_FREE(work.residual);
     OST_FREE(work.correction);
     OST_FREE(work.left);

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_KRYLOV_REFINE_H
 #define ORTHOSTAT_ALGEBRA_KRYLOV_REFINE_H
 
-#include "algebra/krylov/pace.h"
+#include "algebra/krylov/convergence_rate.h"
 #include "algebra/matrix/block_matrix.h"
 #include "orthostat/solver.h"
 
@@ -19,18 +19,19 @@ typedef enum {
 /* What a solver works towards, and how far it is; norms are of the unscaled residual. */
 typedef struct OstGoal {
     OstContext *ctx;
-    double start;  /* ||f|| */
-    double target; /* relative_residual × ||f|| */
-    double norm;   /* ||f - A u||, recomputed */
-    double limit;  /* about the least that rounding leaves of it; 0 where nobody asked */
-    int exact;     /* so close to the limit that residuals are summed exactly (ost_exact_residual) */
+    double start;    /* ||f|| */
+    double target;   /* relative_residual × ||f|| */
+    double norm;     /* ||f - A u||, recomputed */
+    double limit;    /* about the least that rounding leaves of it; 0 where nobody asked */
+    int compensated; /* so close to the limit that residuals are computed with compensated sums
+                        (ost_compensated_residual) */
     int iterations;
     int most_iterations;
     int patience;           /* 0: endless */
     int attainable_will_do; /* less than the target, where rounding holds no more */
     double settled;         /* beyond the target, until a correction is no larger than this beside u; 0: not so */
     double drift;           /* then: how far corrections would still move u, over u, by their geometric series */
-    OstPace pace;
+    OstConvergence pace;
     OstEnd end;
     char words[200]; /* the end, unless reached */
 } OstGoal;

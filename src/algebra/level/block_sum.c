@@ -4,6 +4,7 @@
 #include "algebra/level/fetched_rows.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <string.h>
 
@@ -15,9 +16,9 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
 {
     OST_TRY(OST_NEW(ctx, sum, 1));
     **sum = (OstBlockSum){.ctx = ctx, .first = first, .owned = owned};
-    OstStatus status = ost_index_create(ctx, &(*sum)->ghost);
+    OstStatus status = ost_index_create(ctx, 1, &(*sum)->ghost);
     if (status == OST_SUCCESS)
-        status = ost_index_create(ctx, &(*sum)->entry);
+        status = ost_index_create(ctx, 1, &(*sum)->entry);
     (*sum)->room = LIKELY_ENTRIES * owned + 64;
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &(*sum)->value, BLOCK * (size_t)(*sum)->room);
@@ -42,15 +43,16 @@ OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *nod
         *node = (OstLocal)(number - sum->first);
         return OST_SUCCESS;
     }
-    OST_TRY(ost_index_place(sum->ghost, number, node));
+    OST_TRY(ost_index_place(sum->ghost, &number, node));
     *node += sum->owned;
     return OST_SUCCESS;
 }
 
 OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block)
 {
+    const OstGlobal key = (OstGlobal)row << 32 | column;
     OstLocal place;
-    OST_TRY(ost_index_place(sum->entry, (OstGlobal)row << 32 | column, &place));
+    OST_TRY(ost_index_place(sum->entry, &key, &place));
     if (place >= sum->room) {
         const OstLocal room = sum->room + sum->room / 4;
         OST_TRY(OST_RESIZE(sum->ctx, &sum->value, BLOCK * (size_t)room));
@@ -76,7 +78,7 @@ static OstGlobal number_of(const OstBlockSum *sum, OstLocal node)
 }
 
 /* What was summed in the rows of the halo's ghosts. */
-static OstStatus pack(const OstBlockSum *sum, OstBlockRows *out)
+static OstStatus pack(const OstBlockSum *sum, OstFetchedRows *out)
 {
     const OstLocal entries = sum->entry->count;
     OstLocal *next = NULL;
@@ -88,7 +90,7 @@ static OstStatus pack(const OstBlockSum *sum, OstBlockRows *out)
         next[g] = out->start[g];
         out->start[g + 1] += out->start[g];
     }
-    const OstStatus status = ost_block_rows_reserve(out);
+    const OstStatus status = ost_fetched_rows_reserve(out);
     double *value = (double *)(void *)out->value;
     for (OstLocal e = 0; e < entries && status == OST_SUCCESS; e++) {
         if (row_of(sum, e) < sum->owned)
@@ -101,7 +103,7 @@ static OstStatus pack(const OstBlockSum *sum, OstBlockRows *out)
     return status;
 }
 
-static OstStatus add(OstBlockSum *sum, const OstLocal *row, const OstBlockRows *in)
+static OstStatus add(OstBlockSum *sum, const OstLocal *row, const OstFetchedRows *in)
 {
     const double *value = (const double *)(const void *)in->value;
     for (OstLocal i = 0; i < in->rows; i++)
@@ -121,16 +123,16 @@ static OstStatus add(OstBlockSum *sum, const OstLocal *row, const OstBlockRows *
 OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo)
 {
     OstContext *ctx = sum->ctx;
-    OstBlockRows *out = NULL, *in = NULL;
-    OstStatus status = ost_block_rows_create(ctx, halo->ghosts, BLOCK * sizeof(double), &out);
+    OstFetchedRows *out = NULL, *in = NULL;
+    OstStatus status = ost_fetched_rows_create(ctx, halo->ghosts, BLOCK * sizeof(double), &out);
     if (status == OST_SUCCESS)
         status = pack(sum, out);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_block_rows_exchange(halo, OST_TO_OWNERS, out, &in));
+    OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_OWNERS, out, &in));
     OST_TRY_DONE(ost_agree(ctx, add(sum, halo->send_index, in)));
 done:
-    ost_block_rows_destroy(&out);
-    ost_block_rows_destroy(&in);
+    ost_fetched_rows_destroy(&out);
+    ost_fetched_rows_destroy(&in);
     return status;
 }
 
@@ -215,13 +217,13 @@ static void copy_block(const OstBlockSum *sum, OstLocal block, double *value)
             value[OST_MODES * r + c] = block >= 0 ? kept[OST_MODES * r + c] : kept[OST_MODES * c + r];
 }
 
-static OstStatus fill(const OstBlockSum *sum, Listing *list, OstExactMatrix **matrix)
+static OstStatus fill(const OstBlockSum *sum, Listing *list, OstDoubleMatrix **matrix)
 {
     OST_TRY(list_rows(sum, list));
     OST_TRY(number_columns(sum, list));
     const OstLocal blocks = list->start[sum->owned];
     OST_TRY(OST_NEW(sum->ctx, matrix, 1));
-    **matrix = (OstExactMatrix){.ctx = sum->ctx, .size = OST_MODES, .rows = sum->owned, .columns = list->columns};
+    **matrix = (OstDoubleMatrix){.ctx = sum->ctx, .size = OST_MODES, .rows = sum->owned, .columns = list->columns};
     OST_TRY(OST_NEW(sum->ctx, &(*matrix)->column, blocks));
     OST_TRY(OST_NEW(sum->ctx, &(*matrix)->value, BLOCK * (size_t)blocks));
     for (OstLocal i = 0; i < sum->owned; i++)
@@ -233,7 +235,7 @@ static OstStatus fill(const OstBlockSum *sum, Listing *list, OstExactMatrix **ma
     return OST_SUCCESS;
 }
 
-OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstExactMatrix **matrix)
+OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstDoubleMatrix **matrix)
 {
     OstContext *ctx = sum->ctx;
     Listing list = {0};
@@ -248,6 +250,6 @@ done:
     OST_FREE(list.renumber);
     OST_FREE(list.ghost);
     if (status != OST_SUCCESS)
-        ost_exact_matrix_destroy(matrix);
+        ost_double_matrix_destroy(matrix);
     return status;
 }

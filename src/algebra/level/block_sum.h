@@ -3,8 +3,8 @@
 #define ORTHOSTAT_ALGEBRA_LEVEL_BLOCK_SUM_H
 
 #include "algebra/level/double_matrix.h"
-#include "algebra/level/index_map.h"
-#include "algebra/level/lanes.h"
+#include "algebra/level/simd.h"
+#include "core/index_map.h"
 
 /* A coarse matrix in the making: 6 × 6 blocks that are found by row and column and added to. Rows and columns are this
  * rank's coarse nodes, then those of other ranks in the order in which they were met. The sum over the ranks is
@@ -40,6 +40,6 @@ OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, do
 OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo);
 
 /* Collective. The matrix: this rank's rows, both halves, columns ascending. */
-OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstExactMatrix **matrix);
+OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstDoubleMatrix **matrix);
 
 #endif

@@ -4,36 +4,36 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-OstStatus ost_exact_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstExactMatrix **exact)
+OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstDoubleMatrix **source)
 {
-    OST_TRY(OST_NEW(matrix->ctx, exact, 1));
-    **exact = (OstExactMatrix){.ctx = matrix->ctx,
-                               .size = 3,
-                               .borrowed = 1,
-                               .scaling = scaling,
-                               .rows = matrix->rows,
-                               .columns = matrix->columns,
-                               .row_start = matrix->row_start,
-                               .column = matrix->column,
-                               .value = matrix->value,
-                               .halo = matrix->halo};
+    OST_TRY(OST_NEW(matrix->ctx, source, 1));
+    **source = (OstDoubleMatrix){.ctx = matrix->ctx,
+                                 .size = 3,
+                                 .borrowed = 1,
+                                 .scaling = scaling,
+                                 .rows = matrix->rows,
+                                 .columns = matrix->columns,
+                                 .row_start = matrix->row_start,
+                                 .column = matrix->column,
+                                 .value = matrix->value,
+                                 .halo = matrix->halo};
     return OST_SUCCESS;
 }
 
-void ost_exact_matrix_destroy(OstExactMatrix **exact)
+void ost_double_matrix_destroy(OstDoubleMatrix **source)
 {
-    if (!*exact)
+    if (!*source)
         return;
-    if (!(*exact)->borrowed) {
-        OST_FREE((*exact)->row_start);
-        OST_FREE((*exact)->column);
-        OST_FREE((*exact)->value);
-        ost_halo_destroy(&(*exact)->halo);
+    if (!(*source)->borrowed) {
+        OST_FREE((*source)->row_start);
+        OST_FREE((*source)->column);
+        OST_FREE((*source)->value);
+        ost_halo_destroy(&(*source)->halo);
     }
-    OST_FREE(*exact);
+    OST_FREE(*source);
 }
 
-double *ost_exact_matrix_diagonal(const OstExactMatrix *matrix, OstLocal row)
+double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row)
 {
     OstLocal low = matrix->row_start[row];
     OstLocal high = matrix->row_start[row + 1] - 1;
@@ -47,10 +47,10 @@ double *ost_exact_matrix_diagonal(const OstExactMatrix *matrix, OstLocal row)
     return matrix->value + (size_t)(matrix->size * matrix->size) * (size_t)low;
 }
 
-void ost_exact_matrix_mend_diagonal(OstExactMatrix *matrix)
+void ost_double_matrix_mend_diagonal(OstDoubleMatrix *matrix)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
-        double *block = ost_exact_matrix_diagonal(matrix, i);
+        double *block = ost_double_matrix_diagonal(matrix, i);
         for (int c = 0; c < matrix->size; c++)
             if (!(block[(matrix->size + 1) * c] > 0.0))
                 block[(matrix->size + 1) * c] = 1.0;

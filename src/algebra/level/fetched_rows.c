@@ -8,7 +8,7 @@
 
 enum { ROWS_TAG = 7272, PADDING = 64 };
 
-void ost_block_rows_destroy(OstBlockRows **rows)
+void ost_fetched_rows_destroy(OstFetchedRows **rows)
 {
     if (!*rows)
         return;
@@ -18,7 +18,7 @@ void ost_block_rows_destroy(OstBlockRows **rows)
     OST_FREE(*rows);
 }
 
-OstStatus ost_block_rows_create(OstContext *ctx, OstLocal rows, size_t block_bytes, OstBlockRows **made)
+OstStatus ost_fetched_rows_create(OstContext *ctx, OstLocal rows, size_t block_bytes, OstFetchedRows **made)
 {
     OST_TRY(OST_NEW(ctx, made, 1));
     (*made)->ctx = ctx;
@@ -26,11 +26,11 @@ OstStatus ost_block_rows_create(OstContext *ctx, OstLocal rows, size_t block_byt
     (*made)->rows = rows;
     const OstStatus status = OST_NEW(ctx, &(*made)->start, (size_t)rows + 1);
     if (status != OST_SUCCESS)
-        ost_block_rows_destroy(made);
+        ost_fetched_rows_destroy(made);
     return status;
 }
 
-OstStatus ost_block_rows_reserve(OstBlockRows *rows)
+OstStatus ost_fetched_rows_reserve(OstFetchedRows *rows)
 {
     const size_t blocks = (size_t)rows->start[rows->rows];
     OST_TRY(OST_NEW(rows->ctx, &rows->column, blocks));
@@ -88,7 +88,7 @@ static OstStatus block_starts(const OstHalo *halo, const OstLocal *row_start, co
 
 /* The lengths of the rows, which say how much else there is to come. */
 static OstStatus exchange_lengths(OstHalo *halo, const OstLocal *out_row, const OstLocal *in_row,
-                                  const OstBlockRows *out, OstBlockRows *in)
+                                  const OstFetchedRows *out, OstFetchedRows *in)
 {
     OstLocal *length = NULL;
     OstStatus status = ost_agree(halo->ctx, OST_NEW(halo->ctx, &length, out->rows));
@@ -105,7 +105,7 @@ done:
 }
 
 static OstStatus exchange_blocks(OstHalo *halo, const OstLocal *out_row, const OstLocal *in_row,
-                                 const OstBlockRows *out, OstBlockRows *in)
+                                 const OstFetchedRows *out, OstFetchedRows *in)
 {
     OstContext *ctx = halo->ctx;
     OstLocal *out_block = NULL, *in_block = NULL;
@@ -117,7 +117,7 @@ static OstStatus exchange_blocks(OstHalo *halo, const OstLocal *out_row, const O
     if (status == OST_SUCCESS)
         status = check_lengths(halo, in_block, out->block_bytes);
     if (status == OST_SUCCESS)
-        status = ost_block_rows_reserve(in);
+        status = ost_fetched_rows_reserve(in);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, sizeof *out->column, out->column, in->column}));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, out->block_bytes, out->value, in->value}));
@@ -127,21 +127,22 @@ done:
     return status;
 }
 
-OstStatus ost_block_rows_exchange(OstHalo *halo, OstDirection direction, const OstBlockRows *out, OstBlockRows **in)
+OstStatus ost_fetched_rows_exchange(OstHalo *halo, OstDirection direction, const OstFetchedRows *out,
+                                    OstFetchedRows **in)
 {
     const OstLocal *out_row = direction == OST_TO_GHOSTS ? halo->send_start : halo->receive_start;
     const OstLocal *in_row = direction == OST_TO_GHOSTS ? halo->receive_start : halo->send_start;
-    OstBlockRows *made = NULL;
+    OstFetchedRows *made = NULL;
     *in = NULL;
-    OstStatus status =
-        ost_agree(halo->ctx, ost_block_rows_create(halo->ctx, in_row[halo->neighbour_count], out->block_bytes, &made));
+    OstStatus status = ost_agree(
+        halo->ctx, ost_fetched_rows_create(halo->ctx, in_row[halo->neighbour_count], out->block_bytes, &made));
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_agree(halo->ctx, exchange_lengths(halo, out_row, in_row, out, made)));
     OST_TRY_DONE(ost_agree(halo->ctx, exchange_blocks(halo, out_row, in_row, out, made)));
 done:
     if (status != OST_SUCCESS)
-        ost_block_rows_destroy(&made);
+        ost_fetched_rows_destroy(&made);
     *in = made;
     return status;
 }

@@ -5,25 +5,26 @@
 #include "core/halo.h"
 
 /* Rows of blocks on their way between ranks; columns by their global numbers. */
-typedef struct OstBlockRows {
+typedef struct OstFetchedRows {
     OstContext *ctx;
     size_t block_bytes;
     OstLocal rows;
     OstLocal *start;   /* rows + 1 */
     OstGlobal *column; /* start[rows] */
     char *value;       /* start[rows] × block_bytes, and padding */
-} OstBlockRows;
+} OstFetchedRows;
 
 /* Which way along a halo: from owners to the ranks that hold copies, or back. */
 typedef enum { OST_TO_GHOSTS, OST_TO_OWNERS } OstDirection;
 
 /* Local. Rows of which `start` is still to be filled, and then the room for what it says is there. */
-OstStatus ost_block_rows_create(OstContext *ctx, OstLocal rows, size_t block_bytes, OstBlockRows **made);
-OstStatus ost_block_rows_reserve(OstBlockRows *rows);
-void ost_block_rows_destroy(OstBlockRows **rows);
+OstStatus ost_fetched_rows_create(OstContext *ctx, OstLocal rows, size_t block_bytes, OstFetchedRows **made);
+OstStatus ost_fetched_rows_reserve(OstFetchedRows *rows);
+void ost_fetched_rows_destroy(OstFetchedRows **rows);
 
 /* Collective. Rows are in the order of the halo: on the owners' side one for every entry of send_index, on the others'
  * one for every ghost. */
-OstStatus ost_block_rows_exchange(OstHalo *halo, OstDirection direction, const OstBlockRows *out, OstBlockRows **in);
+OstStatus ost_fetched_rows_exchange(OstHalo *halo, OstDirection direction, const OstFetchedRows *out,
+                                    OstFetchedRows **in);
 
 #endif

@@ -13,11 +13,11 @@ enum { WIDTH = OST_MODES };
 /* The product in the making. */
 typedef struct Product {
     OstContext *ctx;
-    const OstExactMatrix *a;
-    const OstMetricBlocks *blocks;
+    const OstDoubleMatrix *a;
+    const OstSmootherBlocks *blocks;
     const OstProlongator *p;
     OstBlockSum *sum;     /* numbers coarse nodes as the prolongator does, then others as they are met */
-    OstBlockRows *far;    /* the rows of P of A's ghosts */
+    OstFetchedRows *far;  /* the rows of P of A's ghosts */
     OstLocal *far_column; /* their columns */
     double *p_column;     /* one column of the block's rows of P */
     /* the rows of A P of the block at hand: */
@@ -29,7 +29,7 @@ typedef struct Product {
 static void destroy_product(Product *product)
 {
     ost_block_sum_destroy(&product->sum);
-    ost_block_rows_destroy(&product->far);
+    ost_fetched_rows_destroy(&product->far);
     OST_FREE(product->far_column);
     OST_FREE(product->place);
     OST_FREE(product->column);
@@ -53,13 +53,13 @@ static OstStatus number_columns(Product *product, OstGlobal **number)
 }
 
 /* The rows of P that A's ghosts stand for. */
-static OstStatus pack_rows(const Product *product, const OstGlobal *number, OstBlockRows *out)
+static OstStatus pack_rows(const Product *product, const OstGlobal *number, OstFetchedRows *out)
 {
     const OstProlongator *p = product->p;
     const OstLocal *node = product->a->halo->send_index;
     for (OstLocal i = 0; i < out->rows; i++)
         out->start[i + 1] = out->start[i] + p->row_start[node[i] + 1] - p->row_start[node[i]];
-    OST_TRY(ost_block_rows_reserve(out));
+    OST_TRY(ost_fetched_rows_reserve(out));
     for (OstLocal i = 0; i < out->rows; i++) {
         const OstLocal from = p->row_start[node[i]];
         const size_t blocks = (size_t)(out->start[i + 1] - out->start[i]);
@@ -85,15 +85,15 @@ static OstStatus import_rows(Product *product, const OstGlobal *number)
     OstContext *ctx = product->ctx;
     OstHalo *halo = product->a->halo;
     const size_t bytes = (size_t)(product->p->height * WIDTH) * sizeof(float);
-    OstBlockRows *out = NULL;
-    OstStatus status = ost_block_rows_create(ctx, halo->send_start[halo->neighbour_count], bytes, &out);
+    OstFetchedRows *out = NULL;
+    OstStatus status = ost_fetched_rows_create(ctx, halo->send_start[halo->neighbour_count], bytes, &out);
     if (status == OST_SUCCESS)
         status = pack_rows(product, number, out);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_block_rows_exchange(halo, OST_TO_GHOSTS, out, &product->far));
+    OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_GHOSTS, out, &product->far));
     OST_TRY_DONE(ost_agree(ctx, number_far_columns(product)));
 done:
-    ost_block_rows_destroy(&out);
+    ost_fetched_rows_destroy(&out);
     return status;
 }
 
@@ -127,12 +127,12 @@ OST_UNROLLED OstStatus add_blocks(Product *product, int size, size_t row, const 
 /* Row i of A P. */
 OST_UNROLLED OstStatus multiply_row(Product *product, int size, OstLocal i, size_t row)
 {
-    const OstExactMatrix *a = product->a;
+    const OstDoubleMatrix *a = product->a;
     const OstProlongator *p = product->p;
-    const OstBlockRows *far = product->far;
+    const OstFetchedRows *far = product->far;
     double room[9];
     for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
-        const double *value = ost_exact_matrix_block(a, size, i, k, room);
+        const double *value = ost_double_matrix_block(a, size, i, k, room);
         const OstLocal j = a->column[k];
         if (j < a->rows) {
             const OstLocal from = p->row_start[j];
@@ -152,7 +152,7 @@ OST_UNROLLED OstStatus multiply_row(Product *product, int size, OstLocal i, size
 OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k)
 {
     const OstProlongator *p = product->p;
-    const OstMetricBlocks *blocks = product->blocks;
+    const OstSmootherBlocks *blocks = product->blocks;
     double *to = product->p_column;
     for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++, to += size * WIDTH) {
         const float *value = p->value + (size_t)(size * WIDTH) * (size_t)(p->row_start[blocks->node[m]] + k);
@@ -175,7 +175,7 @@ static void add_product(size_t height, const double *p, const OstDouble8 *column
 /* Adds the block's rows of Pᵀ, times those of A P, to the product. */
 OST_UNROLLED OstStatus multiply_block(Product *product, int size, OstLocal b)
 {
-    const OstMetricBlocks *blocks = product->blocks;
+    const OstSmootherBlocks *blocks = product->blocks;
     const OstProlongator *p = product->p;
     const OstLocal first = blocks->node_start[b], nodes = blocks->node_start[b + 1] - first;
     const OstLocal start = p->row_start[blocks->node[first]];
@@ -202,7 +202,7 @@ OST_UNROLLED OstStatus multiply_block(Product *product, int size, OstLocal b)
 
 static OstStatus multiply(Product *product)
 {
-    const OstMetricBlocks *blocks = product->blocks;
+    const OstSmootherBlocks *blocks = product->blocks;
     const size_t columns = (size_t)product->sum->owned + (size_t)product->sum->ghost->count;
     OstLocal largest = 0;
     for (OstLocal b = 0; b < blocks->count; b++) {
@@ -222,8 +222,8 @@ static OstStatus multiply(Product *product)
     return OST_SUCCESS;
 }
 
-OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstMetricBlocks *blocks,
-                              const OstProlongator *prolongator, OstGlobal first_coarse, OstExactMatrix **coarse)
+OstStatus ost_galerkin_create(const OstDoubleMatrix *matrix, const OstSmootherBlocks *blocks,
+                              const OstProlongator *prolongator, OstGlobal first_coarse, OstDoubleMatrix **coarse)
 {
     OstContext *ctx = matrix->ctx;
     Product product = {.ctx = ctx, .a = matrix, .blocks = blocks, .p = prolongator};

@@ -9,7 +9,7 @@
 /* Collective. Pᵀ A P, of the prolongator as it is kept, in single precision, but summed in double precision: positive
  * semidefinite to rounding. The rows of a block, of those that smoothed P, have the same columns: their product is
  * summed as one. `first_coarse` is the global number of this rank's first coarse node. */
-OstStatus ost_galerkin_create(const OstExactMatrix *matrix, const OstMetricBlocks *blocks,
-                              const OstProlongator *prolongator, OstGlobal first_coarse, OstExactMatrix **coarse);
+OstStatus ost_galerkin_create(const OstDoubleMatrix *matrix, const OstSmootherBlocks *blocks,
+                              const OstProlongator *prolongator, OstGlobal first_coarse, OstDoubleMatrix **coarse);
 
 #endif

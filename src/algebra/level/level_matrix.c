@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/level/level_matrix.h"
 
-#include "algebra/level/lanes.h"
+#include "algebra/level/simd.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -18,71 +18,71 @@ void ost_level_matrix_destroy(OstLevelMatrix **matrix)
     OST_FREE(*matrix);
 }
 
-static void round_block(size_t count, const double *exact, float *rounded)
+static void round_block(size_t count, const double *source, float *rounded)
 {
     for (size_t k = 0; k < count; k++)
-        rounded[k] = (float)exact[k];
+        rounded[k] = (float)source[k];
 }
 
-OST_UNROLLED void fill_upper_half(const OstExactMatrix *exact, int size, OstLevelMatrix *matrix)
+OST_UNROLLED void fill_upper_half(const OstDoubleMatrix *source, int size, OstLevelMatrix *matrix)
 {
     const size_t square = (size_t)(size * size);
     OstLocal upper = 0;
     double room[9];
-    for (OstLocal i = 0; i < exact->rows; i++) {
+    for (OstLocal i = 0; i < source->rows; i++) {
         matrix->own_end[i] = upper;
-        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++) {
-            if (exact->column[k] < i)
+        for (OstLocal k = source->row_start[i]; k < source->row_start[i + 1]; k++) {
+            if (source->column[k] < i)
                 continue;
-            const double *block = ost_exact_matrix_block(exact, size, i, k, room);
-            if (exact->column[k] == i) {
+            const double *block = ost_double_matrix_block(source, size, i, k, room);
+            if (source->column[k] == i) {
                 round_block(square, block, matrix->diagonal + square * (size_t)i);
                 continue;
             }
             round_block(square, block, matrix->value + square * (size_t)upper);
-            matrix->column[upper++] = exact->column[k];
-            if (exact->column[k] < exact->rows)
+            matrix->column[upper++] = source->column[k];
+            if (source->column[k] < source->rows)
                 matrix->own_end[i] = upper;
         }
         matrix->row_start[i + 1] = upper;
     }
 }
 
-static OstStatus copy_upper_half(const OstExactMatrix *exact, OstLevelMatrix *matrix)
+static OstStatus copy_upper_half(const OstDoubleMatrix *source, OstLevelMatrix *matrix)
 {
-    OstContext *ctx = exact->ctx;
-    const size_t square = (size_t)(exact->size * exact->size);
+    OstContext *ctx = source->ctx;
+    const size_t square = (size_t)(source->size * source->size);
     OstLocal upper = 0;
-    for (OstLocal i = 0; i < exact->rows; i++)
-        for (OstLocal k = exact->row_start[i]; k < exact->row_start[i + 1]; k++)
-            upper += exact->column[k] > i;
-    OST_TRY(OST_NEW(ctx, &matrix->row_start, exact->rows + 1));
-    OST_TRY(OST_NEW(ctx, &matrix->own_end, exact->rows));
+    for (OstLocal i = 0; i < source->rows; i++)
+        for (OstLocal k = source->row_start[i]; k < source->row_start[i + 1]; k++)
+            upper += source->column[k] > i;
+    OST_TRY(OST_NEW(ctx, &matrix->row_start, source->rows + 1));
+    OST_TRY(OST_NEW(ctx, &matrix->own_end, source->rows));
     OST_TRY(OST_NEW(ctx, &matrix->column, upper));
-    OST_TRY(OST_NEW(ctx, &matrix->diagonal, square * (size_t)exact->rows + OST_PADDING));
+    OST_TRY(OST_NEW(ctx, &matrix->diagonal, square * (size_t)source->rows + OST_PADDING));
     OST_TRY(OST_NEW(ctx, &matrix->value, square * (size_t)upper + OST_PADDING));
-    if (exact->size == 3)
-        fill_upper_half(exact, 3, matrix);
+    if (source->size == 3)
+        fill_upper_half(source, 3, matrix);
     else
-        fill_upper_half(exact, 6, matrix);
+        fill_upper_half(source, 6, matrix);
     return OST_SUCCESS;
 }
 
-OstStatus ost_level_matrix_create(const OstExactMatrix *exact, OstLevelMatrix **matrix)
+OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix **matrix)
 {
-    OstContext *ctx = exact->ctx;
+    OstContext *ctx = source->ctx;
     OstStatus status = OST_NEW(ctx, matrix, 1);
     if (status == OST_SUCCESS) {
         (*matrix)->ctx = ctx;
-        (*matrix)->size = exact->size;
-        (*matrix)->rows = exact->rows;
-        (*matrix)->columns = exact->columns;
-        (*matrix)->nonzeros = (OstGlobal)(exact->size * exact->size) * exact->row_start[exact->rows];
-        status = copy_upper_half(exact, *matrix);
+        (*matrix)->size = source->size;
+        (*matrix)->rows = source->rows;
+        (*matrix)->columns = source->columns;
+        (*matrix)->nonzeros = (OstGlobal)(source->size * source->size) * source->row_start[source->rows];
+        status = copy_upper_half(source, *matrix);
     }
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
-        status = ost_exchange_create(exact->halo, exact->size, &(*matrix)->exchange);
+        status = ost_exchange_create(source->halo, source->size, &(*matrix)->exchange);
     if (status != OST_SUCCESS)
         ost_level_matrix_destroy(matrix);
     return status;

@@ -21,8 +21,8 @@ typedef struct OstLevelMatrix {
     OstGlobal nonzeros;    /* of this rank's rows, both halves */
 } OstLevelMatrix;
 
-/* Collective. The exact matrix is not kept. */
-OstStatus ost_level_matrix_create(const OstExactMatrix *exact, OstLevelMatrix **matrix);
+/* Collective. The source is not kept. */
+OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix **matrix);
 void ost_level_matrix_destroy(OstLevelMatrix **matrix);
 
 /* Numbers this rank owns of a vector. */

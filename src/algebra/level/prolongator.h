@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_LEVEL_PROLONGATOR_H
 #define ORTHOSTAT_ALGEBRA_LEVEL_PROLONGATOR_H
 
-#include "algebra/level/lanes.h"
+#include "algebra/level/simd.h"
 #include "algebra/trilinos/exchange.h"
 
 /* From a coarse level to the next finer one, in single precision. Columns are coarse nodes: this rank's, then those of

@@ -2,7 +2,7 @@
 #include "algebra/level/smoother_blocks.h"
 
 #include "algebra/aggregation/aggregates.h"
-#include "algebra/level/lanes.h"
+#include "algebra/level/simd.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
@@ -11,7 +11,7 @@
 
 enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK, MOST_STRIPS = 3 };
 
-void ost_metric_blocks_destroy(OstMetricBlocks **blocks)
+void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
 {
     if (!*blocks)
         return;
@@ -23,7 +23,7 @@ void ost_metric_blocks_destroy(OstMetricBlocks **blocks)
 }
 
 /* One block per aggregate; those too large for a dense inverse are cut. */
-static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstMetricBlocks *blocks)
+static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstSmootherBlocks *blocks)
 {
     OstContext *ctx = blocks->ctx;
     OstLocal *start = NULL;
@@ -55,7 +55,7 @@ static void spread(int size, const float *value, int side, double *lower, double
 }
 
 /* The block's part of the matrix, dense; `place` is each node's place in its block and `of_node` its block. */
-static void gather_block(const OstLevelMatrix *matrix, const OstMetricBlocks *blocks, OstLocal b,
+static void gather_block(const OstLevelMatrix *matrix, const OstSmootherBlocks *blocks, OstLocal b,
                          const OstLocal *of_node, const OstLocal *place, double *dense)
 {
     const int size = blocks->size;
@@ -123,7 +123,7 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
 }
 
 static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node, const OstLocal *place, double *dense,
-                          double *inverse, OstMetricBlocks *blocks)
+                          double *inverse, OstSmootherBlocks *blocks)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
@@ -138,7 +138,7 @@ static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node,
     }
 }
 
-static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstMetricBlocks *blocks)
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *blocks)
 {
     OstContext *ctx = blocks->ctx;
     OstLocal *of_node = NULL, *place = NULL;
@@ -162,8 +162,8 @@ done:
     return status;
 }
 
-OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                   OstMetricBlocks **blocks)
+OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
+                                     OstSmootherBlocks **blocks)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0};
     OstAggregates *aggregates = NULL;
@@ -179,7 +179,7 @@ OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetric
 done:
     ost_aggregates_destroy(&aggregates);
     if (status != OST_SUCCESS)
-        ost_metric_blocks_destroy(blocks);
+        ost_smoother_blocks_destroy(blocks);
     return status;
 }
 
@@ -217,7 +217,7 @@ static void multiply_dense(int side, const float *value, const float *in, float 
     }
 }
 
-OST_UNROLLED void apply_blocks(const OstMetricBlocks *blocks, int size, const OstBlockStep *step, const double *r)
+OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const OstBlockStep *step, const double *r)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal *node = blocks->node + blocks->node_start[b];
@@ -238,7 +238,7 @@ OST_UNROLLED void apply_blocks(const OstMetricBlocks *blocks, int size, const Os
     }
 }
 
-void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r)
+void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
 {
     if (blocks->size == 3)
         apply_blocks(blocks, 3, step, r);

@@ -6,7 +6,7 @@
 #include "algebra/level/level_matrix.h"
 
 /* Block Jacobi: the inverses of a matrix' diagonal blocks over groups of nodes that do not overlap. */
-typedef struct OstMetricBlocks {
+typedef struct OstSmootherBlocks {
     OstContext *ctx;
     int size; /* numbers per node */
     OstLocal count;
@@ -14,13 +14,13 @@ typedef struct OstMetricBlocks {
     OstLocal *node;       /* nodes, block by block */
     size_t *value_start;  /* count + 1 */
     float *value;         /* dense symmetric inverses, and padding */
-} OstMetricBlocks;
+} OstSmootherBlocks;
 
 /* Local. Blocks of about `target` nodes, round in the graph's metric. A block that is not positive definite falls back
  * to its nodes alone, and these to their diagonal. */
-OstStatus ost_metric_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                   OstMetricBlocks **blocks);
-void ost_metric_blocks_destroy(OstMetricBlocks **blocks);
+OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
+                                     OstSmootherBlocks **blocks);
+void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 
 /* A step of an iteration: direction = keep direction + add B^-1 r, then x += direction. */
 typedef struct OstBlockStep {
@@ -29,6 +29,6 @@ typedef struct OstBlockStep {
 } OstBlockStep;
 
 /* Local. */
-void ost_metric_blocks_step(const OstMetricBlocks *blocks, const OstBlockStep *step, const double *r);
+void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r);
 
 #endif

@@ -59,7 +59,7 @@ static void factor_modes(size_t n, double *basis, double *r)
 }
 
 /* The aggregate of nodes member[0 .. count - 1] becomes coarse node a; basis is scratch. */
-static void make_coarse_node(const OstExactMatrix *matrix, const double *modes, OstLocal a, OstLocal count,
+static void make_coarse_node(const OstDoubleMatrix *matrix, const double *modes, OstLocal a, OstLocal count,
                              const OstLocal *member, double *basis, OstTentative *tentative)
 {
     const size_t size = (size_t)matrix->size, n = size * (size_t)count, fine = size * (size_t)matrix->rows;
@@ -80,7 +80,7 @@ static void make_coarse_node(const OstExactMatrix *matrix, const double *modes, 
                OST_MODES * sizeof *r);
 }
 
-static OstStatus make_coarse_nodes(const OstExactMatrix *matrix, const OstAggregates *aggregates, const double *modes,
+static OstStatus make_coarse_nodes(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
                                    OstTentative *tentative)
 {
     OstContext *ctx = matrix->ctx;
@@ -107,7 +107,7 @@ done:
     return status;
 }
 
-OstStatus ost_tentative_create(const OstExactMatrix *matrix, const OstAggregates *aggregates, const double *modes,
+OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
                                OstTentative **tentative)
 {
     OstContext *ctx = matrix->ctx;

@@ -4,7 +4,7 @@
 
 #include "algebra/aggregation/graph.h"
 #include "algebra/level/double_matrix.h"
-#include "algebra/level/lanes.h"
+#include "algebra/level/simd.h"
 
 /* The tentative prolongator: each aggregate's part of the near-null space, made orthonormal, is the basis of its coarse
  * node. Nodes of other ranks are known as well. */
@@ -19,7 +19,7 @@ typedef struct OstTentative {
 
 /* Collective. `modes`: near-null space of the fine level, OST_MODES columns of size × rows. A mode that an aggregate
  * cannot tell from the others gets a basis vector of zeros, and the coarse modes' part there is 0. */
-OstStatus ost_tentative_create(const OstExactMatrix *matrix, const OstAggregates *aggregates, const double *modes,
+OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
                                OstTentative **tentative);
 void ost_tentative_destroy(OstTentative **tentative);
 

@@ -53,12 +53,12 @@ void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, 
         }
 }
 
-double ost_throws_size(const OstThrows *throws)
+double ost_samples_size(const OstSamples *throws)
 {
     return sqrt(throws->squares / throws->count);
 }
 
-double ost_throws_spread(const OstThrows *throws)
+double ost_samples_spread(const OstSamples *throws)
 {
     return 1.0 / sqrt(2.0 * throws->count);
 }
@@ -68,10 +68,10 @@ int ost_surely_beyond(double size, double spread, double limit)
     return !(size <= (1.0 + sure * spread) * limit);
 }
 
-int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most)
+int ost_samples_undecided(const OstSamples *throws, double limit, int fewest, int most)
 {
     if (throws->count < fewest)
         return 1;
-    const double size = ost_throws_size(throws), margin = sure * ost_throws_spread(throws) * limit;
+    const double size = ost_samples_size(throws), margin = sure * ost_samples_spread(throws) * limit;
     return throws->count < most && fabs(size - limit) <= margin;
 }

@@ -14,12 +14,12 @@
 void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force);
 
 /* Sizes that throws had. */
-typedef struct OstThrows {
+typedef struct OstSamples {
     int count;
     double squares;
-} OstThrows;
+} OstSamples;
 
-static inline void ost_throws_add(OstThrows *throws, double size)
+static inline void ost_samples_add(OstSamples *throws, double size)
 {
     throws->count++;
     throws->squares += size * size;
@@ -27,14 +27,14 @@ static inline void ost_throws_add(OstThrows *throws, double size)
 
 /* Local. The root of the mean square, and its standard error over itself. That is for one soft mode, which is what
  * there is to find in a badly conditioned body: its share is normally distributed. With more modes it is less. */
-double ost_throws_size(const OstThrows *throws);
-double ost_throws_spread(const OstThrows *throws);
+double ost_samples_size(const OstSamples *throws);
+double ost_samples_spread(const OstSamples *throws);
 
 /* Local. Is `size` surely beyond the limit, by three standard errors? What is no number is. */
 int ost_surely_beyond(double size, double spread, double limit);
 
 /* Local. Are more throws called for? They are below `fewest`, and below `most` while the limit is within three standard
  * errors. */
-int ost_throws_undecided(const OstThrows *throws, double limit, int fewest, int most);
+int ost_samples_undecided(const OstSamples *throws, double limit, int fewest, int most);
 
 #endif

@@ -43,14 +43,14 @@ static OstStatus number_unknowns(OstCoarsest *coarsest)
 }
 
 /* This rank's rows, in place in the dense matrix. `number` has each block column's first global unknown. */
-static void spread_rows(const OstExactMatrix *matrix, const OstGlobal *number, OstCoarsest *coarsest)
+static void spread_rows(const OstDoubleMatrix *matrix, const OstGlobal *number, OstCoarsest *coarsest)
 {
     const int size = matrix->size;
     const size_t order = (size_t)coarsest->order;
     double room[9];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
-            const double *value = ost_exact_matrix_block(matrix, size, i, k, room);
+            const double *value = ost_double_matrix_block(matrix, size, i, k, room);
             double *target = coarsest->factor + (size_t)number[i] * order + (size_t)number[matrix->column[k]];
             for (int r = 0; r < size; r++)
                 for (int c = 0; c < size; c++)
@@ -72,7 +72,7 @@ static OstStatus gather_rows(OstCoarsest *coarsest)
     return status != OST_SUCCESS ? status : freed;
 }
 
-static OstStatus assemble(const OstExactMatrix *matrix, OstCoarsest *coarsest)
+static OstStatus assemble(const OstDoubleMatrix *matrix, OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
     OstGlobal *number = NULL;
@@ -126,7 +126,7 @@ static OstStatus factor(OstCoarsest *coarsest)
         info, coarsest->order);
 }
 
-static OstStatus factor_dense(const OstExactMatrix *matrix, OstCoarsest *coarsest)
+static OstStatus factor_dense(const OstDoubleMatrix *matrix, OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
     OstStatus status = OST_NEW(ctx, &coarsest->factor, (size_t)coarsest->order * (size_t)coarsest->order);
@@ -137,7 +137,7 @@ static OstStatus factor_dense(const OstExactMatrix *matrix, OstCoarsest *coarses
     return ost_agree(ctx, factor(coarsest));
 }
 
-OstStatus ost_coarsest_create(const OstExactMatrix *matrix, double memory, OstCoarsest **coarsest)
+OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest)
 {
     OstContext *ctx = matrix->ctx;
     const size_t ranks = (size_t)ost_size(ctx);

@@ -24,7 +24,7 @@ enum { OST_COARSEST_LIMIT = 2000 };
 /* Collective. The matrix is not kept; up to OST_COARSEST_LIMIT unknowns the factor is dense. Raises OST_NOT_CONVERGED
  * if it cannot be factored (the dense one: even with a small shift, which a positive semidefinite one gets), and what
  * ost_mumps_create does, `memory` included. */
-OstStatus ost_coarsest_create(const OstExactMatrix *matrix, double memory, OstCoarsest **coarsest);
+OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest);
 void ost_coarsest_destroy(OstCoarsest **coarsest);
 
 /* Collective. Solves A x = b; this rank's parts. */

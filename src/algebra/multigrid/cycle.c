@@ -61,7 +61,7 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
         status = ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest);
     else if (status == OST_SUCCESS)
         status = ost_smoother_create(levels->matrix[last], levels->graph[last], options, &levels->smoother[last]);
-    ost_exact_matrix_destroy(&levels->coarsest);
+    ost_double_matrix_destroy(&levels->coarsest);
     ost_metric_graph_destroy(&levels->graph[last]);
     return ost_agree(ctx, status);
 }

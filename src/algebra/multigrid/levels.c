@@ -74,7 +74,7 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     OstMetricLevels *levels = work->levels;
     const int l = levels->count - 1;
     OstTentative *tentative = NULL;
-    OstExactMatrix *coarse = NULL;
+    OstDoubleMatrix *coarse = NULL;
     OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, &tentative);
     if (status != OST_SUCCESS)
         goto done;
@@ -86,8 +86,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     ost_tentative_destroy(&tentative);
     OST_TRY_DONE(
         ost_galerkin_create(levels->coarsest, levels->smoother[l]->blocks, levels->prolongator[l], first, &coarse));
-    ost_exact_matrix_mend_diagonal(coarse);
-    ost_exact_matrix_destroy(&levels->coarsest);
+    ost_double_matrix_mend_diagonal(coarse);
+    ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
     OST_TRY_DONE(ost_level_matrix_create(coarse, &levels->matrix[l + 1]));
     levels->count++;
@@ -128,7 +128,7 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScalin
     levels->count = 1;
     levels->graph[0] = *finest_graph;
     *finest_graph = NULL;
-    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &levels->coarsest));
+    OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &levels->coarsest));
     if (status == OST_SUCCESS)
         status = ost_level_matrix_create(levels->coarsest, &levels->matrix[0]);
     if (status == OST_SUCCESS)
@@ -148,6 +148,6 @@ void ost_metric_levels_clear(OstMetricLevels *levels)
         ost_prolongator_destroy(&levels->prolongator[l]);
         ost_metric_graph_destroy(&levels->graph[l]);
     }
-    ost_exact_matrix_destroy(&levels->coarsest);
+    ost_double_matrix_destroy(&levels->coarsest);
     levels->count = 0;
 }

@@ -15,7 +15,7 @@ typedef struct OstMetricLevels {
     OstProlongator *prolongator[OST_MAX_LEVELS]; /* [l]: from level l + 1 to level l */
     OstSmoother *smoother[OST_MAX_LEVELS];       /* of all but the last level */
     OstMetricGraph *graph[OST_MAX_LEVELS];       /* of the last level */
-    OstExactMatrix *coarsest;                    /* the last of the matrices in double precision */
+    OstDoubleMatrix *coarsest;                   /* the last of the matrices in double precision */
 } OstMetricLevels;
 
 /* Collective. Of S A S^T, whose near-null space are `modes` (6 columns of 3 × rows); they and the graph are taken over;

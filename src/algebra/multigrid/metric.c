@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <stdio.h>
 #include <string.h>
 
 struct OstMetric {
@@ -167,6 +168,7 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];
     report->operator_complexity = metric->operator_complexity;
+    snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML cycle of %d levels", metric->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/multigrid/prolongator_smoothing.h"
 
-#include "algebra/level/index_map.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <string.h>
 
@@ -11,9 +11,9 @@ static const double damping = 4.0 / 3.0;
 
 /* What the rows are made from. */
 typedef struct Smoothing {
-    const OstExactMatrix *matrix;
+    const OstDoubleMatrix *matrix;
     const OstTentative *tentative;
-    const OstMetricBlocks *blocks;
+    const OstSmootherBlocks *blocks;
     OstProlongator *p;
     double omega;
     OstLocal *column;                     /* fine columns: the coarse column of each node, or -1 */
@@ -34,7 +34,7 @@ static void destroy_smoothing(Smoothing *s)
 /* The coarse nodes of the fine ghosts, each once, and every fine node's coarse column. */
 static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
 {
-    const OstExactMatrix *a = s->matrix;
+    const OstDoubleMatrix *a = s->matrix;
     const OstTentative *t = s->tentative;
     OstLocal ghosts = 0;
     OST_TRY(OST_NEW(a->ctx, ghost, a->columns - a->rows));
@@ -57,7 +57,7 @@ static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
 /* The columns that a block's rows reach, ascending. B^-1 mixes them: they are the columns of each of its rows. */
 static void list_block(Smoothing *s, OstLocal b)
 {
-    const OstExactMatrix *a = s->matrix;
+    const OstDoubleMatrix *a = s->matrix;
     const OstLocal start = s->block_start[b];
     OstLocal end = start;
     for (OstLocal m = s->blocks->node_start[b]; m < s->blocks->node_start[b + 1]; m++) {
@@ -78,7 +78,7 @@ static void list_block(Smoothing *s, OstLocal b)
 
 static OstStatus list_blocks(Smoothing *s)
 {
-    const OstExactMatrix *a = s->matrix;
+    const OstDoubleMatrix *a = s->matrix;
     OST_TRY(OST_NEW(a->ctx, &s->block_start, s->blocks->count + 1));
     OST_TRY(OST_NEW(a->ctx, &s->block_column, a->row_start[a->rows]));
     OST_TRY(OST_NEW(a->ctx, &s->place, s->p->columns));
@@ -112,7 +112,7 @@ static OstStatus list_rows(Smoothing *s)
 /* The block's rows of A T. */
 OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
 {
-    const OstExactMatrix *a = s->matrix;
+    const OstDoubleMatrix *a = s->matrix;
     const size_t block = (size_t)(size * OST_MODES);
     const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
     const OstLocal first = s->blocks->node_start[b], nodes = s->blocks->node_start[b + 1] - first;
@@ -126,7 +126,7 @@ OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
         for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
             const OstLocal column = s->column[a->column[k]];
             if (column >= 0)
-                ost_block_multiply(size, ost_exact_matrix_block(a, size, i, k, room),
+                ost_block_multiply(size, ost_double_matrix_block(a, size, i, k, room),
                                    s->tentative->block + block * (size_t)a->column[k],
                                    row + (size_t)size * (size_t)s->place[column]);
         }
@@ -136,7 +136,7 @@ OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
 /* The block's rows of T - omega B^-1 A T. */
 OST_UNROLLED void smooth_block(Smoothing *s, int size, OstLocal b)
 {
-    const OstMetricBlocks *blocks = s->blocks;
+    const OstSmootherBlocks *blocks = s->blocks;
     OstProlongator *p = s->p;
     const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
     const OstLocal first = blocks->node_start[b], nodes = blocks->node_start[b + 1] - first;
@@ -183,7 +183,7 @@ static OstStatus smooth_blocks(Smoothing *s)
 
 static OstStatus prepare(Smoothing *s, OstGlobal **ghost)
 {
-    const OstExactMatrix *a = s->matrix;
+    const OstDoubleMatrix *a = s->matrix;
     OST_TRY(OST_NEW(a->ctx, &s->p, 1));
     s->p->ctx = a->ctx;
     s->p->height = a->size;
@@ -193,8 +193,8 @@ static OstStatus prepare(Smoothing *s, OstGlobal **ghost)
     return list_rows(s);
 }
 
-OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix, const OstSmoother *smoother,
-                               OstProlongator **prolongator)
+OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstDoubleMatrix *matrix,
+                               const OstSmoother *smoother, OstProlongator **prolongator)
 {
     OstContext *ctx = matrix->ctx;
     Smoothing s = {

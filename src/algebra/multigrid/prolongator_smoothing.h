@@ -9,7 +9,7 @@
 
 /* Collective. One step of damped block Jacobi on the tentative prolongator: P = (I - omega B^-1 A) T, B the smoother's
  * blocks and omega 4/3 over the largest eigenvalue of B^-1 A (Vaněk, Mandel, Brezina 1996, with blocks for points). */
-OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstExactMatrix *matrix, const OstSmoother *smoother,
-                               OstProlongator **prolongator);
+OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstDoubleMatrix *matrix,
+                               const OstSmoother *smoother, OstProlongator **prolongator);
 
 #endif

@@ -19,11 +19,11 @@ void ost_quadratic_level_destroy(OstQuadraticLevel **level)
 
 static OstStatus create_matrix(const OstBlockMatrix *matrix, const OstScaling *scaling, OstLevelMatrix **made)
 {
-    OstExactMatrix *exact = NULL;
-    OstStatus status = ost_agree(matrix->ctx, ost_exact_matrix_borrow(matrix, scaling, &exact));
+    OstDoubleMatrix *source = NULL;
+    OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &source));
     if (status == OST_SUCCESS)
-        status = ost_level_matrix_create(exact, made);
-    ost_exact_matrix_destroy(&exact);
+        status = ost_level_matrix_create(source, made);
+    ost_double_matrix_destroy(&source);
     return status;
 }
 

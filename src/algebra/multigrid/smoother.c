@@ -13,7 +13,7 @@ void ost_smoother_destroy(OstSmoother **smoother)
 {
     if (!*smoother)
         return;
-    ost_metric_blocks_destroy(&(*smoother)->blocks);
+    ost_smoother_blocks_destroy(&(*smoother)->blocks);
     OST_FREE((*smoother)->residual);
     OST_FREE((*smoother)->direction);
     OST_FREE(*smoother);
@@ -24,7 +24,7 @@ static void apply_blocks(const void *data, const double *r, double *z)
 {
     const OstSmoother *smoother = data;
     const OstBlockStep step = {.keep = 0.0, .add = 1.0, .direction = z, .x = smoother->direction};
-    ost_metric_blocks_step(smoother->blocks, &step, r);
+    ost_smoother_blocks_step(smoother->blocks, &step, r);
 }
 
 OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph,
@@ -39,7 +39,7 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
     if (status == OST_SUCCESS)
         status = ost_level_vector_create(ctx, matrix->size, matrix->columns, &made->direction);
     if (status == OST_SUCCESS)
-        status = ost_metric_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
+        status = ost_smoother_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->matrix = matrix;
     made->degree = options->smoother_degree;
@@ -72,13 +72,13 @@ OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, 
         OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
     }
     OstBlockStep step = {.keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x};
-    ost_metric_blocks_step(smoother->blocks, &step, smoother->residual);
+    ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
     for (int k = 1; k < smoother->degree; k++) {
         OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
         const double next = 1.0 / (2.0 * sigma - rho);
         step.keep = next * rho;
         step.add = 2.0 * next / half_width;
-        ost_metric_blocks_step(smoother->blocks, &step, smoother->residual);
+        ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
         rho = next;
     }
     return OST_SUCCESS;

@@ -8,7 +8,7 @@
  * symmetric positive definite operator. */
 typedef struct OstSmoother {
     const OstLevelMatrix *matrix;
-    OstMetricBlocks *blocks;
+    OstSmootherBlocks *blocks;
     int degree;
     double ratio;
     double largest; /* eigenvalue of B^-1 A, estimated */

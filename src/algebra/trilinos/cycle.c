@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/free_memory.h"
 #include "core/memory.h"
+#include "core/reduce.h"
 
 #include <string.h>
 
@@ -118,6 +119,24 @@ static OstStatus create_levels(OstContext *ctx, OstMlCycle *cycle, const OstMlLe
     return OST_SUCCESS;
 }
 
+/* ML ends the process where a level has no fewer unknowns than the one before. */
+static OstStatus check_sizes(OstContext *ctx, int levels, const OstMlLevel *level)
+{
+    OstGlobal before = 0;
+    for (int l = 0; l < levels; l++) {
+        OstGlobal unknowns = level[l].unknowns;
+        OST_TRY(ost_sum_numbers(ctx, 1, &unknowns));
+        if (unknowns == 0 || (l > 0 && unknowns >= before))
+            return OST_RAISE(
+                ctx, OST_LIMIT_EXCEEDED,
+                "level %d of the multigrid cycle would have %lld unknowns, which are none or no fewer than "
+                "the %lld of the level before",
+                l, (long long)unknowns, (long long)before);
+        before = unknowns;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *level, OstMlCycle **cycle)
 {
     enum { VECTORS = 3 }; /* that ML takes for each level while it cycles */
@@ -127,6 +146,7 @@ OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *lev
     for (int l = 0; l < levels; l++)
         bytes += (double)VECTORS * sizeof(double) * level[l].unknowns;
     OstStatus status;
+    OST_TRY_DONE(check_sizes(ctx, levels, level));
     OST_TRY_DONE(ost_memory_foresee(ctx, bytes, "ML's cycle"));
     status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {

@@ -26,7 +26,8 @@ typedef struct OstMlLevel {
 typedef struct OstMlCycle OstMlCycle;
 
 /* Collective. `level` is copied, what its entries point to stays the caller's and outlives the cycle. Raises
- * OST_OUT_OF_MEMORY where there is no room for ML's vectors, as it would end the process. */
+ * OST_LIMIT_EXCEEDED where a level has no fewer unknowns than the one before, and OST_OUT_OF_MEMORY where there is no
+ * room for ML's vectors: ML would end the process in both cases. */
 OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *level, OstMlCycle **cycle);
 void ost_ml_cycle_destroy(OstMlCycle **cycle);
 

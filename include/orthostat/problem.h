@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PROBLEM_H
+#define ORTHOSTAT_PROBLEM_H
+
+#include "orthostat/field.h"
+#include "orthostat/mesh.h"
+
+/* The discrete problem: mesh, materials, supports and loads as functions of the displacement u and the load factor t.
+ * At rest, force(u) = load(t) in every direction that the supports leave free, and u is the prescribed displacement,
+ * times t, in the others. How that is solved is no concern of the problem (orthostat/analysis.h).
+ *
+ * Displacements have 3 numbers for each local node, ghosts included; forces 3 for each owned node. */
+typedef struct OstProblem OstProblem;
+
+/* An owned node's displacement along a direction (of any length but 0), at t = 1. */
+typedef struct OstNodeConstraint {
+    OstLocal node;
+    double direction[3];
+    double displacement;
+} OstNodeConstraint;
+
+/* A problem from the caller's own parts. Mesh and field outlive the problem; the arrays are copied. */
+typedef struct OstProblemParts {
+    const OstMesh *mesh;
+    const OstMaterialField *field;
+    const OstNodeConstraint *constraints;
+    OstLocal constraint_count; /* on this rank; directions of one node may repeat, but not contradict each other */
+    int free_body;             /* nothing holds the body, its loads balance, and there are no constraints */
+    const double *force;       /* 3 × owned_nodes: the load at t = 1, or NULL for none */
+} OstProblemParts;
+
+/* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
+OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem);
+void ost_problem_destroy(OstProblem **problem);
+
+/* Collective. Materials and axes on a mesh: one material for each region of it, and one way of giving axes (NULL:
+ * none). Axes given tet by tet (9 × tet_count, or NULL) serve the regions of kind OST_AXES_CELLS and OST_AXES_GRADIENT.
+ * The caller frees the field (ost_field_destroy). ost_field_mean_dilatation is the caller's choice. */
+OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes,
+                              const double *tet_axes, OstMaterialField **field);
+
+/* Local. Is the internal force linear in the displacement? Then the stiffness is the same at every u, and the energy is
+ * half the work of the internal force. */
+int ost_problem_is_linear(const OstProblem *problem);
+
+/* Local. */
+const OstMesh *ost_problem_mesh(const OstProblem *problem);
+const OstMaterialField *ost_problem_field(const OstProblem *problem);
+OstGlobal ost_problem_unknowns(const OstProblem *problem); /* 0 until the stiffness has been asked for */
+
+/* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's. */
+void ost_problem_set_load(OstProblem *problem, const double *force);
+
+/* Local. load(t): t times the load at t = 1. */
+void ost_problem_load(const OstProblem *problem, double t, double *force);
+
+/* Collective. The strain energy of the body under u. */
+OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy);
+
+/* Local. The internal force of u, the gradient of the energy, summed tet by tet without the stiffness matrix. */
+OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force);
+
+/* This rank's rows of the stiffness, by 3×3 blocks: P K P + s(I - P), P the projector on what the supports leave free
+ * and s of the node's own stiffness. Nodes constrained in all directions have no row. The arrays are the problem's. */
+typedef struct OstStiffness {
+    OstLocal rows, columns; /* columns: the rows, then those of ghosts */
+    OstGlobal global_rows;
+    const OstLocal *row_start; /* rows + 1 */
+    const OstLocal *column;    /* row_start[rows], ascending in each row */
+    const double *value;       /* 9 for each of them, row-major */
+    const OstLocal *node;      /* columns: the local node of each row and ghost column */
+} OstStiffness;
+
+/* Collective. Fills the values of the stiffness at u (NULL: at u = 0; a linear problem does not look at it), on a
+ * pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made where a library
+ * below could not number the unknowns. `stiffness` may be NULL. */
+OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
+
+/* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
+ * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
+ */
+void ost_problem_release_scatter(OstProblem *problem);
+
+/* Local. Drops matrix, pattern and map. Solvers made of the matrix must be gone. */
+void ost_problem_release_stiffness(OstProblem *problem);
+
+#endif

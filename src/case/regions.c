@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/regions.h"
+
+#include <string.h>
+
+int ost_is_every_region(const char *name)
+{
+    return strcmp(name, "all") == 0;
+}
+
+/* An entry for `stated` fits wherever one for `region` does. */
+static int fits(const char *stated, const char *region)
+{
+    return ost_is_every_region(stated) || strcmp(stated, region) == 0;
+}
+
+const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region)
+{
+    for (int i = c->material_count - 1; i >= 0; i--)
+        if (fits(c->materials[i].region, region))
+            return &c->materials[i];
+    return NULL;
+}
+
+int ost_case_material_is_overridden(const OstCase *c, int entry)
+{
+    const char *region = entry < 0 ? "all" : c->materials[entry].region;
+    for (int later = entry + 1; later < c->material_count; later++)
+        if (fits(c->materials[later].region, region))
+            return 1;
+    return 0;
+}

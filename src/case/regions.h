@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_REGIONS_H
+#define ORTHOSTAT_CASE_REGIONS_H
+
+#include "orthostat/case.h"
+
+/* Materials by region: "all" fits every region, and later entries override earlier ones. Local. */
+
+int ost_is_every_region(const char *name);
+
+/* The entry of the case that counts for a region of the mesh; NULL if there is none. */
+const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Does a later entry override this one wherever it fits? Entry -1 stands for the materials of a mesh file. */
+int ost_case_material_is_overridden(const OstCase *c, int entry);
+
+#endif

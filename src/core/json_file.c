@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/json_file.h"
+
+#include "core/error.h"
+#include "core/write_aside.h"
+
+#include <math.h>
+
+json_t *ost_json_number(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+typedef struct Document {
+    OstContext *ctx;
+    const json_t *root;
+} Document;
+
+static OstStatus dump(FILE *file, const void *content)
+{
+    const Document *document = content;
+    if (json_dumpf(document->root, file, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) != 0 && !ferror(file))
+        return OST_RAISE(document->ctx, OST_OUT_OF_MEMORY, "out of memory for the text of a JSON file");
+    fputc('\n', file);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_json_write(OstContext *ctx, json_t *document, const char *path)
+{
+    const Document content = {ctx, document};
+    const OstStatus status = ost_write_aside(ctx, path, dump, &content);
+    json_decref(document);
+    return status;
+}

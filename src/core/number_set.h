@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CORE_NUMBER_SET_H
+#define ORTHOSTAT_CORE_NUMBER_SET_H
+
+#include "orthostat/context.h"
+
+/* Sorted sets of numbers. Local. */
+
+/* Sorts numbers, ascending, and keeps each once; returns how many are left. */
+OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers);
+
+/* The place of a number in a sorted set, or -1. */
+OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal number);
+
+/* A set that is collected number by number. Start from {0}. */
+typedef struct OstNumberSet {
+    OstLocal count;
+    OstLocal capacity;
+    OstGlobal *number; /* sorted, each once, after ost_number_set_close */
+} OstNumberSet;
+
+/* Raises OST_LIMIT_EXCEEDED beyond 2^31 - 1 different numbers. */
+OstStatus ost_number_set_add(OstContext *ctx, OstNumberSet *set, OstGlobal number);
+void ost_number_set_close(OstNumberSet *set);
+void ost_number_set_clear(OstNumberSet *set);
+
+#endif

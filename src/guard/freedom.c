@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "guard/freedom.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "guard/freedom_report.h"
+#include "mesh/coincident.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A motion that the ties resist by no more than this share of it counts as free. The stiffness squares the share: a
+ * motion let go by 1e-7 has an eigenvalue 1e-14 of the others, which double precision cannot tell from zero. Rounding
+ * of coordinates stays far below (1e-15 or so of a component's size, unless the body lies very far from the origin). */
+static const double free_share = 1e-7;
+
+/* Held so little, a motion eats ten of the sixteen digits: directions typed with few digits do this. */
+static const double loose_share = 1e-5;
+
+typedef struct Freedom {
+    OstContext *ctx;
+    const OstMesh *mesh;
+    const char *where;
+    int free_body;
+    OstComponents *components;
+    OstRigidFrame *frames;
+    OstTies ties;
+    OstGlobal coincident;
+    double merge_tolerance;
+} Freedom;
+
+static void release(Freedom *freedom)
+{
+    ost_components_destroy(&freedom->components);
+    OST_FREE(freedom->frames);
+    ost_ties_release(&freedom->ties);
+}
+
+static OstStatus make_frames(Freedom *freedom)
+{
+    OST_TRY(OST_NEW(freedom->ctx, &freedom->frames, freedom->components->count));
+    for (OstLocal p = 0; p < freedom->components->count; p++)
+        freedom->frames[p] =
+            ost_frame_of_box(freedom->components->component[p].low, freedom->components->component[p].high);
+    return OST_SUCCESS;
+}
+
+static OstStatus report_motions(const Freedom *freedom, double tolerance, OstFreedomReport *report)
+{
+    OstLinkage *linkage = NULL;
+    OST_TRY(
+        ost_linkage_create(freedom->ctx, freedom->components, freedom->frames, &freedom->ties, tolerance, &linkage));
+    const OstStatus status = ost_freedom_report(linkage, report);
+    ost_linkage_destroy(&linkage);
+    return status;
+}
+
+/* Where there are more sets than lines. */
+static void count_rest(const OstFreedomReport *report, char *text, size_t size)
+{
+    text[0] = 0;
+    if (report->found > OST_FREEDOM_LINES)
+        snprintf(text, size, "\n  and %d more that can move", report->found - OST_FREEDOM_LINES);
+}
+
+static void advise(const Freedom *freedom, char *text, size_t size)
+{
+    size_t used = 0;
+    const int several = freedom->components->count > 1;
+    if (freedom->free_body)
+        used += (size_t)snprintf(text, size, "free_body takes one body that holds together; join its components");
+    else
+        used += (size_t)snprintf(text, size,
+                                 "hold each of them with constraints (a displacement, or a slide across "
+                                 "the motion)%s",
+                                 several ? ", or join the components" : "");
+    if (freedom->coincident > 0)
+        used += (size_t)snprintf(text + used, size - used,
+                                 ": %lld vertices coincide with others, and mesh: {merge: %g} joins them",
+                                 (long long)freedom->coincident, freedom->merge_tolerance);
+    if (!several && !freedom->free_body)
+        snprintf(text + used, size - used, ", or say constraints: free_body if its loads balance each other");
+}
+
+static OstStatus refuse(const Freedom *freedom, const OstFreedomReport *report)
+{
+    char rest[64], advice[512];
+    count_rest(report, rest, sizeof rest);
+    advise(freedom, advice, sizeof advice);
+    return OST_RAISE(freedom->ctx, OST_INVALID_INPUT,
+                     "%s: nothing holds these motions, so there is no one pose at rest:%s%s\n%s", freedom->where,
+                     report->text, rest, advice);
+}
+
+static void warn_of_loose(const Freedom *freedom, const OstFreedomReport *report)
+{
+    if (report->found > 0)
+        ost_warn(freedom->ctx,
+                 "%s: these motions are held only just (more digits in directions, or more distance between what is "
+                 "held, would help):%s",
+                 freedom->where, report->text);
+    if (report->unsolved > 0)
+        ost_warn(
+            freedom->ctx,
+            "%s: %d components hang together in vertices and edges, more than are checked for motions against each "
+            "other",
+            freedom->where, report->unsolved);
+}
+
+static OstStatus judge(const Freedom *freedom)
+{
+    OstFreedomReport report;
+    OST_TRY(report_motions(freedom, free_share, &report));
+    if (report.found > 0)
+        return refuse(freedom, &report);
+    OST_TRY(report_motions(freedom, loose_share, &report));
+    warn_of_loose(freedom, &report);
+    if (freedom->coincident > 0)
+        ost_warn(freedom->ctx,
+                 "%s: the mesh falls into %d components, and %lld vertices coincide with others; mesh: {merge: %g} joins them",
+                 freedom->where, freedom->components->count, (long long)freedom->coincident, freedom->merge_tolerance);
+    return OST_SUCCESS;
+}
+
+static OstStatus check(Freedom *freedom, const OstSupports *supports)
+{
+    OstContext *ctx = freedom->ctx;
+    OST_TRY(ost_components_create(freedom->mesh, &freedom->components));
+    OST_TRY(ost_agree(ctx, make_frames(freedom)));
+    OST_TRY(ost_ties_create(freedom->mesh, supports, freedom->components, freedom->frames, &freedom->ties));
+    if (freedom->components->count > 1)
+        OST_TRY(ost_mesh_count_coincident(freedom->mesh, &freedom->coincident, &freedom->merge_tolerance));
+    return ost_agree(ctx, judge(freedom));
+}
+
+OstStatus ost_freedom_check(const OstMesh *mesh, const OstSupports *supports, const char *where, int free_body)
+{
+    Freedom freedom = {.ctx = mesh->ctx, .mesh = mesh, .where = where, .free_body = free_body};
+    ost_ledger_enter(mesh->ctx, OST_LEDGER_SUPPORTS);
+    const OstStatus status = check(&freedom, supports);
+    release(&freedom);
+    ost_ledger_leave(mesh->ctx);
+    return status;
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "guard/freedom_ties.h"
+
+#include "core/error.h"
+#include "core/gather.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Once no motion of a component gets by its supports without that much of it, more supports need not be looked at: they
+ * can only hold it better. Looked for at 64, 256, 1024, ... rows. */
+static const double well_held = 0.01;
+enum { FIRST_LOOK = 64, LOOK_FACTOR = 4 };
+
+/* A node where components meet; `component` is not the lowest of them. */
+typedef struct Meeting {
+    OstLocal low, component;
+    OstLocal node;
+} Meeting;
+
+/* Which components each owned node is in. */
+typedef struct NodeComponents {
+    OstLocal *lowest; /* owned_nodes; NULL: there is one component */
+    Meeting *meeting;
+    OstLocal meetings, capacity;
+} NodeComponents;
+
+OstRigidFrame ost_frame_of_box(const double low[3], const double high[3])
+{
+    OstRigidFrame frame;
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        frame.centre[i] = 0.5 * low[i] + 0.5 * high[i];
+        half[i] = 0.5 * high[i] - 0.5 * low[i];
+    }
+    frame.radius = ost_norm3(half);
+    return frame;
+}
+
+const OstRigidFrame *ost_tie_frame(const OstRigidFrame *frames, const OstTie *tie)
+{
+    const OstRigidFrame *first = &frames[tie->body[0]];
+    if (tie->body[1] == OST_TIE_SUPPORT)
+        return first;
+    const OstRigidFrame *second = &frames[tie->body[1]];
+    return second->radius < first->radius ? second : first;
+}
+
+void ost_ties_release(OstTies *ties)
+{
+    OST_FREE(ties->tie);
+    ties->count = 0;
+}
+
+static int compare_meetings(const void *a, const void *b)
+{
+    const OstLocal *x = a;
+    const OstLocal *y = b;
+    for (int i = 0; i < 3; i++) /* low, component, node */
+        if (x[i] != y[i])
+            return x[i] < y[i] ? -1 : 1;
+    return 0;
+}
+
+static int compare_ties(const void *a, const void *b)
+{
+    const OstTie *x = a;
+    const OstTie *y = b;
+    const int first = (x->body[0] > y->body[0]) - (x->body[0] < y->body[0]);
+    return first ? first : (x->body[1] > y->body[1]) - (x->body[1] < y->body[1]);
+}
+
+static OstStatus add_meeting(OstContext *ctx, NodeComponents *of, Meeting meeting)
+{
+    if (of->meetings == of->capacity) {
+        const OstLocal capacity = of->capacity / 2 * 3 + 256;
+        OST_TRY(OST_RESIZE(ctx, &of->meeting, capacity));
+        of->capacity = capacity;
+    }
+    of->meeting[of->meetings++] = meeting;
+    return OST_SUCCESS;
+}
+
+static void sort_meetings(NodeComponents *of)
+{
+    OstLocal kept = 0;
+    if (of->meetings == 0)
+        return;
+    qsort(of->meeting, (size_t)of->meetings, sizeof *of->meeting, compare_meetings);
+    for (OstLocal i = 0; i < of->meetings; i++)
+        if (i == 0 || compare_meetings(&of->meeting[i], &of->meeting[kept - 1]) != 0)
+            of->meeting[kept++] = of->meeting[i];
+    of->meetings = kept;
+}
+
+static OstStatus find_meetings(const OstMesh *mesh, const OstComponents *components, NodeComponents *of)
+{
+    const size_t width = (size_t)mesh->nodes_per_tet;
+    if (components->count == 1)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(mesh->ctx, &of->lowest, mesh->owned_nodes));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        of->lowest[n] = components->count;
+    for (OstLocal t = 0; t < mesh->tet_count; t++)
+        for (size_t v = 0; v < width; v++) {
+            const OstLocal node = mesh->tet_nodes[(size_t)t * width + v];
+            if (node < mesh->owned_nodes && components->of_tet[t] < of->lowest[node])
+                of->lowest[node] = components->of_tet[t];
+        }
+    for (OstLocal t = 0; t < mesh->tet_count; t++)
+        for (size_t v = 0; v < width; v++) {
+            const OstLocal node = mesh->tet_nodes[(size_t)t * width + v];
+            const OstLocal component = components->of_tet[t];
+            if (node < mesh->owned_nodes && component != of->lowest[node])
+                OST_TRY(add_meeting(mesh->ctx, of, (Meeting){of->lowest[node], component, node}));
+        }
+    sort_meetings(of);
+    return OST_SUCCESS;
+}
+
+/* A component's supports while they are counted. */
+typedef struct Held {
+    int64_t rows, next_look; /* next_look 0: well held, nothing more to look at */
+    double triangle[OST_ROWS];
+} Held;
+
+static OstStatus look(OstContext *ctx, Held *held)
+{
+    double copy[OST_ROWS], basis[OST_ROWS];
+    int loose = 0;
+    memcpy(copy, held->triangle, sizeof copy);
+    OST_TRY(ost_null_space(ctx, 6, 6, copy, well_held, &loose, basis));
+    held->next_look = loose == 0 ? 0 : LOOK_FACTOR * held->next_look;
+    return OST_SUCCESS;
+}
+
+static OstStatus hold(OstContext *ctx, const OstRigidFrame *frame, const OstSupport *support, const double *point,
+                      Held *held)
+{
+    if (held->rows > 0 && held->next_look == 0)
+        return OST_SUCCESS;
+    if (held->rows == 0)
+        held->next_look = FIRST_LOOK;
+    for (int k = 0; k < support->held; k++) {
+        double row[6];
+        ost_rows_of_point(frame, point, support->direction + 3 * k, row);
+        ost_rows_add(held->triangle, row);
+        held->rows++;
+    }
+    return held->rows >= held->next_look ? look(ctx, held) : OST_SUCCESS;
+}
+
+static const OstSupport *support_of(const OstSupports *supports, OstLocal node)
+{
+    const OstLocal index = supports->index[node];
+    return index < 0 ? NULL : &supports->support[index];
+}
+
+static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeComponents *of,
+                                  const OstRigidFrame *frames, Held *held)
+{
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        const OstSupport *support = support_of(supports, n);
+        const OstLocal component = of->lowest ? of->lowest[n] : 0;
+        if (support)
+            OST_TRY(hold(mesh->ctx, &frames[component], support, mesh->coordinates + 3 * (size_t)n, &held[component]));
+    }
+    for (OstLocal m = 0; m < of->meetings; m++) {
+        const Meeting *meeting = &of->meeting[m];
+        const OstSupport *support = support_of(supports, meeting->node);
+        if (support)
+            OST_TRY(hold(mesh->ctx, &frames[meeting->component], support, mesh->coordinates + 3 * (size_t)meeting->node,
+                         &held[meeting->component]));
+    }
+    return OST_SUCCESS;
+}
+
+static int starts_pair(const NodeComponents *of, OstLocal m)
+{
+    return m == 0 || of->meeting[m].low != of->meeting[m - 1].low ||
+           of->meeting[m].component != of->meeting[m - 1].component;
+}
+
+/* Components that share a node move alike there, in all three directions. */
+static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLocal node, OstTie *tie)
+{
+    for (int i = 0; i < 3; i++) {
+        double direction[3] = {0.0};
+        double row[6];
+        direction[i] = 1.0;
+        ost_rows_of_point(ost_tie_frame(frames, tie), mesh->coordinates + 3 * (size_t)node, direction, row);
+        ost_rows_add(tie->triangle, row);
+    }
+}
+
+static OstStatus list_ties(const OstMesh *mesh, const OstComponents *components, const NodeComponents *of,
+                           const OstRigidFrame *frames, const Held *held, OstTies *ties)
+{
+    OstLocal count = 0;
+    for (OstLocal p = 0; p < components->count; p++)
+        count += held[p].rows > 0;
+    for (OstLocal m = 0; m < of->meetings; m++)
+        count += starts_pair(of, m);
+    OST_TRY(OST_NEW(mesh->ctx, &ties->tie, count));
+    for (OstLocal p = 0; p < components->count; p++) {
+        if (held[p].rows == 0)
+            continue;
+        OstTie *tie = &ties->tie[ties->count++];
+        tie->body[0] = p;
+        tie->body[1] = OST_TIE_SUPPORT;
+        memcpy(tie->triangle, held[p].triangle, sizeof tie->triangle);
+    }
+    for (OstLocal m = 0; m < of->meetings; m++) {
+        if (starts_pair(of, m)) {
+            ties->tie[ties->count].body[0] = of->meeting[m].low;
+            ties->tie[ties->count++].body[1] = of->meeting[m].component;
+        }
+        tie_meeting(mesh, frames, of->meeting[m].node, &ties->tie[ties->count - 1]);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
+                           const OstRigidFrame *frames, OstTies *ties)
+{
+    NodeComponents of = {0};
+    Held *held = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(find_meetings(mesh, components, &of));
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &held, components->count));
+    OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, held));
+    OST_TRY_DONE(list_ties(mesh, components, &of, frames, held, ties));
+done:
+    OST_FREE(held);
+    OST_FREE(of.lowest);
+    OST_FREE(of.meeting);
+    return status;
+}
+
+/* Ties of the same bodies from several ranks become one. */
+static void unite(OstTies *ties)
+{
+    OstLocal kept = 0;
+    if (ties->count > 0)
+        qsort(ties->tie, (size_t)ties->count, sizeof *ties->tie, compare_ties);
+    for (OstLocal i = 0; i < ties->count; i++) {
+        if (kept > 0 && compare_ties(&ties->tie[kept - 1], &ties->tie[i]) == 0) {
+            for (int r = 0; r < 6; r++)
+                ost_rows_add(ties->tie[kept - 1].triangle, ties->tie[i].triangle + 6 * r);
+        } else {
+            ties->tie[kept++] = ties->tie[i];
+        }
+    }
+    ties->count = kept;
+}
+
+OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
+                          const OstRigidFrame *frames, OstTies *ties)
+{
+    OstTies mine = {0};
+    *ties = (OstTies){0};
+    OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, components, frames, &mine));
+    if (status == OST_SUCCESS)
+        status = ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
+                                  "the mesh falls into too many components to tell what holds them",
+                                  (void **)&ties->tie, &ties->count);
+    if (status == OST_SUCCESS)
+        unite(ties);
+    else
+        ost_ties_release(ties);
+    ost_ties_release(&mine);
+    return status;
+}

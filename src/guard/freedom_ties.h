@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_GUARD_FREEDOM_TIES_H
+#define ORTHOSTAT_GUARD_FREEDOM_TIES_H
+
+#include "assembly/supports.h"
+#include "guard/freedom_rows.h"
+#include "mesh/component.h"
+
+/* What holds a component, or two components to each other: all conditions of the same kind in one triangle
+ * (freedom_rows.h). For a pair it is on the motion of body[0] relative to body[1], seen in the frame of the smaller
+ * one. */
+typedef struct OstTie {
+    OstLocal body[2]; /* components, the lower one first; body[1] is OST_TIE_SUPPORT where supports hold body[0] */
+    double triangle[OST_ROWS];
+} OstTie;
+
+enum { OST_TIE_SUPPORT = -1 };
+
+typedef struct OstTies {
+    OstLocal count;
+    OstTie *tie; /* by body[0], then body[1] */
+} OstTies;
+
+/* Local. The frame of a component: the middle and half the diagonal of its box. */
+OstRigidFrame ost_frame_of_box(const double low[3], const double high[3]);
+
+/* Local. The frame that a tie's triangle is in. */
+const OstRigidFrame *ost_tie_frame(const OstRigidFrame *frames, const OstTie *tie);
+
+/* Collective. The ties of the whole body, on every rank. */
+OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
+                          const OstRigidFrame *frames, OstTies *ties);
+void ost_ties_release(OstTies *ties);
+
+#endif

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/boundary_conditions.h"
+
+#include "assembly/field_loads.h"
+#include "assembly/loads.h"
+#include "case/select.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "problem/free_body.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Puts "case.yaml:12: " in front of a failure's text, unless it says already where it is. */
+static OstStatus at_line(const OstCase *c, int line, OstStatus status)
+{
+    char text[2048];
+    if (status == OST_SUCCESS || strncmp(ost_error_text(c->ctx), c->path, strlen(c->path)) == 0)
+        return status;
+    snprintf(text, sizeof text, "%s", ost_error_text(c->ctx));
+    return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, line, text);
+}
+
+/* The word exact needs someone who knows what it stands for. */
+static OstStatus check_exact(const OstScene *scene)
+{
+    if (scene->exact)
+        return OST_SUCCESS;
+    return OST_RAISE(
+        scene->ctx, OST_INVALID_INPUT,
+        "'exact' stands for the formula of the case's verify section, which `orthostat verify` knows; give "
+        "numbers, or run the case by that command");
+}
+
+/* What a constraint gives at a node: its own numbers, or the formula's. */
+static OstStatus find_given(const OstScene *scene, const OstConstraint *constraint, OstLocal node, double given[3])
+{
+    memcpy(given, constraint->displacement, sizeof constraint->displacement);
+    if (!constraint->exact[0] && !constraint->exact[1] && !constraint->exact[2])
+        return OST_SUCCESS;
+    double u[3];
+    OST_TRY(check_exact(scene));
+    OST_TRY(scene->exact->displacement(scene->exact->data, scene->mesh->coordinates + 3 * (size_t)node, u));
+    for (int i = 0; i < 3; i++)
+        given[i] = constraint->exact[i] ? u[i] : given[i];
+    return OST_SUCCESS;
+}
+
+static OstStatus hold_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node, OstSupports *supports)
+{
+    double given[3];
+    if (constraint->kind == OST_CONSTRAIN_SLIDE)
+        return ost_supports_hold(supports, node, constraint->normal, 0.0);
+    OST_TRY(find_given(scene, constraint, node, given));
+    for (int component = 0; component < 3; component++) {
+        double direction[3] = {0.0};
+        direction[component] = 1.0;
+        if (constraint->held[component])
+            OST_TRY(ost_supports_hold(supports, node, direction, given[component]));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
+{
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
+    const int slides = constraint->kind == OST_CONSTRAIN_SLIDE;
+    ost_ledger_enter(scene->ctx, slides ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS);
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
+        if (nodes[i] < scene->mesh->owned_nodes)
+            status = hold_node(scene, constraint, nodes[i], supports);
+    status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
+    ost_ledger_leave(scene->ctx);
+    OST_FREE(nodes);
+    return status;
+}
+
+OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
+{
+    if (scene->c->free_body)
+        return ost_free_body_supports(scene->mesh, supports);
+    OstStatus status = ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports));
+    for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
+        status = add_constraint(scene, &scene->c->constraints[i], *supports);
+    if (status == OST_SUCCESS)
+        status = ost_supports_complete(*supports);
+    if (status != OST_SUCCESS)
+        ost_supports_destroy(supports);
+    return status;
+}
+
+static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, int *region)
+{
+    *region = -1;
+    if (!load->region)
+        return OST_SUCCESS;
+    *region = ost_mesh_find_region(scene->mesh, load->region);
+    if (*region >= 0)
+        return OST_SUCCESS;
+    return ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region);
+}
+
+/* Gravity with no mass anywhere is a mistake, not a load of zero. */
+static OstStatus check_density(const OstScene *scene, int region)
+{
+    for (int r = 0; r < scene->mesh->regions.count; r++)
+        if ((region < 0 || r == region) && scene->field->material[r].density > 0.0)
+            return OST_SUCCESS;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "gravity acts on mass, but no material it acts on has a density; add density to the material");
+}
+
+static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    int region = -1;
+    OST_TRY(find_load_region(scene, load, &region));
+    if (load->exact) {
+        OST_TRY(check_exact(scene));
+        return ost_load_exact_body_force(scene->mesh, region, scene->exact, force);
+    }
+    if (load->kind == OST_LOAD_BODY_FORCE)
+        return ost_load_body_force(scene->mesh, region, load->vector, force);
+    OST_TRY(check_density(scene, region));
+    return ost_load_gravity(scene->mesh, scene->field, region, load->vector, force);
+}
+
+static OstStatus add_vertex_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &nodes));
+    OstStatus status;
+    if (load->kind == OST_LOAD_POINT_FORCE)
+        status = ost_agree(scene->ctx, ost_load_point_force(scene->mesh, count, nodes, load->vector, force));
+    else
+        status = ost_load_shared_force(scene->mesh, count, nodes, load->vector, force);
+    OST_FREE(nodes);
+    return status;
+}
+
+static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLocal count, int nodes_per_face,
+                               const OstLocal *faces, double area, double *force)
+{
+    const OstMesh *mesh = scene->mesh;
+    if (load->exact) {
+        OST_TRY(check_exact(scene));
+        return ost_agree(scene->ctx, ost_load_exact_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
+    }
+    if (load->kind == OST_LOAD_PRESSURE)
+        return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));
+    double traction[3];
+    for (int i = 0; i < 3; i++)
+        traction[i] = load->kind == OST_LOAD_TOTAL_FORCE ? load->vector[i] / area : load->vector[i];
+    return ost_agree(scene->ctx, ost_load_traction(mesh, count, faces, nodes_per_face, traction, force));
+}
+
+/* Does a total force go over faces? Selections that are points by nature do not even look for any. */
+static int may_have_faces(const OstLoad *load)
+{
+    if (load->kind != OST_LOAD_TOTAL_FORCE)
+        return load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE;
+    if (load->share == OST_SHARE_AUTO)
+        return load->on.kind != OST_SELECT_VERTICES && load->on.kind != OST_SELECT_NEAREST;
+    return load->share == OST_SHARE_FACES;
+}
+
+static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, double *force)
+{
+    if (!may_have_faces(load))
+        return add_vertex_load(scene, load, force);
+    OstLocal count = 0;
+    OstLocal *faces = NULL;
+    int nodes_per_face = 3;
+    double area = 0.0;
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, &count, &nodes_per_face, &faces));
+    OstStatus status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
+    if (status == OST_SUCCESS && area > 0.0)
+        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
+    else if (status == OST_SUCCESS && load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_AUTO)
+        status = add_vertex_load(scene, load, force);
+    else if (status == OST_SUCCESS)
+        status = OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                           "the selection holds no whole face of the body's surface, and this load needs faces; "
+                           "select a named surface, or widen the selection");
+    OST_FREE(faces);
+    return status;
+}
+
+static OstAccount account_of_load(const OstLoad *load)
+{
+    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
+        return OST_EFFECT_BODY_FORCE;
+    return may_have_faces(load) ? OST_EFFECT_SURFACE_LOAD : OST_EFFECT_POINT_FORCE;
+}
+
+OstStatus ost_scene_loads(const OstScene *scene, double *force)
+{
+    for (int i = 0; i < scene->c->load_count; i++) {
+        const OstLoad *load = &scene->c->loads[i];
+        ost_ledger_enter(scene->ctx, account_of_load(load));
+        OstStatus status;
+        if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
+            status = ost_agree(scene->ctx, add_body_load(scene, load, force));
+        else
+            status = add_selected_load(scene, load, force);
+        ost_ledger_leave(scene->ctx);
+        OST_TRY(at_line(scene->c, load->line, status));
+    }
+    return OST_SUCCESS;
+}

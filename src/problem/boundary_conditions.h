@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
+#define ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
+
+#include "assembly/supports.h"
+#include "orthostat/scene.h"
+
+/* Collective. The supports that the case's constraints make. Raises OST_INVALID_INPUT with the case's line where
+ * constraints contradict each other, or if nothing is held. */
+OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
+
+/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). */
+OstStatus ost_scene_loads(const OstScene *scene, double *force);
+
+#endif

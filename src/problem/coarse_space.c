@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/coarse_space.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/reduce.h"
+#include "orthostat/refine.h"
+#include "problem/coarse_parents.h"
+
+void ost_linear_space_destroy(OstLinearSpace **space)
+{
+    if (!*space)
+        return;
+    ost_system_destroy(&(*space)->system);
+    ost_supports_destroy(&(*space)->supports);
+    ost_mesh_destroy(&(*space)->mesh);
+    ost_row_geometry_release(&(*space)->rows);
+    OST_FREE((*space)->parents);
+    OST_FREE((*space)->weights);
+    OST_FREE(*space);
+}
+
+/* Is any vertex of the body free in any direction? */
+static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
+{
+    const OstMesh *mesh = space->mesh;
+    OstContext *ctx = mesh->ctx;
+    *has = 0;
+    for (OstLocal vertex = 0; vertex < mesh->owned_nodes && !*has; vertex++) {
+        const OstLocal index = space->supports->index[vertex];
+        *has = index < 0 || space->supports->support[index].held < 3;
+    }
+    return ost_max_ints(ctx, 1, has);
+}
+
+static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, const OstMaterialField *field,
+                          int with_metric)
+{
+    OST_TRY(ost_system_create(space->mesh, space->supports, &space->system));
+    const OstStatus status = ost_system_fill(space->system, field);
+    ost_system_release_scatter(space->system);
+    OST_TRY(ost_agree(quadratic->ctx, status));
+    OST_TRY(ost_row_geometry_create(space->system, field, with_metric, &space->rows));
+    OST_TRY(ost_agree(quadratic->ctx, ost_coarse_parents(quadratic, space->system, &space->parents, &space->weights)));
+    space->space = (OstCoarseSpace){space->system->matrix, &space->rows.geometry, space->parents, space->weights};
+    return OST_SUCCESS;
+}
+
+static OstStatus take_vertices(OstLinearSpace *space, const OstSystem *quadratic)
+{
+    OstLocal *node_of_vertex = NULL;
+    OST_TRY(ost_mesh_linear(quadratic->mesh, &space->mesh, &node_of_vertex));
+    const OstStatus status =
+        ost_supports_on_vertices(quadratic->supports, space->mesh, node_of_vertex, &space->supports);
+    OST_FREE(node_of_vertex);
+    return ost_agree(quadratic->ctx, status);
+}
+
+OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,
+                                  OstLinearSpace **space)
+{
+    OstContext *ctx = quadratic->ctx;
+    OstLinearSpace *made = NULL;
+    int has_rows = 0;
+    *space = NULL;
+    if (quadratic->mesh->nodes_per_tet == 4)
+        return OST_SUCCESS;
+    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
+    if (status == OST_SUCCESS)
+        status = take_vertices(made, quadratic);
+    if (status == OST_SUCCESS)
+        status = has_free_vertex(made, &has_rows);
+    if (status == OST_SUCCESS && has_rows)
+        status = assemble(made, quadratic, field, with_metric);
+    if (status != OST_SUCCESS || !has_rows)
+        ost_linear_space_destroy(&made);
+    ost_ledger_leave(ctx);
+    *space = made;
+    return status;
+}

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/free_body.h"
+
+#include "core/error.h"
+#include "core/small.h"
+
+#include <string.h>
+
+/* Distances that differ by less than this share are equal, and the lower label decides. */
+static const double same = 1e-9;
+
+/* How far a vertex is out of what is held so far: from the centre, from the first vertex, from the line of two. */
+typedef struct Reach {
+    const double *centre;
+    int held;
+    double at[2][3];
+} Reach;
+
+static double distance(const Reach *reach, const double *x)
+{
+    const double *from = reach->held == 0 ? reach->centre : reach->at[0];
+    double arm[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = x[i] - from[i];
+    if (reach->held < 2)
+        return ost_norm3(arm);
+    double along[3], across[3];
+    for (int i = 0; i < 3; i++)
+        along[i] = reach->at[1][i] - reach->at[0][i];
+    ost_cross3(arm, along, across);
+    return ost_norm3(across) / ost_norm3(along);
+}
+
+/* The vertex farthest out, on every rank; `node` is its local number where it is owned, or -1. */
+static OstStatus find_farthest(const OstMesh *mesh, const Reach *reach, OstLocal *node, double at[3])
+{
+    OstContext *ctx = mesh->ctx;
+    double farthest = 0.0;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        farthest = fmax(farthest, distance(reach, mesh->coordinates + 3 * (size_t)n));
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OstGlobal lowest = INT64_MAX;
+    *node = -1;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        if (distance(reach, mesh->coordinates + 3 * (size_t)n) < farthest * (1.0 - same) ||
+            mesh->node_label[n] >= lowest)
+            continue;
+        lowest = mesh->node_label[n];
+        *node = n;
+    }
+    OstGlobal first = lowest;
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(&lowest, &first, 1, MPI_INT64_T, MPI_MIN, ost_comm(ctx))));
+    int owner = lowest == first && *node >= 0 ? ost_rank(ctx) : ost_size(ctx);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, ost_comm(ctx))));
+    if (owner == ost_rank(ctx))
+        memcpy(at, mesh->coordinates + 3 * (size_t)*node, 3 * sizeof *at);
+    else
+        *node = -1;
+    return OST_MPI(ctx, MPI_Bcast(at, 3, MPI_DOUBLE, owner, ost_comm(ctx)));
+}
+
+static void difference(const double *to, const double *from, double d[3])
+{
+    for (int i = 0; i < 3; i++)
+        d[i] = to[i] - from[i];
+}
+
+/* Held directions of the three vertices: all; across the first line; across the plane. */
+static void choose_directions(double at[3][3], double direction[6][3], int vertex[6])
+{
+    double line[3], arm[3];
+    difference(at[1], at[0], line);
+    difference(at[2], at[0], arm);
+    for (int i = 0; i < 6; i++)
+        vertex[i] = i < 3 ? 0 : i < 5 ? 1 : 2;
+    memset(direction, 0, 9 * sizeof(double));
+    for (int i = 0; i < 3; i++)
+        direction[i][i] = 1.0;
+    ost_cross3(line, arm, direction[3]);
+    ost_cross3(line, direction[3], direction[4]);
+    memcpy(direction[5], direction[3], 3 * sizeof(double));
+    for (int k = 3; k < 6; k++) {
+        const double length = ost_norm3(direction[k]);
+        for (int i = 0; i < 3; i++)
+            direction[k][i] /= length;
+    }
+}
+
+static OstStatus hold_three(const OstMesh *mesh, OstSupports *supports)
+{
+    OstContext *ctx = mesh->ctx;
+    double low[3], high[3], centre[3], at[3][3], direction[6][3];
+    OstLocal node[3];
+    int vertex[6];
+    Reach reach = {.centre = centre};
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5 * (low[i] + high[i]);
+    for (int k = 0; k < 3; k++) {
+        OST_TRY(find_farthest(mesh, &reach, &node[k], at[k]));
+        if (k < 2)
+            memcpy(reach.at[k], at[k], sizeof at[k]);
+        reach.held = k + 1;
+    }
+    choose_directions(at, direction, vertex);
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < 6 && status == OST_SUCCESS; k++)
+        if (node[vertex[k]] >= 0)
+            status = ost_supports_hold(supports, node[vertex[k]], direction[k], 0.0);
+    OST_TRY(ost_agree(ctx, status));
+    return ost_supports_complete(supports);
+}
+
+OstStatus ost_free_body_supports(const OstMesh *mesh, OstSupports **supports)
+{
+    OST_TRY(ost_agree(mesh->ctx, ost_supports_create(mesh, supports)));
+    const OstStatus status = hold_three(mesh, *supports);
+    if (status != OST_SUCCESS)
+        ost_supports_destroy(supports);
+    return status;
+}
+
+/* Integrals over the body: volume, place, displacement, and twice the rotation (the curl). */
+enum { SUM_VOLUME, SUM_PLACE, SUM_MOVE = 4, SUM_CURL = 7, SUM_BODY = 10 };
+
+/* From a tet's vertices, which give all of it for motions without strain and for even strains. */
+static void add_tet(const OstMesh *mesh, const OstLocal *nodes, const double *u, double sums[SUM_BODY])
+{
+    const double volume = ost_tet_volume(mesh->coordinates, nodes);
+    double edge[9], inverse[9] = {0.0}, change[9], gradient[9];
+    for (int v = 0; v < 4; v++) {
+        for (int i = 0; i < 3; i++) {
+            sums[SUM_PLACE + i] += 0.25 * volume * mesh->coordinates[3 * (size_t)nodes[v] + (size_t)i];
+            sums[SUM_MOVE + i] += 0.25 * volume * u[3 * (size_t)nodes[v] + (size_t)i];
+        }
+        if (v == 0)
+            continue;
+        difference(mesh->coordinates + 3 * (size_t)nodes[v], mesh->coordinates + 3 * (size_t)nodes[0],
+                   edge + 3 * (v - 1));
+        difference(u + 3 * (size_t)nodes[v], u + 3 * (size_t)nodes[0], change + 3 * (v - 1));
+    }
+    ost_invert3(edge, inverse);
+    ost_multiply3(inverse, change, gradient); /* row j: how u changes along direction j */
+    sums[SUM_VOLUME] += volume;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        sums[SUM_CURL + i] += volume * (gradient[3 * j + k] - gradient[3 * k + j]);
+    }
+}
+
+OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
+{
+    double sums[SUM_BODY] = {0.0};
+    double centre[3], mean[3], rotation[3];
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        add_tet(mesh, mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet, displacement, sums);
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_BODY, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
+    for (int i = 0; i < 3; i++) {
+        centre[i] = sums[SUM_PLACE + i] / sums[SUM_VOLUME];
+        mean[i] = sums[SUM_MOVE + i] / sums[SUM_VOLUME];
+        rotation[i] = 0.5 * sums[SUM_CURL + i] / sums[SUM_VOLUME];
+    }
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        double arm[3], turned[3];
+        difference(mesh->coordinates + 3 * (size_t)n, centre, arm);
+        ost_cross3(rotation, arm, turned);
+        for (int i = 0; i < 3; i++)
+            displacement[3 * (size_t)n + (size_t)i] -= mean[i] + turned[i];
+    }
+    return OST_SUCCESS;
+}

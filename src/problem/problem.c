@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/problem.h"
+
+#include "assembly/means.h"
+#include "case/plan_parts.h"
+#include "core/error.h"
+#include "core/free_memory.h"
+#include "core/memory.h"
+#include "core/reduce.h"
+#include "problem/boundary_conditions.h"
+#include "problem/free_body.h"
+
+#include <math.h>
+#include <string.h>
+
+void ost_problem_destroy(OstProblem **problem)
+{
+    if (!*problem)
+        return;
+    ost_system_destroy(&(*problem)->system);
+    ost_supports_destroy(&(*problem)->supports);
+    OST_FREE((*problem)->force);
+    OST_FREE(*problem);
+}
+
+static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports)
+{
+    OstContext *ctx = parts->mesh->ctx;
+    if (parts->free_body)
+        return ost_free_body_supports(parts->mesh, supports);
+    OstStatus status = ost_supports_create(parts->mesh, supports);
+    for (OstLocal i = 0; i < parts->constraint_count && status == OST_SUCCESS; i++) {
+        const OstNodeConstraint *constraint = &parts->constraints[i];
+        if (constraint->node < 0 || constraint->node >= parts->mesh->owned_nodes)
+            status = OST_RAISE(ctx, OST_INVALID_INPUT, "constraint %d is on node %d, but this rank owns nodes 0 to %d",
+                               i, constraint->node, parts->mesh->owned_nodes - 1);
+        else
+            status = ost_supports_hold(*supports, constraint->node, constraint->direction, constraint->displacement);
+    }
+    OST_TRY(ost_agree(ctx, status));
+    return ost_supports_complete(*supports);
+}
+
+static void find_material_facts(const OstMaterialField *field, OstSolverFacts *facts)
+{
+    double softest = 0.0, stiffest = 0.0;
+    for (int r = 0; r < field->region_count; r++)
+        ost_plan_add_facts(field->ctx, &field->material[r].constants, &softest, &stiffest, facts);
+}
+
+/* Without supports and facts, with room for loads on `nodes` nodes. */
+static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstLocal nodes, OstProblem **problem)
+{
+    OstContext *ctx = mesh->ctx;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    if (!element)
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes; 4 or 10 are expected",
+                         mesh->nodes_per_tet);
+    OstStatus status = OST_NEW(ctx, problem, 1);
+    if (status == OST_SUCCESS) {
+        **problem = (OstProblem){.ctx = ctx, .mesh = mesh, .field = field, .linear = element->linear};
+        status = OST_NEW(ctx, &(*problem)->force, 3 * (size_t)nodes);
+    }
+    return ost_agree(ctx, status);
+}
+
+OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
+{
+    OstProblem *made = NULL;
+    OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
+    if (status == OST_SUCCESS) {
+        made->free_body = parts->free_body;
+        made->with_metric = parts->field->region_axes != NULL;
+        find_material_facts(parts->field, &made->facts);
+        if (parts->force)
+            ost_problem_set_load(made, parts->force);
+        status = hold_nodes(parts, &made->supports);
+    }
+    if (status != OST_SUCCESS)
+        ost_problem_destroy(&made);
+    *problem = made;
+    return status;
+}
+
+OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
+{
+    OstContext *ctx = scene->ctx;
+    OstProblem *made = NULL;
+    OstStatus status = create(scene->mesh, scene->field, scene->mesh->node_count, &made);
+    if (status != OST_SUCCESS)
+        goto done;
+    made->c = scene->c;
+    made->free_body = scene->c->free_body;
+    made->with_metric = scene->plan.effect[OST_PLAN_ORTHOTROPY].on;
+    made->facts = scene->plan.facts;
+    OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
+    OST_TRY_DONE(ost_scene_loads(scene, made->force));
+    OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
+done:
+    if (status != OST_SUCCESS)
+        ost_problem_destroy(&made);
+    *problem = made;
+    return status;
+}
+
+const char *ost_problem_name(const OstProblem *problem)
+{
+    return problem->c ? problem->c->path : "the problem";
+}
+
+const OstMesh *ost_problem_mesh(const OstProblem *problem)
+{
+    return problem->mesh;
+}
+
+const OstMaterialField *ost_problem_field(const OstProblem *problem)
+{
+    return problem->field;
+}
+
+OstGlobal ost_problem_unknowns(const OstProblem *problem)
+{
+    return problem->system ? 3 * problem->system->matrix->global_rows : 0;
+}
+
+int ost_problem_is_linear(const OstProblem *problem)
+{
+    return problem->linear;
+}
+
+void ost_problem_set_load(OstProblem *problem, const double *force)
+{
+    memcpy(problem->force, force, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
+}
+
+void ost_problem_load(const OstProblem *problem, double t, double *force)
+{
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        force[i] = t * problem->force[i];
+}
+
+static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+                       const OstMeans *means)
+{
+    (void)element;
+    (void)u;
+    for (int lane = 0; lane < batch->count; lane++)
+        *(double *)energy += means->energy[lane] * means->volume[lane];
+}
+
+OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
+{
+    *energy = 0.0;
+    ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
+    return ost_sum(problem->ctx, 1, energy);
+}
+
+OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force)
+{
+    return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
+}
+
+/* What is wrong with the supports is told with the place of the first. */
+static OstStatus make_pattern(OstProblem *problem)
+{
+    const OstCase *c = problem->c;
+    const OstStatus status = ost_system_create(problem->mesh, problem->supports, &problem->system);
+    if (status != OST_INVALID_INPUT || !c || c->constraint_count == 0)
+        return status;
+    return ost_case_located(c, c->constraints[0].on.place, status);
+}
+
+OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+{
+    (void)u; /* every element there is has one stiffness for all u */
+    const int may_fill = problem->system && problem->system->block_of_tet;
+    if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
+        ost_problem_release_stiffness(problem);
+        OST_TRY(make_pattern(problem));
+    }
+    if (problem->system->block_of_tet)
+        OST_TRY(ost_agree(problem->ctx, ost_system_fill(problem->system, problem->field)));
+    problem->filled = 1;
+    const OstBlockMatrix *matrix = problem->system->matrix;
+    if (stiffness)
+        *stiffness = (OstStiffness){.rows = matrix->rows,
+                                    .columns = matrix->columns,
+                                    .global_rows = matrix->global_rows,
+                                    .row_start = matrix->row_start,
+                                    .column = matrix->column,
+                                    .value = matrix->value,
+                                    .node = problem->system->node_of_row};
+    return OST_SUCCESS;
+}
+
+void ost_problem_release_scatter(OstProblem *problem)
+{
+    if (problem->system)
+        ost_system_release_scatter(problem->system);
+}
+
+void ost_problem_release_stiffness(OstProblem *problem)
+{
+    ost_system_destroy(&problem->system);
+    problem->filled = 0;
+}
+
+OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs)
+{
+    const OstSystem *system = problem->system;
+    OST_TRY(ost_system_right_hand_side(system, problem->field, problem->force, rhs));
+    for (size_t i = 0; i < 3 * (size_t)system->matrix->rows; i++)
+        rhs[i] *= t;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u)
+{
+    return ost_system_displacement(problem->system, t, v, u);
+}
+
+OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts)
+{
+    OstContext *ctx = problem->ctx;
+    const OstMesh *mesh = problem->mesh;
+    double worst = 1.0;
+    *facts = problem->facts;
+    facts->unknowns = 3 * problem->system->matrix->global_rows;
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        worst =
+            fmin(worst, ost_tet_quality(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)t));
+    facts->quality = worst;
+    OST_TRY(ost_min(ctx, 1, &facts->quality));
+    return ost_memory_free(ctx, &facts->free_memory);
+}

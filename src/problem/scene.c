@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/scene.h"
+
+#include "case/regions.h"
+#include "case/select.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "orthostat/mesh_file.h"
+#include "orthostat/problem.h"
+#include "orthostat/refine.h"
+#include "problem/gradient_axes.h"
+#include "problem/scene_materials.h"
+#include "problem/scene_mesh.h"
+
+#include <string.h>
+
+static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kind)
+{
+    return !materials->material[region].isotropic && materials->axes[region].kind == kind;
+}
+
+static int any_wants(const OstMesh *mesh, const OstSceneMaterials *materials, OstAxesKind kind)
+{
+    for (int r = 0; r < mesh->regions.count; r++)
+        if (wants(materials, r, kind))
+            return 1;
+    return 0;
+}
+
+static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
+{
+    const char *brings = c->mesh_kind == OST_MESH_FILE
+                             ? "the mesh file has no cell field 'axes' of nine components"
+                             : "the program's own shapes bring none, as a mesh file with a cell field 'axes' does";
+    return ost_case_located(
+        c, ost_case_material_of(c, region)->axes_place,
+        OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                  "region '%.80s' takes its axes from the mesh, but %s; give a table instead (axes: "
+                  "{cells: file.txt}), or a formula",
+                  region, brings));
+}
+
+static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const OstSceneMaterials *materials)
+{
+    if (mesh->tet_axes || mesh->tet_count == 0)
+        return OST_SUCCESS;
+    for (int r = 0; r < mesh->regions.count; r++)
+        if (wants(materials, r, OST_AXES_CELLS))
+            return refuse_mesh_axes(c, mesh->regions.name[r]);
+    return OST_SUCCESS;
+}
+
+static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
+{
+    const OstMesh *mesh = scene->mesh;
+    if (mesh->tet_axes)
+        memcpy(axes, mesh->tet_axes, 9 * sizeof *axes * (size_t)mesh->tet_count);
+    for (int r = 0; r < mesh->regions.count; r++)
+        if (wants(materials, r, OST_AXES_GRADIENT))
+            OST_TRY(ost_scene_gradient_axes(scene, r, &materials->axes[r], axes));
+    return OST_SUCCESS;
+}
+
+/* Axes from gradients, laid over those the mesh came with. One frame a tet is wanted, which potentials on linear tets
+ * give: a quadratic mesh lends its vertices. */
+static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+{
+    OstScene on_vertices = *scene;
+    OstMesh *linear = NULL;
+    ost_ledger_enter(scene->ctx, OST_EFFECT_GRADIENT_AXES);
+    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)scene->mesh->tet_count));
+    if (status == OST_SUCCESS && scene->mesh->nodes_per_tet != 4) {
+        status = ost_mesh_linear(scene->mesh, &linear, NULL);
+        on_vertices.mesh = linear;
+    }
+    if (status == OST_SUCCESS)
+        status = fill_gradient_axes(&on_vertices, materials, *axes);
+    ost_mesh_destroy(&linear);
+    ost_ledger_leave(scene->ctx);
+    return status;
+}
+
+static int needs_centroids(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes)
+{
+    for (int r = 0; axes && r < mesh->regions.count; r++)
+        if (!materials[r].isotropic && ost_axes_vary(&axes[r]))
+            return 1;
+    return 0;
+}
+
+OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes,
+                              const double *tet_axes, OstMaterialField **field)
+{
+    OstContext *ctx = mesh->ctx;
+    double *centroids = NULL;
+    OstStatus status = OST_SUCCESS;
+    if (needs_centroids(mesh, materials, axes)) {
+        ost_ledger_enter(ctx, OST_EFFECT_VARYING_AXES);
+        status = OST_NEW(ctx, &centroids, (size_t)mesh->tet_count * 3);
+        if (status == OST_SUCCESS)
+            status = ost_mesh_tet_centroids(mesh, centroids);
+        ost_ledger_leave(ctx);
+    }
+    if (status == OST_SUCCESS)
+        status = ost_field_create(ctx, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
+                                  mesh->tet_label, centroids, tet_axes, field);
+    OST_FREE(centroids);
+    return ost_agree(ctx, status);
+}
+
+static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
+{
+    OstContext *ctx = scene->ctx;
+    const OstMesh *mesh = scene->mesh;
+    double *gradient_axes = NULL;
+    OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
+    if (status == OST_SUCCESS && any_wants(mesh, materials, OST_AXES_GRADIENT))
+        status = solve_gradient_axes(scene, materials, &gradient_axes);
+    if (status == OST_SUCCESS)
+        status = ost_field_create_on(mesh, materials->material, materials->axes,
+                                     gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field);
+    OST_FREE(gradient_axes);
+    return status;
+}
+
+/* Linear tets cannot keep their volume and bend: near incompressibility they lock, and say so here. Quadratic ones see
+ * the mean of the dilatation alone, which frees them. */
+static OstStatus treat_nearly_incompressible(OstScene *scene)
+{
+    int regions = 0;
+    const int quadratic = scene->mesh->nodes_per_tet == 10;
+    OST_TRY(ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions));
+    if (regions == 0)
+        return OST_SUCCESS;
+    if (quadratic) {
+        ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet sees its mean dilatation",
+                OST_NEARLY_INCOMPRESSIBLE);
+        return OST_SUCCESS;
+    }
+    /* Measured on sectors of a thick cylinder under pressure, 20 hexes of linear tets through the wall and 6 to 20
+     * along 30 to 90 degrees; cases/verify/cylinder-nu-499 and -4999 hold the program to it. */
+    ost_warn(
+        scene->ctx,
+        "nu is above %g in %d region%s: linear tets lock there and move too little, on a thick cylinder with 20 of "
+        "them through its wall by 5 %% at nu = 0.49, 10 to 25 %% at 0.499, 10 to 50 %% at 0.4999, where quadratic "
+        "ones are right to 0.1 %%: element: {order: 2}; `orthostat cost` says how much they differ here",
+        OST_NEARLY_INCOMPRESSIBLE, regions, regions == 1 ? "" : "s");
+    return ost_field_mean_dilatation(scene->field, 0.5, &regions); /* linear tets have no use for it */
+}
+
+static OstStatus check_places(const OstCase *c, const OstMesh *mesh)
+{
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(ost_select_check_place(c, mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(ost_select_check_place(c, mesh, &c->loads[i].on));
+    return OST_SUCCESS;
+}
+
+/* The mesh is the case's, or made of the chunk if there is one. */
+static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
+{
+    OstContext *ctx = c->ctx;
+    OstFileMaterials *from_file = NULL;
+    OstSceneMaterials materials = {0};
+    OstScene *made = NULL;
+    *scene = NULL;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
+    if (status != OST_SUCCESS)
+        goto done;
+    made->ctx = ctx;
+    made->c = c;
+    OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
+                       : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
+    ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
+            (long long)made->mesh->global_tets);
+    ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
+    OST_TRY_DONE(check_places(c, made->mesh));
+    OST_TRY_DONE(make_field(made, &materials));
+    OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
+done:
+    ost_file_materials_destroy(&from_file);
+    ost_scene_materials_release(&materials);
+    if (status != OST_SUCCESS)
+        ost_scene_destroy(&made);
+    *scene = made;
+    return status;
+}
+
+OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
+{
+    return create(c, NULL, scene);
+}
+
+OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
+{
+    const OstStatus status = create(c, chunk, scene);
+    ost_chunk_destroy(chunk);
+    return status;
+}
+
+void ost_scene_destroy(OstScene **scene)
+{
+    if (!*scene)
+        return;
+    ost_field_destroy(&(*scene)->field);
+    ost_mesh_destroy(&(*scene)->mesh);
+    OST_FREE(*scene);
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PROBLEM_SCENE_MATERIALS_H
+#define ORTHOSTAT_PROBLEM_SCENE_MATERIALS_H
+
+#include "orthostat/case.h"
+#include "orthostat/mesh_file.h"
+
+/* One material and one way of giving axes for every region of the mesh. Specs borrow their arrays from the case. */
+typedef struct OstSceneMaterials {
+    OstMaterial *material;
+    OstAxesSpec *axes;
+} OstSceneMaterials;
+
+/* Local, the same on all ranks. One for each of the mesh's regions: the mesh file's materials, overridden by the case's
+ * in their order. Raises OST_INVALID_INPUT if the case names a region that is not there (listing those that are), or
+ * leaves one without a material. */
+OstStatus ost_scene_materials(const OstCase *c, const OstNames *regions, const OstFileMaterials *from_file,
+                              OstSceneMaterials *materials);
+void ost_scene_materials_release(OstSceneMaterials *materials);
+
+/* Collective. Reads the tables of axes that the case's materials name into the chunk's tet_axes: one line a tet, in the
+ * order of the mesh file. Done before the mesh is cut, so that no rank needs to know where a tet stood in the file. */
+OstStatus ost_scene_read_cell_axes(const OstCase *c, OstMeshChunk *chunk);
+
+#endif

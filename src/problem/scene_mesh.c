@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/scene_mesh.h"
+
+#include "core/error.h"
+#include "core/free_memory.h"
+#include "mesh/merge.h"
+#include "orthostat/plan.h"
+#include "orthostat/refine.h"
+#include "problem/scene_partition.h"
+
+/* A shape too large for the machines is refused before it is made; what a solve holds at the least is compared, so that
+ * nothing is refused that would fit. */
+static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
+{
+    OstPlan plan;
+    double left = 0.0;
+    ost_plan_make(c, nodes, tets, NULL, ost_size(c->ctx), &plan);
+    OST_TRY(ost_memory_free(c->ctx, &left));
+    const double wanted = plan.bytes_mesh + plan.bytes_matrix;
+    if (wanted > left)
+        return OST_RAISE(
+            c->ctx, OST_LIMIT_EXCEEDED,
+            "%s: %lld tets and their stiffness take about %.1f GiB at the least, and %.1f GiB are free; use "
+            "a coarser mesh, or more machines",
+            c->path, (long long)tets, wanted / 1073741824.0, left / 1073741824.0);
+    return OST_SUCCESS;
+}
+
+static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    OstGlobal nodes = 0, tets = 0;
+    ost_plan_shape_size(c, &nodes, &tets);
+    OST_TRY(ost_plan_check_size(c, nodes));
+    OST_TRY(check_memory(c, nodes, tets));
+    switch (c->mesh_kind) {
+    case OST_MESH_TUBE:
+        return ost_chunk_create_tube(c->ctx, &c->tube, chunk);
+    case OST_MESH_BLOCK:
+        return ost_chunk_create_block(c->ctx, &c->block, chunk);
+    case OST_MESH_SECTOR:
+        return ost_chunk_create_sector(c->ctx, &c->sector, chunk);
+    case OST_MESH_OCTANT:
+        return ost_chunk_create_octant(c->ctx, &c->octant, chunk);
+    case OST_MESH_FILE:
+        return ost_case_located(c, c->mesh_place, ost_mesh_file_read(c->ctx, c->mesh_file, chunk, materials));
+    case OST_MESH_FROM_PROGRAM: /* refused by ost_plan_check_size */
+        break;
+    }
+    return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
+}
+
+/* A merge that joins nothing was meant to join something. */
+static OstStatus merge_vertices(const OstCase *c, OstMeshChunk *chunk)
+{
+    OstGlobal merged = 0;
+    if (!(c->merge > 0.0))
+        return OST_SUCCESS;
+    OST_TRY(ost_chunk_merge(chunk, c->merge, &merged));
+    if (merged == 0)
+        ost_warn(c->ctx, "%s: merge: %g joined no vertices", c->path, c->merge);
+    else
+        ost_log(c->ctx, OST_LOG_NORMAL, "%s: merge: %g joined %lld vertices with others", c->path, c->merge,
+                (long long)merged);
+    return OST_SUCCESS;
+}
+
+/* Where new nodes of the case's mesh belong. */
+static OstShapeSurface true_surface(const OstCase *c)
+{
+    const OstShapeSurface straight = {.kind = OST_SURFACE_NONE};
+    switch (c->mesh_kind) {
+    case OST_MESH_TUBE:
+        return ost_shape_surface_tube(&c->tube);
+    case OST_MESH_SECTOR:
+        return ost_shape_surface_tube(&(OstTubeShape){
+            .axis = c->sector.axis, .origin = {c->sector.origin[0], c->sector.origin[1], c->sector.origin[2]}});
+    case OST_MESH_OCTANT:
+        return ost_shape_surface_sphere(c->octant.centre);
+    default:
+        return straight;
+    }
+}
+
+/* Puts `made` in place of `mesh`. */
+static void replace(OstMesh **mesh, OstMesh **made)
+{
+    ost_mesh_destroy(mesh);
+    *mesh = *made;
+    *made = NULL;
+}
+
+static OstStatus refine(const OstCase *c, const OstShapeSurface *surface, OstMesh **mesh)
+{
+    for (int r = 0; r < c->refinement; r++) {
+        OstMesh *fine = NULL;
+        OST_TRY(ost_mesh_refine(*mesh, surface, &fine));
+        replace(mesh, &fine);
+    }
+    return OST_SUCCESS;
+}
+
+/* Order 0 stands for the order that the mesh has. */
+static OstStatus change_order(const OstCase *c, const OstShapeSurface *surface, OstMesh **mesh)
+{
+    OstMesh *changed = NULL;
+    const int order = (*mesh)->nodes_per_tet == 10 ? 2 : 1;
+    if (c->order == 0 || c->order == order)
+        return OST_SUCCESS;
+    if (c->order == 2)
+        OST_TRY(ost_mesh_raise(*mesh, surface, &changed));
+    else
+        OST_TRY(ost_mesh_linear(*mesh, &changed, NULL));
+    replace(mesh, &changed);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
+                               OstMesh **mesh, OstSceneMaterials *materials)
+{
+    const OstShapeSurface surface = true_surface(c);
+    *mesh = NULL;
+    OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
+    if (status == OST_SUCCESS)
+        status = ost_scene_partition(materials, chunk, mesh);
+    if (status == OST_SUCCESS)
+        status = refine(c, &surface, mesh);
+    if (status == OST_SUCCESS)
+        status = change_order(c, &surface, mesh);
+    if (status != OST_SUCCESS)
+        ost_mesh_destroy(mesh);
+    return status;
+}
+
+OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file, OstSceneMaterials *materials)
+{
+    OstMeshChunk *chunk = NULL;
+    *mesh = NULL;
+    *from_file = NULL;
+    OstStatus status = make_chunk(c, &chunk, from_file);
+    if (status == OST_SUCCESS)
+        status = ost_scene_read_cell_axes(c, chunk);
+    if (status == OST_SUCCESS)
+        status = merge_vertices(c, chunk);
+    if (status == OST_SUCCESS)
+        status = ost_scene_distribute(c, *from_file, &chunk, mesh, materials);
+    ost_chunk_destroy(&chunk);
+    if (status != OST_SUCCESS)
+        ost_file_materials_destroy(from_file);
+    return status;
+}

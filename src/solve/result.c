@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/result.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "orthostat/scene.h"
+
+#include <string.h>
+
+OstStatus ost_result_create(const OstProblem *problem, OstResult **result)
+{
+    const OstMesh *mesh = ost_problem_mesh(problem);
+    OstContext *ctx = mesh->ctx;
+    OstResult *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS) {
+        made->ctx = ctx;
+        made->mesh = mesh;
+        made->field = ost_problem_field(problem);
+        status = OST_NEW(ctx, &made->displacement, 3 * (size_t)mesh->node_count);
+    }
+    status = ost_agree(ctx, status);
+    if (status != OST_SUCCESS)
+        ost_result_destroy(&made);
+    *result = made;
+    return status;
+}
+
+void ost_result_destroy(OstResult **result)
+{
+    if (!*result)
+        return;
+    OST_FREE((*result)->displacement);
+    OST_FREE((*result)->force);
+    OST_FREE((*result)->reaction);
+    OST_FREE((*result)->strain);
+    OST_FREE((*result)->stress);
+    OST_FREE((*result)->strain_energy_density);
+    OST_FREE((*result)->node_stress);
+    OST_FREE(*result);
+}
+
+OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem)
+{
+    OstContext *ctx = result->ctx;
+    OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count);
+    if (status == OST_SUCCESS)
+        ost_problem_load(problem, 1.0, result->force);
+    return ost_agree(ctx, status);
+}
+
+OstStatus ost_result_find_largest(OstResult *result)
+{
+    OstContext *ctx = result->ctx;
+    const OstMesh *mesh = result->mesh;
+    struct {
+        double value;
+        int rank;
+    } largest = {0.0, ost_rank(ctx)};
+    double at[3] = {0.0};
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        const double size = ost_norm3(result->displacement + 3 * (size_t)n);
+        if (!(size > largest.value)) /* nor what is no number */
+            continue;
+        largest.value = size;
+        memcpy(at, mesh->coordinates + 3 * (size_t)n, sizeof at);
+    }
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ost_comm(ctx))));
+    OST_TRY(OST_MPI(ctx, MPI_Bcast(at, 3, MPI_DOUBLE, largest.rank, ost_comm(ctx))));
+    result->largest_displacement = largest.value;
+    memcpy(result->largest_at, at, sizeof at);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,54 @@
+"""Who does the work of the default solve: the calls of AztecOO's AZ_iterate and ML's ML_Cycle_MG are counted from outside
+(count_trilinos.c, preloaded) and held against what the program says of itself."""
+import os
+
+from program import SOURCE, check, new_folder, solve
+
+COUNTER = os.environ["ORTHOSTAT_COUNTER"]
+
+TUBE = open(os.path.join(SOURCE, "cases", "tube", "radial.yaml")).read()
+BENT = """
+title: a cantilever of quadratic tets
+mesh: {block: {size: [4, 1, 1], divisions: [16, 4, 4]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
+"""
+
+
+def counted(case, ranks):
+    """The report of a solve, and (AZ_iterate, ML_Cycle_MG) on each rank."""
+    counts = os.path.join(new_folder(), "counts")
+    os.environ.update(LD_PRELOAD=COUNTER, ORTHOSTAT_COUNTS=counts)
+    finished, report, _ = solve(case, ranks=ranks, extra=["-v"])
+    del os.environ["LD_PRELOAD"]
+    check(finished.exit_code == 0, finished.errors)
+    with open(counts) as lines:
+        found = [tuple(map(int, line.split())) for line in lines]
+    return finished, report["solver"], [pair for pair in found if pair != (0, 0)]
+
+
+def aztecoo_iterates_and_ml_cycles():
+    for case, name in ((TUBE, "tube"), (BENT, "quadratic tets")):
+        for ranks in (1, 2):
+            finished, solver, found = counted(case, ranks)
+            where = f"{name}, {ranks} ranks: "
+            check(solver["recipe"] == "metric", where + solver["recipe"])
+            check(len(found) == ranks, where + f"counts of {len(found)} processes")
+            # one solve; one cycle for each iteration, and one more to estimate the error
+            check(set(found) == {(1, solver["iterations"] + 1)}, where + f"{found} for {solver['iterations']} iterations")
+            engine = f"AztecOO CG, ML cycle of {len(solver['level_unknowns'])} levels"
+            check(solver["engine"] == engine, where + solver["engine"])
+            check(engine in finished.output, where + finished.output)
+            check(engine in finished.errors, where + finished.errors)
+
+
+def factors_are_mumps():
+    finished, solver, found = counted(TUBE + "\nsolver: {recipe: direct}\n", 1)
+    check(found == [], f"{found}")
+    check(solver["engine"] == "MUMPS factors, refined by CG", solver["engine"])
+
+
+aztecoo_iterates_and_ml_cycles()
+factors_are_mumps()

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/free_memory.h"
+#include "core/numbering.h"
+#include "core/reduce.h"
+#include "support.h"
+
+static void sums_and_extremes_are_of_all_ranks(void **state)
+{
+    (void)state;
+    const int ranks = ost_size(ctx);
+    const int rank = ost_rank(ctx);
+    double sum[2] = {1.0, rank}, most[2] = {rank, -rank}, least[2] = {rank, -rank};
+    OstGlobal numbers[3] = {(OstGlobal)1 << 40, 0, rank};
+    int any = rank == ranks - 1;
+    assert_success(ost_sum(ctx, 2, sum));
+    assert_success(ost_max(ctx, 2, most));
+    assert_success(ost_min(ctx, 2, least));
+    assert_success(ost_sum_numbers(ctx, 1, &numbers[0]));
+    assert_success(ost_min_numbers(ctx, 1, &numbers[1]));
+    assert_success(ost_max_numbers(ctx, 1, &numbers[2]));
+    assert_success(ost_max_ints(ctx, 1, &any));
+    assert_true(sum[0] == ranks && sum[1] == 0.5 * ranks * (ranks - 1));
+    assert_true(most[0] == ranks - 1 && most[1] == 0.0);
+    assert_true(least[0] == 0.0 && least[1] == 1 - ranks);
+    assert_true(numbers[0] == (OstGlobal)ranks << 40 && numbers[1] == 0 && numbers[2] == ranks - 1);
+    assert_true(any);
+}
+
+static void numbers_go_on_from_rank_to_rank(void **state)
+{
+    (void)state;
+    const OstGlobal rank = ost_rank(ctx);
+    OstGlobal first = -1, total = -1;
+    assert_success(ost_number_from(ctx, rank + 1, &first, &total));
+    assert_true(first == rank * (rank + 1) / 2);
+    assert_true(total == (OstGlobal)ost_size(ctx) * (ost_size(ctx) + 1) / 2);
+}
+
+static void a_machine_has_more_than_is_free(void **state)
+{
+    (void)state;
+    double installed = 0.0, available = 0.0;
+    assert_success(ost_memory_installed(ctx, &installed));
+    assert_success(ost_memory_free(ctx, &available));
+    assert_true(installed > 1e8 && installed < 1e15);
+    assert_true(available > 0.0 && available <= installed);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(sums_and_extremes_are_of_all_ranks),
+    cmocka_unit_test(numbers_go_on_from_rank_to_rank),
+    cmocka_unit_test(a_machine_has_more_than_is_free),
+};
+
+OST_TEST_MAIN(tests)

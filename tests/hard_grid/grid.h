@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef HARD_GRID_GRID_H
+#define HARD_GRID_GRID_H
+
+#include "orthostat/scene.h"
+
+/* The hard grid: small bodies of every kind that solvers are known to fail on, each solved as a user's case would be
+ * and compared with a direct solution of the same equations. A point of the grid is one body: */
+
+enum {
+    HARD_SHAPES = 8,
+    HARD_ORDERS = 2,
+    HARD_RATIOS = 3,   /* of Young's moduli: 1, 1e3, 1e6 */
+    HARD_FAMILY = 5,   /* Poisson's ratios of the stable family */
+    HARD_POISSONS = 7, /* those, and nine constants at 0.99 and 0.999 of the border of stability */
+    HARD_AXES = 3,     /* aligned, cylindrical, random smooth */
+    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3)
+};
+
+/* What is wrong with a point that must be refused. */
+typedef enum {
+    HARD_SOUND,
+    HARD_BEYOND_BORDER, /* nine constants at 1.001 of the border of stability */
+    HARD_NU_HALF,       /* nu = 0.5 */
+    HARD_LOOSE,         /* constrained at one vertex */
+    HARD_INVERTED,      /* slivers with -1/1000 of their neighbours' volume */
+    HARD_NOT_A_NUMBER,  /* for a load */
+    HARD_FLAWS
+} HardFlaw;
+
+typedef struct HardPoint {
+    int shape, order;
+    int poisson;            /* 0 to HARD_POISSONS - 1 */
+    int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
+    HardFlaw flaw;
+} HardPoint;
+
+typedef enum {
+    HARD_SOLVED,
+    HARD_SOLVED_TO_ROUNDING, /* as far as double precision allows: the residual stays above 1e-8 */
+    HARD_REFUSED,            /* rightly: it is flawed, or rounding the stiffness moves the solution by 10 % or more */
+    HARD_GIVEN_UP,           /* refused, and should have been solved */
+    HARD_FALSE,              /* reported as solved with a wrong answer, or solved where it had to be refused */
+    HARD_OUTCOMES
+} HardOutcome;
+
+/* If rounding the stiffness moves the solution by more than this, double precision has no answer. */
+extern const double hard_hopeless;
+
+/* What is known of the equations without the solver under test. */
+typedef struct HardTruth {
+    int known;            /* is there a direct solution? */
+    int indefinite;       /* did rounding leave the stiffness not positive definite? */
+    double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
+    double size;          /* ||u*|| */
+    double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
+    double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
+    double plain;         /* error of the factorisation's solution before any refinement */
+    double rounded; /* root mean square change of u*, relative, when every entry of K changes by 2^-53 of itself with
+                       random sign; NAN where `plain` is small enough not to ask */
+} HardTruth;
+
+typedef struct HardReading {
+    HardPoint point;
+    HardOutcome outcome;
+    OstStatus status;
+    char reason[512]; /* of a refusal, or of the verdict */
+    OstGlobal unknowns;
+    OstRecipe recipe;
+    int iterations, steps; /* in all, by so many solver strategies */
+    double residual;       /* true, relative */
+    int rounding_limited;  /* did rounding keep the residual above 1e-8? */
+    double stated_error;   /* relative error of the displacement as the solver reports it; NAN if it does not */
+    double digits;         /* correct digits of the displacement, by the direct solution; NAN if there is none */
+    HardTruth truth;
+    double seconds; /* of the solve, without the direct one */
+} HardReading;
+
+typedef struct HardReport {
+    OstContext *ctx;
+    int quick;
+    int count;
+    HardReading *reading;
+    double seconds;
+} HardReport;
+
+/* Local. Names, values and words for tables. */
+extern const char *const hard_outcome_name[HARD_OUTCOMES];
+extern const double hard_ratio[HARD_RATIOS];
+extern const double hard_nu[HARD_FAMILY];
+extern const double hard_border[HARD_POISSONS - HARD_FAMILY];
+const char *hard_shape_name(int shape);
+int hard_find_shape(const char *name); /* or -1 */
+void hard_describe_poisson(int poisson, char *text, size_t size);
+void hard_describe_column(int column, char *text, size_t size);
+void hard_describe(const HardPoint *point, char *text, size_t size);
+
+/* Local. The column of the printed matrices that a point belongs to: ratio and stiff direction, then axes. */
+int hard_column(const HardPoint *point);
+
+/* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
+ * occurs. The caller frees them. */
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points);
+
+/* A point's case, made in memory. It holds pointers into itself: it must not move. */
+typedef struct HardCase {
+    OstCase c;
+    OstCaseMaterial material[2];
+    OstConstraint constraint;
+    OstLoad load;
+    char *constrained, *pulled; /* names of boundaries */
+} HardCase;
+
+/* Local. The case of a point: shape, supports, load, materials. */
+OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard);
+
+/* Local: its parts. */
+void hard_place(const HardPoint *point, HardCase *hard);
+OstStatus hard_materials(OstContext *ctx, const HardPoint *point, HardCase *hard);
+
+/* Collective. The mesh of a point: slivers and layers moved into place, inclusions marked, smooth axes laid on. */
+OstStatus hard_make_chunk(const HardPoint *point, const OstCase *c, OstMeshChunk **chunk);
+
+/* Local. Contrast of a shape's second region, 1 if it has none; origin and axis of its cylindrical axes. */
+double hard_contrast(int shape);
+void hard_cylinder(int shape, double origin[3], double axis[3]);
+
+/* Collective. Assembles the scene's equations again, factors them, iterates with compensated residuals until the
+ * solution is known to the last digits of double precision, or K turns out to be indefinite; then compares the result
+ * (NULL: there is none) with it. */
+OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
+
+/* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
+OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
+
+/* Collective. All points, with a progress line. */
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);
+void hard_report_destroy(HardReport **report);
+int hard_passed(const HardReport *report);
+
+/* Local; rank 0 prints and writes. */
+void hard_print(const HardReport *report);
+OstStatus hard_write_json(const HardReport *report, const char *path);
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "hard_grid/grid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The stated error is an estimate; it may be less than the error by this factor, and no more. */
+static const double slack = 3.0;
+
+const double hard_hopeless = 0.1;
+
+/* Words that the reason for refusing a flawed point must hold. */
+static const char *const reason_word[HARD_FLAWS] = {
+    [HARD_SOUND] = "",         [HARD_BEYOND_BORDER] = "Stable up to", [HARD_NU_HALF] = "-1 < nu < 0.5",
+    [HARD_LOOSE] = "can turn", [HARD_INVERTED] = "is inverted",       [HARD_NOT_A_NUMBER] = "not finite",
+};
+
+static void take_reason(HardReading *reading, const OstContext *ctx, OstStatus status)
+{
+    reading->status = status;
+    snprintf(reading->reason, sizeof reading->reason, "%s", status == OST_SUCCESS ? "" : ost_error_text(ctx));
+}
+
+static void take_result(const OstResult *result, HardReading *reading)
+{
+    reading->unknowns = result->unknowns;
+    reading->recipe = result->solve.recipe;
+    reading->iterations = result->solve.iterations;
+    reading->steps = result->solve.steps;
+    reading->residual = result->solve.relative_residual;
+    reading->rounding_limited = result->solve.rounding_limited;
+    reading->stated_error = result->solve.error_estimate > 0.0 ? result->solve.error_estimate : NAN;
+}
+
+static OstStatus solve(OstScene *scene, OstResult **result, HardReading *reading)
+{
+    const double start = ost_seconds();
+    const OstStatus status = ost_scene_solve(scene, result);
+    reading->seconds += ost_seconds() - start;
+    take_reason(reading, scene->ctx, status);
+    if (*result)
+        take_result(*result, reading);
+    return status;
+}
+
+/* A flawed point is refused as bad input, with a reason that names the flaw. */
+static void judge_flawed(HardReading *reading)
+{
+    const int named = strstr(reading->reason, reason_word[reading->point.flaw]) != NULL;
+    if (reading->status == OST_SUCCESS)
+        reading->outcome = HARD_FALSE;
+    else
+        reading->outcome = reading->status == OST_INVALID_INPUT && named ? HARD_REFUSED : HARD_GIVEN_UP;
+}
+
+static void fail(HardReading *reading, HardOutcome outcome, const char *why)
+{
+    reading->outcome = outcome;
+    if (!reading->reason[0])
+        snprintf(reading->reason, sizeof reading->reason, "%s", why);
+}
+
+/* Is the answer as near to the direct solution as the program states? If it states nothing, as the residual allows. */
+static int is_true(const HardReading *reading)
+{
+    const HardTruth *truth = &reading->truth;
+    const double allowed = isnan(reading->stated_error) ? truth->amplification * (reading->residual + truth->floor)
+                                                        : reading->stated_error;
+    return truth->error <= slack * allowed;
+}
+
+static void judge(HardReading *reading)
+{
+    const HardTruth *truth = &reading->truth;
+    const int hopeless_case = truth->indefinite || truth->rounded > hard_hopeless;
+    reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
+    if (reading->status != OST_SUCCESS)
+        reading->outcome = hopeless_case ? HARD_REFUSED : HARD_GIVEN_UP;
+    else if (!truth->known)
+        fail(reading, HARD_FALSE, "solved, but there is no direct solution");
+    else if (!is_true(reading))
+        fail(reading, HARD_FALSE, "further from the direct solution than stated");
+    else
+        reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
+}
+
+static OstStatus solve_sound(OstScene *scene, HardReading *reading)
+{
+    OstResult *result = NULL;
+    solve(scene, &result, reading);
+    OstStatus status = hard_find_truth(scene, result, &reading->truth);
+    ost_result_destroy(&result);
+    if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
+        status = OST_SUCCESS;
+    if (status == OST_SUCCESS)
+        judge(reading);
+    return status;
+}
+
+/* Is this a failure of the point, and not of the grid? */
+static int concerns_point(OstStatus status)
+{
+    return status == OST_INVALID_INPUT || status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED;
+}
+
+static OstStatus read_point(OstContext *ctx, const HardPoint *point, HardReading *reading)
+{
+    HardCase hard;
+    OstMeshChunk *chunk = NULL;
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    OstStatus status = ost_agree(ctx, hard_make_case(ctx, point, &hard));
+    if (status == OST_SUCCESS)
+        status = hard_make_chunk(point, &hard.c, &chunk);
+    if (status == OST_SUCCESS)
+        status = ost_scene_create_on(&hard.c, &chunk, &scene);
+    take_reason(reading, ctx, status);
+    if (point->flaw != HARD_SOUND) {
+        if (status == OST_SUCCESS)
+            status = solve(scene, &result, reading);
+        judge_flawed(reading);
+    } else if (status == OST_SUCCESS)
+        status = solve_sound(scene, reading);
+    else
+        reading->outcome = HARD_GIVEN_UP;
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    return concerns_point(status) ? OST_SUCCESS : status;
+}
+
+OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading)
+{
+    const OstLogLevel level = ost_log_level(ctx);
+    *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
+    reading->truth = (HardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    const OstStatus status = read_point(ctx, point, reading);
+    ost_log_set_level(ctx, level);
+    return status;
+}
+
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **out)
+{
+    HardReport *report = NULL;
+    HardPoint *points = NULL;
+    const double start = ost_seconds();
+    OstStatus status = OST_NEW(ctx, &report, 1);
+    if (status == OST_SUCCESS) {
+        report->ctx = ctx;
+        report->quick = quick;
+        status = hard_points(ctx, wanted, quick, &report->count, &points);
+    }
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &report->reading, report->count);
+    status = ost_agree(ctx, status);
+    for (int i = 0; status == OST_SUCCESS && i < report->count; i++) {
+        char what[160];
+        hard_describe(&points[i], what, sizeof what);
+        ost_progress(ctx, what, (double)i / report->count);
+        status = hard_read(ctx, &points[i], &report->reading[i]);
+        ost_log(ctx, OST_LOG_VERBOSE, "%s: %s, %d iterations, %.1f digits %s", what,
+                hard_outcome_name[report->reading[i].outcome], report->reading[i].iterations, report->reading[i].digits,
+                report->reading[i].reason);
+    }
+    ost_progress(ctx, "", -1.0);
+    OST_FREE(points);
+    if (status == OST_SUCCESS)
+        report->seconds = ost_seconds() - start;
+    else
+        hard_report_destroy(&report);
+    *out = report;
+    return status;
+}
+
+void hard_report_destroy(HardReport **report)
+{
+    if (!*report)
+        return;
+    OST_FREE((*report)->reading);
+    OST_FREE(*report);
+}
+
+int hard_passed(const HardReport *report)
+{
+    int failed = 0;
+    for (int i = 0; i < report->count; i++)
+        failed += report->reading[i].outcome == HARD_GIVEN_UP || report->reading[i].outcome == HARD_FALSE;
+    return failed == 0;
+}

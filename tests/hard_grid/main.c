@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "hard_grid/grid.h"
+
+#include "cli/command.h"
+#include "cli/destination.h"
+#include "core/error.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The program behind scripts/hard-grid. */
+
+enum { MOST_REPORTS = 2 };
+
+typedef struct Arguments {
+    int quick;
+    int report_count;
+    const char *report[MOST_REPORTS];
+    int shape_count; /* 0: all */
+    int wanted[HARD_SHAPES];
+} Arguments;
+
+static const struct argp_option options[] = {
+    {"quick", 'Q', 0, 0, "A sample of the points in which every value of every parameter occurs", 0},
+    {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
+    {0},
+};
+
+static error_t want_shape(struct argp_state *state, const char *name, Arguments *arguments)
+{
+    const int shape = hard_find_shape(name);
+    if (shape >= 0) {
+        arguments->wanted[shape] = 1;
+        arguments->shape_count++;
+        return 0;
+    }
+    char known[256] = "";
+    for (int s = 0; s < HARD_SHAPES; s++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", s > 0 ? ", " : "", hard_shape_name(s));
+    argp_error(state, "there is no shape '%s'; there are: %s", name, known);
+    return EINVAL;
+}
+
+static error_t parse_option(int key, char *value, struct argp_state *state)
+{
+    Arguments *arguments = state->input;
+    switch (key) {
+    case 'Q':
+        arguments->quick = 1;
+        return 0;
+    case 'j':
+        if (arguments->report_count == MOST_REPORTS) {
+            argp_error(state, "--json is given more than %d times", MOST_REPORTS);
+            return EINVAL;
+        }
+        arguments->report[arguments->report_count++] = value;
+        return 0;
+    case ARGP_KEY_ARG:
+        return want_shape(state, value, arguments);
+    case ARGP_KEY_END:
+        for (int s = 0; s < HARD_SHAPES && arguments->shape_count == 0; s++)
+            arguments->wanted[s] = 1;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp grid_argp = {
+    options,
+    parse_option,
+    "[SHAPE...]",
+    "Solves small bodies of every kind that solvers are known to fail on, and compares each answer with a direct "
+    "solution. Without a SHAPE, all of them.\vExit status 1 if any point fails.",
+    NULL,
+    NULL,
+    NULL};
+
+static OstStatus write_reports(const HardReport *report, const Arguments *arguments)
+{
+    int to_output = 0;
+    for (int i = 0; i < arguments->report_count; i++)
+        to_output |= strcmp(arguments->report[i], "-") == 0;
+    if (ost_log_level(report->ctx) != OST_LOG_QUIET && !to_output)
+        hard_print(report);
+    for (int i = 0; i < arguments->report_count; i++)
+        OST_TRY(hard_write_json(report, arguments->report[i]));
+    return OST_SUCCESS;
+}
+
+/* The grid takes a while, so the destinations of its reports are checked first. */
+static OstStatus run(OstContext *ctx, const Arguments *arguments, int *passed)
+{
+    static char name[] = "hard grid";
+    const OstCase nothing = {.ctx = ctx, .path = name};
+    HardReport *report = NULL;
+    *passed = 0;
+    OST_TRY(ost_check_outputs(&nothing, arguments->report_count, arguments->report));
+    OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, &report));
+    *passed = hard_passed(report);
+    const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
+    hard_report_destroy(&report);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    Arguments arguments = {0};
+    OstContext *ctx = NULL;
+    int exit_code = 0, passed = 0;
+    if (MPI_Init(&argc, &argv) != MPI_SUCCESS || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS) {
+        fputs("hard_grid: error: MPI could not be started\n", stderr);
+        return 1;
+    }
+    if (ost_cli_parse(ctx, &grid_argp, argc, argv, &arguments, &exit_code)) {
+        exit_code = ost_cli_finish(ctx, run(ctx, &arguments, &passed));
+        if (exit_code == 0 && !passed)
+            exit_code = ost_status_exit_code(OST_CHECK_FAILED);
+    }
+    ost_context_destroy(&ctx);
+    MPI_Finalize();
+    return exit_code;
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "hard_grid/grid.h"
+
+#include <stdio.h>
+
+/* --quick takes every 47th point: a prime that divides no count of values, so that every value occurs. */
+enum { QUICK_STRIDE = 47 };
+
+const char *const hard_outcome_name[HARD_OUTCOMES] = {"solved", "solved to rounding", "refused rightly", "given up",
+                                                      "FALSE SUCCESS"};
+const double hard_ratio[HARD_RATIOS] = {1.0, 1e3, 1e6};
+const double hard_nu[HARD_FAMILY] = {-0.5, 0.3, 0.45, 0.49, 0.499};
+const double hard_border[HARD_POISSONS - HARD_FAMILY] = {0.99, 0.999};
+
+static const char *const axes_name[HARD_AXES] = {"aligned", "cylindrical", "smooth"};
+
+void hard_describe_poisson(int poisson, char *text, size_t size)
+{
+    if (poisson < HARD_FAMILY)
+        snprintf(text, size, "nu %g", hard_nu[poisson]);
+    else
+        snprintf(text, size, "%g of border", hard_border[poisson - HARD_FAMILY]);
+}
+
+int hard_column(const HardPoint *point)
+{
+    const int stiffness = point->ratio == 0 ? 0 : 1 + 3 * (point->ratio - 1) + point->stiff;
+    return HARD_AXES * stiffness + point->axes;
+}
+
+void hard_describe_column(int column, char *text, size_t size)
+{
+    const int stiffness = column / HARD_AXES;
+    if (stiffness == 0)
+        snprintf(text, size, "E alike, %s", axes_name[column % HARD_AXES]);
+    else
+        snprintf(text, size, "E%d x %g, %s", (stiffness - 1) % 3 + 1, hard_ratio[1 + (stiffness - 1) / 3],
+                 axes_name[column % HARD_AXES]);
+}
+
+void hard_describe(const HardPoint *point, char *text, size_t size)
+{
+    static const char *const flaws[HARD_FLAWS] = {
+        "", ", 1.001 of the border", ", nu 0.5", ", held at one vertex", ", inverted", ", a load that is no number"};
+    char column[64], poisson[32];
+    hard_describe_column(hard_column(point), column, sizeof column);
+    hard_describe_poisson(point->poisson, poisson, sizeof poisson);
+    snprintf(text, size, "%s, order %d, %s, %s%s", hard_shape_name(point->shape), point->order, poisson, column,
+             flaws[point->flaw]);
+}
+
+/* --- lists of points --- */
+
+typedef struct PointList {
+    HardPoint *point; /* NULL: only count them */
+    int count;
+    const int *wanted;
+    int stride;
+    int seen;
+} PointList;
+
+/* Flawed points cost almost nothing: --quick takes them all. */
+static void add(PointList *list, HardPoint point)
+{
+    const int taken = point.flaw != HARD_SOUND || list->seen++ % list->stride == 0;
+    if (!taken || !list->wanted[point.shape])
+        return;
+    if (list->point)
+        list->point[list->count] = point;
+    list->count++;
+}
+
+/* Axes do not matter to an isotropic body; beyond the family, constants differ even if Young's moduli do not. */
+static void add_stiffnesses(PointList *list, HardPoint point)
+{
+    for (point.ratio = 0; point.ratio < HARD_RATIOS; point.ratio++)
+        for (point.stiff = 0; point.stiff < (point.ratio == 0 ? 1 : 3); point.stiff++) {
+            const int isotropic = point.ratio == 0 && point.poisson < HARD_FAMILY;
+            for (point.axes = 0; point.axes < (isotropic ? 1 : HARD_AXES); point.axes++)
+                add(list, point);
+        }
+}
+
+static void add_flawed(PointList *list, HardPoint point)
+{
+    const int slivers = hard_find_shape("slivers");
+    point.poisson = 1;
+    for (int f = HARD_SOUND + 1; f < HARD_FLAWS; f++) {
+        point.flaw = (HardFlaw)f;
+        if (point.flaw == HARD_INVERTED && point.shape != slivers)
+            continue;
+        for (point.ratio = 0; point.ratio < HARD_RATIOS; point.ratio++) {
+            point.stiff = point.axes = point.ratio;
+            add(list, point);
+        }
+    }
+}
+
+static void add_all(PointList *list)
+{
+    for (int shape = 0; shape < HARD_SHAPES; shape++)
+        for (int order = 1; order <= HARD_ORDERS; order++) {
+            HardPoint point = {.shape = shape, .order = order};
+            for (point.poisson = 0; point.poisson < HARD_POISSONS; point.poisson++)
+                add_stiffnesses(list, point);
+            add_flawed(list, point);
+        }
+}
+
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points)
+{
+    PointList list = {.wanted = wanted, .stride = quick ? QUICK_STRIDE : 1};
+    add_all(&list);
+    *count = list.count;
+    OST_TRY(OST_NEW(ctx, points, list.count));
+    list = (PointList){.point = *points, .wanted = wanted, .stride = quick ? QUICK_STRIDE : 1};
+    add_all(&list);
+    return OST_SUCCESS;
+}

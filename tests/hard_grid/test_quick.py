@@ -1,0 +1,75 @@
+"""A sample of the hard grid, on one rank and two: the sound is solved, flaws are named, the ranks are of one mind."""
+import json
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+from program import check, new_folder, run  # noqa: E402
+
+GRID = os.path.join(os.environ["ORTHOSTAT_TEST_BIN"], "hard_grid")
+SHAPES = {"tube", "beam", "plate", "slivers", "layers", "soft", "stiff", "checker"}
+SOLVED = {"solved", "solved to rounding"}
+
+
+def grid(folder, ranks, *shapes):
+    path = os.path.join(folder, f"hard-{ranks}.json")
+    finished = run("--quick", "--json", path, *shapes, ranks=ranks, timeout=580, program=GRID)
+    with open(path) as stream:
+        document = json.load(stream)
+    check(document["ranks"] == ranks, f"{document['ranks']} ranks ran, not {ranks}")
+    check((finished.exit_code == 0) == document["passed"], f"exit {finished.exit_code}, passed {document['passed']}")
+    return {point["point"]: point for point in document["points"]}
+
+
+def check_sound(point):
+    name = point["point"]
+    check(point["outcome"] in SOLVED, f"{name}: {point['outcome']}: {point['reason']}")
+    check(point["unknowns"] > 3000, f"{name}: only {point['unknowns']} unknowns, which any case has factored")
+    check(point["rounding_limited"] == (point["outcome"] == "solved to rounding"), f"{name}: {point['outcome']}")
+    check(point["rounding_limited"] or point["relative_residual"] <= 1e-8, f"{name}: {point['relative_residual']}")
+    check(10 ** -point["digits"] <= 10 * point["stated_error"], f"{name}: {point['digits']} digits")
+
+
+def check_ranks(name, one, two):
+    """The same verdict; and the same body, as near as factorisations of differently rounded sums come to it."""
+    if one["outcome"] != two["outcome"]:  # at the very limit of double precision one may just reach 1e-8
+        check({one["outcome"], two["outcome"]} == SOLVED and max(one["floor"], two["floor"]) > 1e-10,
+              f"{name}: {one['outcome']} on one rank, {two['outcome']} on two")
+    if one["flawed"]:
+        return
+    apart = abs(one["size"] - two["size"]) / one["size"]
+    least = max(one["plain_factors_error"], two["plain_factors_error"], 1e-15)
+    check(apart <= 100 * least, f"{name}: displacements are {apart:.1e} apart")
+
+
+def main():
+    folder = new_folder()
+    one, two = grid(folder, 1), grid(folder, 2, "tube", "slivers", "stiff")
+    sound = [name for name, point in one.items() if not point["flawed"]]
+    check({one[name]["shape"] for name in sound} == SHAPES, "a shape is missing")
+    check({one[name]["row"] for name in sound} == set(range(7)), "a Poisson's ratio is missing")
+    check({one[name]["order"] for name in sound} == {1, 2}, "an order is missing")
+    check({point["shape"] for point in two.values()} == {"tube", "slivers", "stiff"}, "shapes were not picked")
+    for name, point in list(one.items()) + list(two.items()):
+        if point["flawed"]:
+            check(point["outcome"] == "refused rightly", f"{name}: {point['outcome']}: {point['reason']}")
+        else:
+            check_sound(point)
+    for name in two:
+        check_ranks(name, one[name], two[name])
+
+    unknown = run("cube", program=GRID)
+    check(unknown.exit_code == 2 and "slivers" in unknown.errors, "a shape that does not exist")
+    check(run("--json", os.path.join(folder, "no", "such.json"), "tube", program=GRID).exit_code == 2,
+          "a report that cannot be written is found before the grid runs")
+    check(run("--json", "-", "--json", "-", "tube", program=GRID).exit_code == 2, "two reports to standard output")
+
+    script = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "hard-grid")
+    check(run("--help", program=script).exit_code == 0, "scripts/hard-grid --help")
+    check("number of ranks" in run("-n", "0", program=script).errors, "no ranks")
+    check(run("--json", program=script).exit_code == 2, "an option without its value")
+    moved = run("verify", "--hard")
+    check(moved.exit_code == 2 and "scripts/hard-grid" in moved.errors, "verify --hard says where the grid has gone")
+
+
+main()
