@@ -68,8 +68,8 @@ static OstStatus make_field(const Bench *bench, const double youngs_modulus[3], 
     OST_TRY(OST_NEW(bench->ctx, &centroids, 3 * (size_t)mesh->tet_count));
     OstStatus status = ost_mesh_tet_centroids(mesh, centroids);
     if (status == OST_SUCCESS)
-        status = ost_field_create(bench->ctx, 1, &material, &axes, mesh->tet_count, mesh->tet_region, mesh->tet_label,
-                                  centroids, NULL, field);
+        status = ost_field_create(bench->ctx, NULL, 1, &material, &axes, mesh->tet_count, mesh->tet_region,
+                                  mesh->tet_label, centroids, NULL, field);
     OST_FREE(centroids);
     return status;
 }

@@ -42,6 +42,7 @@ orthostat_find(Trilinos "Trilinos (Epetra, AztecOO, ML, Amesos)"
 orthostat_find(MUMPS "MUMPS" libmumps-dev dmumps_c.h "dmumps")
 orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
 orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
+orthostat_find(ZLIB "zlib" zlib1g-dev zlib.h "z")
 
 # Parallel HDF5 goes by its own names, beside a serial one.
 pkg_search_module(ORTHOSTAT_HDF5 IMPORTED_TARGET hdf5-openmpi hdf5-mpich hdf5-mpi)
@@ -49,17 +50,3 @@ if(NOT ORTHOSTAT_HDF5_FOUND)
   orthostat_missing("parallel HDF5" libhdf5-openmpi-dev)
 endif()
 add_library(Orthostat::HDF5 ALIAS PkgConfig::ORTHOSTAT_HDF5)
-
-# Gmsh's library is loaded when a .msh file is read and not before: it takes 40 ms and 22 MiB that no other case needs.
-find_path(ORTHOSTAT_GMSH_INCLUDE gmshc.h)
-find_library(ORTHOSTAT_GMSH_LIBRARY gmsh)
-if(NOT ORTHOSTAT_GMSH_INCLUDE OR NOT ORTHOSTAT_GMSH_LIBRARY)
-  orthostat_missing("Gmsh's library" libgmsh-dev)
-endif()
-mark_as_advanced(ORTHOSTAT_GMSH_INCLUDE ORTHOSTAT_GMSH_LIBRARY)
-execute_process(COMMAND readelf -d "${ORTHOSTAT_GMSH_LIBRARY}" OUTPUT_VARIABLE gmsh_dynamic)
-string(REGEX MATCH "SONAME[^\[]*\\[([^]]*)\\]" gmsh_soname_line "${gmsh_dynamic}")
-set(gmsh_soname "${CMAKE_MATCH_1}")
-add_library(Orthostat::GmshHeader INTERFACE IMPORTED)
-set_target_properties(Orthostat::GmshHeader PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${ORTHOSTAT_GMSH_INCLUDE}"
-                      INTERFACE_COMPILE_DEFINITIONS "ORTHOSTAT_GMSH_SONAME=\"${gmsh_soname}\"")

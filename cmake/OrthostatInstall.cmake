@@ -23,7 +23,7 @@ pkg_search_module(ORTHOSTAT_MPI mpi-c ompi-c mpich)
 
 # pkg-config. Programs that use the shared library link nothing of what stands below it; the static one brings it all.
 set(orthostat_pc_below)
-foreach(below IN ITEMS Trilinos MUMPS METIS YAML JSON)
+foreach(below IN ITEMS Trilinos MUMPS METIS YAML JSON ZLIB)
   get_target_property(libraries Orthostat::${below} INTERFACE_LINK_LIBRARIES)
   list(APPEND orthostat_pc_below ${libraries})
 endforeach()

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_FIELD_H
 
 #include "orthostat/axes.h"
+#include "orthostat/effect.h"
 #include "orthostat/material.h"
 
 OST_API_BEGIN
@@ -50,10 +51,13 @@ double ost_field_density(const OstMaterialField *field, OstLocal tet);
 
 /* Local. A field of `region_count` materials (copied) with the regions' axes given by `specs` (NULL: none), evaluated
  * at the `tet_count` centroids. Regions of kind OST_AXES_CELLS and OST_AXES_GRADIENT take them from `given_axes`
- * (tet_count × 9, NULL if no region asks). Left-handed or skew axes are refused, naming the tet by tet_label. */
-OstStatus ost_field_create(OstContext *ctx, int region_count, const OstMaterial *materials, const OstAxesSpec *specs,
-                           OstLocal tet_count, const int32_t *tet_region, const OstGlobal *tet_label,
-                           const double *centroids, const double *given_axes, OstMaterialField **field);
+ * (tet_count × 9, NULL if no region asks). `effects` are the scene's (NULL: what the materials and axes ask for is
+ * made); OST_EFFECT_REGIONS, OST_EFFECT_ORTHOTROPY, OST_EFFECT_VARYING_AXES. Left-handed or skew axes are refused,
+ * naming the tet by tet_label. */
+OstStatus ost_field_create(OstContext *ctx, const OstEffects *effects, int region_count, const OstMaterial *materials,
+                           const OstAxesSpec *specs, OstLocal tet_count, const int32_t *tet_region,
+                           const OstGlobal *tet_label, const double *centroids, const double *given_axes,
+                           OstMaterialField **field);
 
 /* Poisson's ratio above which a material counts as nearly incompressible. */
 #define OST_NEARLY_INCOMPRESSIBLE 0.45
@@ -73,7 +77,8 @@ OstStatus ost_field_create(OstContext *ctx, int region_count, const OstMaterial 
  *
  * A region is taken if its e, and no other eigenvalue, is below 1 - 2 nu_limit (two stiff modes cannot be told apart;
  * they come with nu below -0.9, and lock in other ways). Linear tets have no use for this and ignore it. Stiffness,
- * internal forces and stresses all follow the field. Returns in `regions` how many were taken. */
+ * internal forces and stresses all follow the field. Returns in `regions` how many were taken.
+ * OST_EFFECT_MEAN_DILATATION. */
 OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions);
 
 /* Local. m of a region along its axes (three numbers), or NULL if its C is not split. */

@@ -8,51 +8,50 @@
 
 OST_API_BEGIN
 
-/* The ledger books every second and every byte of a run to a phase of the work or to an effect of the scene. Seconds
- * are exclusive: entering an account stops the clock of the one around it, so the accounts add up to the whole run.
- * Bytes are booked to the account that is open when they are allocated. An effect that is off is never entered.
- * Columns: name, is it an effect, label. */
-#define OST_LEDGER_TABLE(X)                                   \
-    X(OST_LEDGER_OTHER, 0, "other")                           \
-    X(OST_LEDGER_CASE, 0, "case")                             \
-    X(OST_LEDGER_MESH, 0, "mesh")                             \
-    X(OST_LEDGER_PARTITION, 0, "partition")                   \
-    X(OST_LEDGER_SELECTION, 0, "selection")                   \
-    X(OST_LEDGER_PATTERN, 0, "stiffness pattern")             \
-    X(OST_LEDGER_STIFFNESS, 0, "stiffness")                   \
-    X(OST_LEDGER_SUPPORTS, 0, "supports")                     \
-    X(OST_LEDGER_HIERARCHY, 0, "multigrid setup")             \
-    X(OST_LEDGER_SOLVE, 0, "solve")                           \
-    X(OST_LEDGER_CHECKS, 0, "checks")                         \
-    X(OST_LEDGER_RECOVERY, 0, "strain and stress")            \
-    X(OST_LEDGER_OUTPUT, 0, "output")                         \
-    X(OST_EFFECT_ORTHOTROPY, 1, "orthotropy")                 \
-    X(OST_EFFECT_VARYING_AXES, 1, "varying axes")             \
-    X(OST_EFFECT_GRADIENT_AXES, 1, "gradient axes")           \
-    X(OST_EFFECT_REGIONS, 1, "several materials")             \
-    X(OST_EFFECT_GIVEN_DISPLACEMENT, 1, "given displacement") \
-    X(OST_EFFECT_SLIDING, 1, "sliding support")               \
-    X(OST_EFFECT_POINT_FORCE, 1, "point force")               \
-    X(OST_EFFECT_SURFACE_LOAD, 1, "surface load")             \
-    X(OST_EFFECT_BODY_FORCE, 1, "body force")
+/* The ledger books every second and every byte of a run to an account: a phase of the work, or an effect of the scene
+ * (orthostat/effect.h). Seconds are exclusive: entering an account stops the clock of the one around it, so the
+ * accounts add up to the whole run. Bytes are booked to the account that is open when they are allocated. What is done
+ * for an effect is booked to the effect, whatever phases it goes through. Columns: name, label. */
+#define OST_LEDGER_TABLE(X)                    \
+    X(OST_LEDGER_OTHER, "other")               \
+    X(OST_LEDGER_CASE, "case")                 \
+    X(OST_LEDGER_MESH, "mesh")                 \
+    X(OST_LEDGER_PARTITION, "partition")       \
+    X(OST_LEDGER_SELECTION, "selection")       \
+    X(OST_LEDGER_PATTERN, "stiffness pattern") \
+    X(OST_LEDGER_STIFFNESS, "stiffness")       \
+    X(OST_LEDGER_SUPPORTS, "supports")         \
+    X(OST_LEDGER_HIERARCHY, "multigrid setup") \
+    X(OST_LEDGER_SOLVE, "solve")               \
+    X(OST_LEDGER_CHECKS, "checks")             \
+    X(OST_LEDGER_OUTPUT, "output")
 
-#define OST_LEDGER_ENUM(name, is_effect, label) name,
-typedef enum { OST_LEDGER_TABLE(OST_LEDGER_ENUM) OST_LEDGER_COUNT } OstAccount;
+/* The phases, and after them room for effects; which those are, the ledger need not know. */
+#define OST_LEDGER_ENUM(name, label) name,
+typedef enum {
+    OST_LEDGER_TABLE(OST_LEDGER_ENUM) OST_LEDGER_PHASES,
+    OST_LEDGER_ACCOUNTS = OST_LEDGER_PHASES + 32
+} OstPhase;
 #undef OST_LEDGER_ENUM
+
+/* An OstPhase or an OstEffect. */
+typedef int OstAccount;
 
 typedef struct OstLedgerEntry {
     double seconds;    /* exclusive of the accounts entered within */
-    long entries;      /* how often the account was entered */
+    long entries;      /* how often the account was entered from another one */
     size_t bytes;      /* held now */
     size_t peak_bytes; /* the most held at any time */
 } OstLedgerEntry;
 
 struct OstContext;
 
-const char *ost_account_label(OstAccount account);
-int ost_account_is_effect(OstAccount account);
+/* Local. Gives an account a label, which is not copied; phases have theirs from the start. */
+void ost_ledger_name(struct OstContext *ctx, OstAccount account, const char *label);
+const char *ost_ledger_label(const struct OstContext *ctx, OstAccount account);
 
-/* Local. Opens an account / closes the innermost one. They nest (at most 32 deep). */
+/* Local. Opens an account / closes the innermost one. They nest (at most 32 deep). A phase entered within an effect is
+ * part of that effect. */
 void ost_ledger_enter(struct OstContext *ctx, OstAccount account);
 void ost_ledger_leave(struct OstContext *ctx);
 

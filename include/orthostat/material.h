@@ -73,6 +73,10 @@ OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *con
  * limits that people write, such as 0.45, so that it is given to 1e-12: rounding does not decide whether one is met. */
 double ost_equivalent_poisson(double least_eigenvalue);
 
+/* Does one mode of the normal strains, and no other, resist more than in an isotropic material of this Poisson's ratio?
+ * Two such modes come with nu below -0.9. From the eigenvalues. */
+int ost_has_one_stiff_mode(const double eigenvalues[3], double nu_limit);
+
 /* The common factor up to which all Poisson's ratios may grow (below 1: they are too large already), from the
  * eigenvalues; INFINITY if all are 0. */
 double ost_orthotropic_stable_scale(const double eigenvalues[3]);

@@ -15,11 +15,12 @@ typedef struct OstFileMaterials {
     double *axes;          /* count × 9 */
 } OstFileMaterials;
 
-/* Collective. Reads a mesh by its file's ending: .msh (Gmsh 2.2 and 4.1, ASCII and binary), .veg (Vega FEM), .vtkhdf.
- * Serial formats are read by rank 0, .vtkhdf by all ranks in parallel. Raises OST_FILE_FAILED or OST_INVALID_INPUT with
- * file:line where there is one, what was found and what was expected. Cubic .veg elements are refused by name.
- * Nodes and tets have the file's numbers as labels. Tets come in the file's order; those of a .msh file in the order of
- * their numbers. */
+/* Collective. Reads a mesh by its file's ending: .msh and .msh.gz (Gmsh 1, 2.0 to 2.2, 4.0 and 4.1, ASCII and
+ * binary), .veg (Vega FEM), .vtkhdf. Serial formats are read by rank 0, .vtkhdf by all ranks in parallel. Raises
+ * OST_FILE_FAILED or OST_INVALID_INPUT with file:line where there is one, what was found and what was expected. Cubic
+ * .veg elements are refused by name. Nodes and tets have the file's numbers as labels. Tets come in the file's order;
+ * those of a .msh file in the order of their numbers, turned if all are inverted, and without the nodes that no tet
+ * uses. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
 /* Local. Is the file at `sought` one of those a mesh file consists of: itself, or included by it? */

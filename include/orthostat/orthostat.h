@@ -6,6 +6,7 @@
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
 #include "orthostat/context.h"
+#include "orthostat/effect.h"
 #include "orthostat/exact.h"
 #include "orthostat/field.h"
 #include "orthostat/ledger.h"

@@ -3,54 +3,51 @@
 #define ORTHOSTAT_PLAN_H
 
 #include "orthostat/case.h"
+#include "orthostat/effect.h"
 #include "orthostat/mesh_file.h"
 
 OST_API_BEGIN
 
-/* The work a case calls for: every effect the program knows, on or off with the reason, and the size of the job,
- * foreseen before anything large is allocated. */
-typedef struct OstPlanEffect {
-    const char *label;
-    int on;
-    char reason[160];
-} OstPlanEffect;
-
-/* Columns: name, label, the ledger's account (OST_LEDGER_COUNT: none of its own). */
-#define OST_EFFECT_TABLE(X)                                                             \
-    X(OST_PLAN_ORTHOTROPY, "orthotropy", OST_EFFECT_ORTHOTROPY)                         \
-    X(OST_PLAN_VARYING_AXES, "varying axes", OST_EFFECT_VARYING_AXES)                   \
-    X(OST_PLAN_GRADIENT_AXES, "gradient axes", OST_EFFECT_GRADIENT_AXES)                \
-    X(OST_PLAN_REGIONS, "several materials", OST_EFFECT_REGIONS)                        \
-    X(OST_PLAN_GIVEN_DISPLACEMENT, "given displacement", OST_EFFECT_GIVEN_DISPLACEMENT) \
-    X(OST_PLAN_SLIDING, "sliding support", OST_EFFECT_SLIDING)                          \
-    X(OST_PLAN_POINT_FORCE, "point force", OST_EFFECT_POINT_FORCE)                      \
-    X(OST_PLAN_SURFACE_LOAD, "surface load", OST_EFFECT_SURFACE_LOAD)                   \
-    X(OST_PLAN_BODY_FORCE, "body force", OST_EFFECT_BODY_FORCE)
-#define OST_PLAN_ENUM(name, label, account) name,
-typedef enum { OST_EFFECT_TABLE(OST_PLAN_ENUM) OST_PLAN_COUNT } OstPlanIndex;
-#undef OST_PLAN_ENUM
+/* The work a case calls for: every effect, on or off with the reason, and the size of the job, foreseen before anything
+ * large is allocated. */
 
 /* More than anything can hold; sums and multiples of it by a few still fit 64 bits. */
 #define OST_PLAN_MOST (INT64_MAX / 64)
 
 typedef struct OstPlan {
-    OstPlanEffect effect[OST_PLAN_COUNT];
+    OstEffects effects;
     OstSolverFacts facts; /* as far as they are known */
     OstSolverPlan solver;
     OstGlobal nodes, tets; /* of the mesh as given */
     OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
     int least_ranks;       /* on fewer, one would hold more than can be numbered there, as far as is foreseen */
-    /* Over all ranks, foreseen (the formulas are in src/case/plan_memory.c): pieces of the mesh with their halos; K by
-     * blocks, its pattern and where each tet's blocks go; the recipe's copies and vectors; the output file. */
-    double bytes_mesh, bytes_matrix, bytes_solver, bytes_output;
+    /* Over all ranks, foreseen (the formulas are in src/case/plan_memory.c and the effects' rules): pieces of the mesh
+     * with their halos; K by blocks, its pattern and where each tet's blocks go; the solver's copies and vectors; what
+     * the effects hold; the output file. */
+    double bytes_mesh, bytes_matrix, bytes_solver, bytes_effects, bytes_output;
 } OstPlan;
 
-/* Local. The plan for a case on `ranks` ranks; nodes and tets as known so far (from the shape, or the mesh once read).
- * `materials` are those that came with the mesh file, or NULL. */
-void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
-                   OstPlan *plan);
+/* What is known of the mesh when a plan is made: from the shape or the file, or the mesh itself. */
+typedef struct OstPlanMesh {
+    OstGlobal nodes, tets;
+    int quadratic;
+    const OstNames *regions;           /* NULL: one, whatever its name, as shapes have */
+    const OstFileMaterials *materials; /* those that came with the file, or NULL */
+    const OstEffect *load;             /* what each load is (ost_load_effects); NULL: as far as the case tells */
+} OstPlanMesh;
 
-/* Local. Does anything act on the body: a load, or a displacement given that is not zero? */
+/* Local. The plan for a case on `ranks` ranks. */
+void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan);
+
+/* Local. Can only the mesh tell what some load is? So it is with a total force that goes over faces if its selection
+ * has any, and else over vertices. */
+int ost_loads_need_mesh(const OstCase *c);
+
+/* Collective. The effect that each load is, OST_EFFECT_POINT_FORCE, OST_EFFECT_SURFACE_LOAD or OST_EFFECT_BODY_FORCE;
+ * `effect` has load_count items. `mesh` may be NULL where the loads do not need it. Raises as ost_select_faces does. */
+OstStatus ost_load_effects(const OstCase *c, const OstMesh *mesh, OstEffect *effect);
+
+/* Local. Does anything act on the body: a load, or a prescribed displacement that is not zero? */
 int ost_plan_acts(const OstCase *c, const OstPlan *plan);
 
 /* Local. Nodes and tets of a shape, from its divisions; 0 and 0 where the mesh is a file. Counts that are out of reach

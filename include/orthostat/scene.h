@@ -14,7 +14,8 @@ OST_API_BEGIN
 typedef struct OstScene {
     OstContext *ctx;
     const OstCase *c;
-    OstPlan plan;
+    OstPlan plan;           /* its effects are what the work goes by */
+    OstEffect *load_effect; /* of each load of the case */
     OstMesh *mesh;
     OstMaterialField *field;
     const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */

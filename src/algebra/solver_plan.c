@@ -131,6 +131,12 @@ static void make_plan(const OstSolverOptions *options, const OstSolverFacts *fac
     plan_memory(facts, plan);
 }
 
+int ost_solver_may_be_multigrid(const OstSolverPlan *plan)
+{
+    const int is_multigrid = plan->first != OST_RECIPE_PLAIN && plan->first != OST_RECIPE_DIRECT;
+    return is_multigrid || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+}
+
 void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const double allowed = allowed_memory(options, facts);

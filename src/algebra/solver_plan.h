@@ -10,4 +10,8 @@ double ost_solver_factor_bytes(OstGlobal unknowns);
 /* Local. As ost_solver_plan, where the analysis has found that a factorisation does not fit. */
 void ost_solver_plan_without_factors(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
 
+/* Local. May multigrid be what solves? A factorisation that is bounded may turn out not to fit, and then it takes its
+ * place. */
+int ost_solver_may_be_multigrid(const OstSolverPlan *plan);
+
 #endif

@@ -55,6 +55,8 @@ static int is_moved(const OstSupport *support)
 
 static int any_moved(const OstSupports *supports)
 {
+    if (!ost_effect_on(supports->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT))
+        return 0;
     for (OstLocal s = 0; s < supports->count; s++)
         if (is_moved(&supports->support[s]))
             return 1;
@@ -115,7 +117,7 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
     double *moved = NULL;
     OstStatus status = OST_SUCCESS;
     if (any_moved(system->supports)) {
-        ost_ledger_enter(ctx, OST_EFFECT_GIVEN_DISPLACEMENT);
+        ost_ledger_enter(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
         status = OST_NEW(ctx, &moved, 3 * (size_t)system->mesh->owned_nodes);
         if (status == OST_SUCCESS)
             status = force_of_given(system, field, moved);

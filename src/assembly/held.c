@@ -15,18 +15,19 @@ static int is_partly_held(const OstSupport *support)
     return support->held > 0 && support->held < 3;
 }
 
-/* The account that partly held nodes are booked to, or OST_LEDGER_COUNT if there are none. */
+/* The account that partly held nodes are booked to, or OST_LEDGER_ACCOUNTS if there are none. */
 static OstAccount account_of(const OstSupports *supports)
 {
-    OstAccount account = OST_LEDGER_COUNT;
+    const int slides = ost_effect_on(supports->effects, OST_EFFECT_SLIDING);
+    OstAccount account = OST_LEDGER_ACCOUNTS;
     for (OstLocal s = 0; s < supports->count; s++) {
         const OstSupport *support = &supports->support[s];
         if (!is_partly_held(support))
             continue;
-        if (account == OST_LEDGER_COUNT)
+        if (account == OST_LEDGER_ACCOUNTS)
             account = OST_LEDGER_SUPPORTS;
         for (int k = 0; k < support->held; k++)
-            if (!is_coordinate(support->direction + 3 * k))
+            if (slides && !is_coordinate(support->direction + 3 * k))
                 account = OST_EFFECT_SLIDING;
     }
     return account;
@@ -67,7 +68,7 @@ void ost_system_apply_supports(OstSystem *system)
 {
     const OstBlockMatrix *matrix = system->matrix;
     const OstAccount account = account_of(system->supports);
-    if (account == OST_LEDGER_COUNT)
+    if (account == OST_LEDGER_ACCOUNTS)
         return;
     ost_ledger_enter(system->ctx, account);
     for (OstLocal row = 0; row < matrix->rows; row++) {

@@ -215,6 +215,7 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
     OstSupports *made = NULL;
     *supports = NULL;
     OST_TRY(ost_supports_create(linear, &made));
+    made->effects = quadratic->effects;
     OstStatus status = OST_SUCCESS;
     for (OstLocal vertex = 0; vertex < linear->node_count && status == OST_SUCCESS; vertex++) {
         const OstLocal index = quadratic->index[node_of_vertex[vertex]];

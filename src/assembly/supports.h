@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 #define ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 
+#include "orthostat/effect.h"
 #include "orthostat/mesh.h"
 
 /* What each node is free to do: u = P v + g, P the orthogonal projector on its free directions, g the given part of its
@@ -16,6 +17,7 @@ typedef struct OstSupport {
 
 typedef struct OstSupports {
     OstContext *ctx;
+    const OstEffects *effects; /* the scene's, by which they are worked with; NULL: none were looked for */
     const OstMesh *mesh;
     OstLocal *index; /* node_count: support of a node, or -1 */
     OstLocal count, capacity;

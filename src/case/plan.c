@@ -1,133 +1,65 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/plan.h"
 
+#include "algebra/solver_plan.h"
 #include "case/plan_parts.h"
 #include "core/error.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
-static void set(OstPlan *plan, OstPlanIndex effect, int on, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
-static void set(OstPlan *plan, OstPlanIndex effect, int on, const char *format, ...)
+static void count_constraints(const OstCase *c, OstEffectFacts *facts)
 {
-    OstPlanEffect *entry = &plan->effect[effect];
-    va_list arguments;
-    va_start(arguments, format);
-    entry->on = on;
-    vsnprintf(entry->reason, sizeof entry->reason, format, arguments);
-    va_end(arguments);
-}
-
-static void plan_materials(const OstPlanMaterials *m, OstPlan *plan)
-{
-    set(plan, OST_PLAN_ORTHOTROPY, m->orthotropic > 0, "%s", m->orthotropic_reason);
-    set(plan, OST_PLAN_VARYING_AXES, m->varying > 0, "%s", m->varying_reason);
-    if (m->gradient_region)
-        set(plan, OST_PLAN_GRADIENT_AXES, 1, "axes of region '%.60s' follow potentials between boundaries",
-            m->gradient_region);
-    else
-        set(plan, OST_PLAN_GRADIENT_AXES, 0, "no axes are given by gradients");
-    if (m->count > 1)
-        set(plan, OST_PLAN_REGIONS, 1, "%d materials", m->count);
-    else
-        set(plan, OST_PLAN_REGIONS, 0, "one material for the whole body");
-}
-
-static void plan_constraints(const OstCase *c, OstPlan *plan)
-{
-    int moved = 0;
-    int slides = 0;
+    facts->constraints = c->constraint_count;
+    facts->free_body = c->free_body;
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
         const double *u = constraint->displacement;
-        slides += constraint->kind == OST_CONSTRAIN_SLIDE;
         const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
-        moved += constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+        facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
+        facts->prescribed +=
+            constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
     }
-    if (moved > 0)
-        set(plan, OST_PLAN_GIVEN_DISPLACEMENT, 1, "%d of %d constraints give a displacement other than zero", moved,
-            c->constraint_count);
-    else
-        set(plan, OST_PLAN_GIVEN_DISPLACEMENT, 0,
-            c->constraint_count > 0 ? "every constraint is zero" : "there is no constraint");
-    if (slides > 0)
-        set(plan, OST_PLAN_SLIDING, 1, "%d of %d constraints let the body slide on a plane", slides,
-            c->constraint_count);
-    else
-        set(plan, OST_PLAN_SLIDING, 0, "no constraint is a slide");
 }
 
-/* A total force without a share goes over faces if the selection has any, which only the mesh knows; the boundaries of
- * shapes are faces. */
-static int may_be_faces(const OstLoad *load)
+static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts *facts)
 {
-    if (load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE)
-        return 1;
-    return load->kind == OST_LOAD_TOTAL_FORCE && load->share != OST_SHARE_VERTICES;
-}
-
-static int may_be_points(const OstCase *c, const OstLoad *load)
-{
-    if (load->kind == OST_LOAD_POINT_FORCE)
-        return 1;
-    if (load->kind != OST_LOAD_TOTAL_FORCE || load->share == OST_SHARE_FACES)
-        return 0;
-    return load->share == OST_SHARE_VERTICES || c->mesh_kind >= OST_MESH_FILE || load->on.kind != OST_SELECT_BOUNDARY;
-}
-
-static void plan_loads(const OstCase *c, OstPlan *plan)
-{
-    int points = 0, faces = 0, either = 0, volumes = 0, gravity = 0;
+    facts->loads = c->load_count;
     for (int i = 0; i < c->load_count; i++) {
-        const OstLoad *load = &c->loads[i];
-        points += may_be_points(c, load);
-        faces += may_be_faces(load);
-        either += may_be_faces(load) && may_be_points(c, load);
-        gravity += load->kind == OST_LOAD_GRAVITY;
-        volumes += load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE;
+        const OstEffect effect = known ? known[i] : ost_load_effect(c, &c->loads[i]);
+        facts->point_loads += effect == OST_EFFECT_POINT_FORCE;
+        facts->surface_loads += effect == OST_EFFECT_SURFACE_LOAD;
+        facts->body_loads += effect == OST_EFFECT_BODY_FORCE;
+        facts->gravity_loads += c->loads[i].kind == OST_LOAD_GRAVITY;
     }
-    const char *none = c->load_count == 0 ? "there is no load" : NULL;
-    if (points > either)
-        set(plan, OST_PLAN_POINT_FORCE, 1, "%d of %d loads act on vertices", points, c->load_count);
-    else if (points > 0)
-        set(plan, OST_PLAN_POINT_FORCE, 1, "a total force acts on vertices if its selection has no whole face");
-    else
-        set(plan, OST_PLAN_POINT_FORCE, 0, "%s", none ? none : "no load acts on vertices");
-    if (faces > either)
-        set(plan, OST_PLAN_SURFACE_LOAD, 1, "%d of %d loads act on faces", faces, c->load_count);
-    else if (faces > 0)
-        set(plan, OST_PLAN_SURFACE_LOAD, 1, "a total force acts on faces if its selection has any");
-    else
-        set(plan, OST_PLAN_SURFACE_LOAD, 0, "%s", none ? none : "no load acts on faces");
-    if (volumes > 0)
-        set(plan, OST_PLAN_BODY_FORCE, 1, "%d of %d loads act in the volume%s", volumes, c->load_count,
-            gravity > 0 ? ", gravity among them" : "");
-    else
-        set(plan, OST_PLAN_BODY_FORCE, 0, "%s", none ? none : "no load acts in the volume");
 }
 
-void ost_plan_make(const OstCase *c, OstGlobal nodes, OstGlobal tets, const OstFileMaterials *materials, int ranks,
-                   OstPlan *plan)
+static void count_output(const OstCase *c, OstEffectFacts *facts)
 {
-#define EFFECT_LABEL(name, text, account) plan->effect[name].label = text;
-    OstPlanMaterials in_use;
+    facts->cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
+                         ost_plan_writes(c, OST_FIELD_ENERGY);
+    facts->node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
+}
+
+void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
+{
+    OstEffectFacts facts = {.quadratic = mesh->quadratic,
+                            .nodes = (double)mesh->nodes,
+                            .tets = (double)mesh->tets,
+                            .regions = mesh->regions ? mesh->regions->count : 1};
     memset(plan, 0, sizeof *plan);
-    OST_EFFECT_TABLE(EFFECT_LABEL)
-#undef EFFECT_LABEL
-    ost_plan_materials(c, materials, &in_use);
-    plan_materials(&in_use, plan);
-    plan_constraints(c, plan);
-    plan_loads(c, plan);
-    plan->nodes = nodes;
-    plan->tets = tets;
-    plan->unknowns = 3 * nodes;
-    plan->facts = in_use.facts;
+    plan->nodes = mesh->nodes;
+    plan->tets = mesh->tets;
+    plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
+    ost_plan_materials(c, mesh, &facts, &plan->facts);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
-    ost_plan_memory(c, ranks, plan);
+    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
+    count_constraints(c, &facts);
+    count_loads(c, mesh->load, &facts);
+    count_output(c, &facts);
+    ost_effects_find(&facts, &plan->effects);
+    ost_effects_name_accounts(c->ctx);
+    ost_plan_memory(c, mesh->quadratic, ranks, plan);
 }
 
 static OstGlobal bounded(double count)
@@ -198,5 +130,5 @@ void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, O
 
 int ost_plan_acts(const OstCase *c, const OstPlan *plan)
 {
-    return c->load_count > 0 || plan->effect[OST_PLAN_GIVEN_DISPLACEMENT].on;
+    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
 }

@@ -2,6 +2,7 @@
 #include "case/plan_parts.h"
 
 #include "case/regions.h"
+#include "orthostat/field.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,18 +13,16 @@ static int count_different(const double x[3])
     return 1 + (x[1] != x[0]) + (x[2] != x[0] && x[2] != x[1]);
 }
 
-static void say_why_orthotropic(const char *region, const OstOrthotropic *k, OstPlanMaterials *m)
+static void say_why_orthotropic(const char *region, const OstOrthotropic *k, char reason[160])
 {
     const int moduli = count_different(k->youngs_modulus);
+    const int ratios = count_different(k->poissons_ratio);
     if (moduli > 1)
-        snprintf(m->orthotropic_reason, sizeof m->orthotropic_reason, "%d different Young's moduli in region '%.60s'",
-                 moduli, region);
-    else if (count_different(k->poissons_ratio) > 1)
-        snprintf(m->orthotropic_reason, sizeof m->orthotropic_reason, "%d different Poisson's ratios in region '%.60s'",
-                 count_different(k->poissons_ratio), region);
+        snprintf(reason, 160, "%d different Young's moduli in region '%.60s'", moduli, region);
+    else if (ratios > 1)
+        snprintf(reason, 160, "%d different Poisson's ratios in region '%.60s'", ratios, region);
     else
-        snprintf(m->orthotropic_reason, sizeof m->orthotropic_reason,
-                 "the shear moduli of region '%.60s' are not those of an isotropic material", region);
+        snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
 }
 
 static const char *what_varying_axes_follow(OstAxesKind kind)
@@ -57,45 +56,58 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softes
     facts->contrast = *stiffest / *softest;
 }
 
-static void count_axes(const OstCaseMaterial *stated, OstPlanMaterials *m)
+static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
 {
     if (!ost_axes_vary(&stated->axes))
         return;
-    if (m->varying++ == 0)
-        snprintf(m->varying_reason, sizeof m->varying_reason, "%s in region '%.60s'",
+    if (facts->varying++ == 0)
+        snprintf(facts->varying_reason, sizeof facts->varying_reason, "%s in region '%.60s'",
                  what_varying_axes_follow(stated->axes.kind), stated->region);
     if (stated->axes.kind == OST_AXES_GRADIENT)
-        m->gradient_region = stated->region;
+        facts->gradient_region = stated->region;
 }
 
-void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, OstPlanMaterials *m)
+/* `stated` is NULL for a material of the mesh file, whose axes are fixed. */
+static void add_material(OstContext *ctx, const char *region, const OstMaterial *material,
+                         const OstCaseMaterial *stated, OstEffectFacts *facts)
 {
-    double softest = 0.0;
-    double stiffest = 0.0;
-    memset(m, 0, sizeof *m);
+    double eigenvalues[3] = {1.0, 1.0, 1.0};
+    facts->materials++;
+    if (ost_orthotropic_eigenvalues(ctx, &material->constants, eigenvalues) == OST_SUCCESS)
+        facts->nearly_incompressible += ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE);
+    if (material->isotropic)
+        return;
+    if (facts->orthotropic++ == 0)
+        say_why_orthotropic(region, &material->constants, facts->orthotropic_reason);
+    if (stated)
+        add_axes(stated, facts);
+}
+
+/* Without regions there is one, which every entry fits. */
+static int is_in_use(const OstCase *c, const OstNames *regions, int entry)
+{
+    for (int r = 0; regions && r < regions->count; r++)
+        if (ost_case_material_of(c, regions->name[r]) == &c->materials[entry])
+            return 1;
+    return !regions && entry == c->material_count - 1;
+}
+
+void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver)
+{
+    const OstFileMaterials *file = mesh->regions ? mesh->materials : NULL;
+    double softest = 0.0, stiffest = 0.0;
     for (int i = 0; i < c->material_count; i++) {
         const OstCaseMaterial *stated = &c->materials[i];
-        const OstOrthotropic *constants = &stated->material.constants;
-        if (ost_case_material_is_overridden(c, i))
+        if (!is_in_use(c, mesh->regions, i))
             continue;
-        m->count++;
-        ost_plan_add_facts(c->ctx, constants, &softest, &stiffest, &m->facts);
-        if (stated->material.isotropic)
+        add_material(c->ctx, stated->region, &stated->material, stated, facts);
+        ost_plan_add_facts(c->ctx, &stated->material.constants, &softest, &stiffest, solver);
+    }
+    for (int r = 0; file && r < file->count; r++) {
+        const OstMaterial *material = &file->material[r];
+        if (ost_case_material_of(c, mesh->regions->name[r]))
             continue;
-        if (m->orthotropic++ == 0)
-            say_why_orthotropic(stated->region, constants, m);
-        count_axes(stated, m);
+        add_material(c->ctx, material->name, material, NULL, facts);
+        ost_plan_add_facts(c->ctx, &material->constants, &softest, &stiffest, solver);
     }
-    for (int r = 0; from_file && r < from_file->count && !ost_case_material_is_overridden(c, -1); r++) {
-        m->count++;
-        ost_plan_add_facts(c->ctx, &from_file->material[r].constants, &softest, &stiffest, &m->facts);
-        if (!from_file->material[r].isotropic && m->orthotropic++ == 0)
-            say_why_orthotropic(from_file->material[r].name, &from_file->material[r].constants, m);
-    }
-    if (m->orthotropic == 0)
-        snprintf(m->orthotropic_reason, sizeof m->orthotropic_reason, "every material is isotropic");
-    if (m->varying == 0)
-        snprintf(m->varying_reason, sizeof m->varying_reason, "%s",
-                 m->orthotropic > 0 ? "the axes are the same all over each region"
-                                    : "an isotropic body has no use for axes");
 }

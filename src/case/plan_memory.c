@@ -6,15 +6,16 @@
 
 /* What each part holds, in bytes; the fields are those of mesh.h, block_matrix.h, system.h and result.h. */
 static const double mesh_node_bytes = 24.0 + 8.0 + 8.0;      /* coordinates, number, label */
-static const double mesh_tet_bytes = 16.0 + 8.0 + 8.0 + 4.0; /* nodes, label, index, region */
-static const double tet_axes_bytes = 72.0;                   /* where axes vary */
+static const double mesh_tet_bytes = 8.0 + 8.0 + 4.0;        /* label, index, region; its nodes come on top */
 static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
 static const double row_bytes = 8.0 + 4.0 + 4.0 + 4.0 + 4.0; /* label, start, diagonal, both maps of nodes and rows */
-static const double scatter_bytes = 16.0 * 4.0;              /* where the 16 blocks of a tet go */
+static const double pair_bytes = 4.0;                        /* where the block of two of a tet's nodes goes */
 static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
 
-/* Times the matrix: level 0 in float blocks, the smoother's factors, and a hierarchy of half the matrix' size. */
-static const double metric_copies = 2.8;
+/* Times the matrix, measured on the paper's tube: level 0 in float, the smoother's factors, and the levels below, which
+ * stand on a linear space of their own under quadratic tets (OST_EFFECT_LINEAR_SPACE). */
+static const double multigrid_copies = 1.9;
+static const double quadratic_copies = 1.0;
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
 /* Nodes and tets that ranks hold beside their own: a layer of nodes around each part. A part of n nodes has about
@@ -26,14 +27,18 @@ static double halo_factor(double nodes, int ranks)
     return 1.0 + fmin(3.0 * cbrt((double)ranks / nodes), (double)ranks - 1.0);
 }
 
-/* Blocks of K: the diagonal and two for each edge. By Euler's formula a mesh of V vertices, T tets and B faces on its
- * surface has V + T + B/2 edges (less a number that is small); B is about 12 V^(2/3) for a compact body. */
-static double matrix_blocks(double nodes, double tets)
+/* Blocks of K: one for each node, and two for each pair of nodes that share a tet. By Euler's formula a mesh of V
+ * vertices, T tets and B faces on its surface has E = V + T + B/2 edges (less a number that is small); B is about
+ * 12 V^(2/3) for a compact body. Quadratic tets have a node on each edge, whose tets have two vertices at its ends and
+ * 6 T / E more; an edge shares a face with 12 T / E others and lies opposite 6 T / E. */
+static double matrix_blocks(double nodes, double tets, int quadratic)
 {
-    return 3.0 * nodes + 2.0 * tets + 12.0 * pow(nodes, 2.0 / 3.0);
+    const double vertices = quadratic ? fmax(nodes - 7.0 / 6.0 * tets, 0.0) : nodes;
+    const double edges = quadratic ? nodes - vertices : vertices + tets + 6.0 * pow(vertices, 2.0 / 3.0);
+    return vertices + 2.0 * edges + (quadratic ? 5.0 * edges + 30.0 * tets : 0.0);
 }
 
-static double solver_bytes(const OstPlan *plan, double matrix_bytes)
+static double solver_bytes(const OstPlan *plan, int quadratic, double matrix_bytes)
 {
     const double vector_bytes = vectors * 24.0 * (double)plan->nodes;
     switch (plan->solver.first) {
@@ -42,11 +47,11 @@ static double solver_bytes(const OstPlan *plan, double matrix_bytes)
     case OST_RECIPE_PLAIN:
         return vector_bytes + plain_copies * matrix_bytes;
     default:
-        return vector_bytes + metric_copies * matrix_bytes;
+        return vector_bytes + (quadratic ? quadratic_copies : multigrid_copies) * matrix_bytes;
     }
 }
 
-static int has_field(const OstCase *c, OstOutputFieldBit field)
+int ost_plan_writes(const OstCase *c, OstOutputFieldBit field)
 {
     return (c->output_fields >> field & 1U) != 0;
 }
@@ -54,33 +59,35 @@ static int has_field(const OstCase *c, OstOutputFieldBit field)
 /* Points, cells and fields as the file holds them. */
 static double output_bytes(const OstCase *c, const OstPlan *plan)
 {
-    const double node = 24.0 + 24.0 * has_field(c, OST_FIELD_DISPLACEMENT) + 24.0 * has_field(c, OST_FIELD_REACTION) +
-                        48.0 * has_field(c, OST_FIELD_NODE_STRESS);
-    const double tet = 32.0 + 8.0 + 1.0 + 48.0 * has_field(c, OST_FIELD_STRESS) +
-                       48.0 * has_field(c, OST_FIELD_STRAIN) + 8.0 * has_field(c, OST_FIELD_ENERGY) +
-                       72.0 * has_field(c, OST_FIELD_AXES) + 4.0 * has_field(c, OST_FIELD_REGION) +
-                       4.0 * has_field(c, OST_FIELD_RANK);
+    const double node = 24.0 + 24.0 * ost_plan_writes(c, OST_FIELD_DISPLACEMENT) +
+                        24.0 * ost_plan_writes(c, OST_FIELD_REACTION) +
+                        48.0 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
+    const double tet = 32.0 + 8.0 + 1.0 + 48.0 * ost_plan_writes(c, OST_FIELD_STRESS) +
+                       48.0 * ost_plan_writes(c, OST_FIELD_STRAIN) + 8.0 * ost_plan_writes(c, OST_FIELD_ENERGY) +
+                       72.0 * ost_plan_writes(c, OST_FIELD_AXES) + 4.0 * ost_plan_writes(c, OST_FIELD_REGION) +
+                       4.0 * ost_plan_writes(c, OST_FIELD_RANK);
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 
 /* See assembly/limits.h: nonzeros of K, and nodes of tets, on a rank. Parts are alike, but for their halos. */
-static int least_ranks(const OstCase *c, double nodes, double tets)
+static int least_ranks(double blocks, double tet_nodes)
 {
-    const double nodes_per_tet = c->order == 2 ? 10.0 : 4.0;
-    const double counts = fmax(9.0 * matrix_blocks(nodes, tets), nodes_per_tet * tets);
-    return (int)fmin(fmax(ceil(counts / INT32_MAX), 1.0), INT32_MAX);
+    return (int)fmin(fmax(ceil(fmax(9.0 * blocks, tet_nodes) / INT32_MAX), 1.0), INT32_MAX);
 }
 
-void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
+void ost_plan_memory(const OstCase *c, int quadratic, int ranks, OstPlan *plan)
 {
     const double nodes = (double)plan->nodes;
     const double tets = (double)plan->tets;
+    const double nodes_per_tet = quadratic ? 10.0 : 4.0;
+    const double pairs = nodes_per_tet * (nodes_per_tet + 1.0) / 2.0;
     const double halo = halo_factor(nodes, ranks);
-    const double axes = plan->effect[OST_PLAN_VARYING_AXES].on ? tet_axes_bytes : 0.0;
-    const double value_bytes = matrix_blocks(nodes, tets) * block_bytes;
-    plan->least_ranks = least_ranks(c, nodes, tets);
-    plan->bytes_mesh = halo * (nodes * mesh_node_bytes + tets * (mesh_tet_bytes + axes));
-    plan->bytes_matrix = value_bytes + nodes * row_bytes + halo * tets * scatter_bytes;
-    plan->bytes_solver = solver_bytes(plan, value_bytes);
+    const double blocks = matrix_blocks(nodes, tets, quadratic);
+    plan->least_ranks = least_ranks(blocks, nodes_per_tet * tets);
+    plan->bytes_mesh = halo * (nodes * mesh_node_bytes + tets * (4.0 * nodes_per_tet + mesh_tet_bytes));
+    plan->bytes_matrix = blocks * block_bytes + nodes * row_bytes + halo * tets * pairs * pair_bytes;
+    plan->bytes_solver = solver_bytes(plan, quadratic, blocks * block_bytes);
+    for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
+        plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
     plan->bytes_output = output_bytes(c, plan);
 }

@@ -4,25 +4,21 @@
 
 #include "orthostat/plan.h"
 
-/* What the materials of a case ask for. Materials that a later one replaces for certain do not count. */
-typedef struct OstPlanMaterials {
-    int count;
-    int orthotropic; /* how many are not isotropic */
-    int varying;     /* how many of those have axes that differ from place to place */
-    const char *gradient_region;
-    char orthotropic_reason[160];
-    char varying_reason[160];
-    OstSolverFacts facts; /* of the materials */
-} OstPlanMaterials;
+/* Local. What the materials in use ask for. */
+void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver);
 
-void ost_plan_materials(const OstCase *c, const OstFileMaterials *from_file, OstPlanMaterials *materials);
+/* Local. The effect of a load, or OST_EFFECT_END where only the mesh can tell. */
+OstEffect ost_load_effect(const OstCase *c, const OstLoad *load);
 
 /* Local. Adds a material to what the solver's plan asks of them, ratios of moduli and Poisson's ratio; `softest` and
  * `stiffest` are the least and largest Young's modulus so far, 0 to begin with. */
 void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
                         OstSolverFacts *facts);
 
-/* Fills the plan's bytes from its nodes, tets, recipe and effects. */
-void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan);
+/* Local. Is a field among the output? */
+int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
+
+/* Local. Fills the plan's bytes from its nodes, tets, method and effects. */
+void ost_plan_memory(const OstCase *c, int quadratic, int ranks, OstPlan *plan);
 
 #endif

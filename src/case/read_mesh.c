@@ -132,10 +132,12 @@ static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase
 {
     OST_TRY(ost_read_path(yaml, node, &c->mesh_file));
     c->mesh_place = ost_yaml_at(node);
-    if (ost_has_ending(c->mesh_file, ".msh") || ost_has_ending(c->mesh_file, ".veg") ||
-        ost_has_ending(c->mesh_file, ".vtkhdf"))
-        return OST_SUCCESS;
-    return ost_yaml_raise(yaml, node, "found the mesh file '%s', expected a name that ends with .msh, .veg or .vtkhdf",
+    static const char *const endings[] = {".msh", ".msh.gz", ".veg", ".vtkhdf"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (ost_has_ending(c->mesh_file, endings[i]))
+            return OST_SUCCESS;
+    return ost_yaml_raise(yaml, node,
+                          "found the mesh file '%s', expected a name that ends with .msh, .msh.gz, .veg or .vtkhdf",
                           c->mesh_file);
 }
 

@@ -21,12 +21,3 @@ const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region
             return &c->materials[i];
     return NULL;
 }
-
-int ost_case_material_is_overridden(const OstCase *c, int entry)
-{
-    const char *region = entry < 0 ? "all" : c->materials[entry].region;
-    for (int later = entry + 1; later < c->material_count; later++)
-        if (fits(c->materials[later].region, region))
-            return 1;
-    return 0;
-}

@@ -11,7 +11,4 @@ int ost_is_every_region(const char *name);
 /* The entry of the case that counts for a region of the mesh; NULL if there is none. */
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
 
-/* Does a later entry override this one wherever it fits? Entry -1 stands for the materials of a mesh file. */
-int ost_case_material_is_overridden(const OstCase *c, int entry);
-
 #endif

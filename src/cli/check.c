@@ -115,7 +115,7 @@ static void look_for_oddities(const OstScene *scene, const Findings *findings)
     if (ost_check_outputs(c, 1, (const char *const[]){findings->output}) != OST_SUCCESS)
         ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
-        if (c->materials[i].axes.kind != OST_AXES_NONE && !scene->plan.effect[OST_PLAN_ORTHOTROPY].on) {
+        if (c->materials[i].axes.kind != OST_AXES_NONE && !ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
             ost_warn(ctx, "%s: axes are set, but every material is isotropic, so they have no effect", c->path);
             break;
         }

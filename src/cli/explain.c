@@ -3,45 +3,94 @@
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/free_memory.h"
+#include "core/memory.h"
 #include "orthostat/case.h"
 #include "orthostat/plan.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
+#include "problem/scene_mesh.h"
 
 #include <jansson.h>
 #include <stdio.h>
 
 static const char doc[] = "Say which effects a case calls for and why, how it will be solved, and how large the job "
-                          "is, before anything large is made.";
+                          "is. Nothing is assembled; the mesh is made only where it alone tells what a load acts on.";
 
-/* Shapes are known by their divisions; a file is read for its counts and materials. */
-static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
+/* Of the mesh that will be solved on, where only that tells what a load acts on. */
+static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan)
+{
+    OstMesh *mesh = NULL;
+    OstFileMaterials *from_file = NULL;
+    OstSceneMaterials materials = {0};
+    OstEffect *load = NULL;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &load, (size_t)c->load_count));
+    if (status != OST_SUCCESS)
+        goto done;
+    OST_TRY_DONE(ost_scene_mesh(c, &mesh, &from_file, &materials));
+    OST_TRY_DONE(ost_load_effects(c, mesh, load));
+    const OstPlanMesh facts = {.nodes = mesh->global_nodes,
+                               .tets = mesh->global_tets,
+                               .quadratic = mesh->nodes_per_tet == 10,
+                               .regions = &mesh->regions,
+                               .materials = from_file,
+                               .load = load};
+    ost_plan_make(c, &facts, ost_size(ctx), plan);
+done:
+    OST_FREE(load);
+    ost_scene_materials_release(&materials);
+    ost_file_materials_destroy(&from_file);
+    ost_mesh_destroy(&mesh);
+    return status;
+}
+
+/* A file is read for its counts, regions and materials. */
+static OstStatus plan_with_file(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstMeshChunk *chunk = NULL;
     OstFileMaterials *materials = NULL;
-    OstGlobal nodes = 0;
-    OstGlobal tets = 0;
-    OstStatus status = OST_SUCCESS;
-    ost_plan_shape_size(c, &nodes, &tets);
-    if (c->mesh_kind == OST_MESH_FILE) {
-        OST_TRY_DONE(ost_case_located(c, c->mesh_place, ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials)));
-        nodes = chunk->global_nodes;
-        tets = chunk->global_tets;
-        ost_plan_file_size(c, chunk->nodes_per_tet, &nodes, &tets);
-    }
-    OST_TRY_DONE(ost_plan_check_size(c, nodes));
-    ost_plan_make(c, nodes, tets, materials, ost_size(ctx), plan);
-    OST_TRY_DONE(ost_memory_free(ctx, &plan->facts.free_memory));
-    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    OstStatus status = ost_case_located(c, c->mesh_place, ost_mesh_file_read(ctx, c->mesh_file, &chunk, &materials));
+    if (status != OST_SUCCESS)
+        goto done;
+    OstPlanMesh facts = {.nodes = chunk->global_nodes,
+                         .tets = chunk->global_tets,
+                         .quadratic = c->order == 0 ? chunk->nodes_per_tet == 10 : c->order == 2,
+                         .regions = &chunk->regions,
+                         .materials = materials};
+    ost_plan_file_size(c, chunk->nodes_per_tet, &facts.nodes, &facts.tets);
+    OST_TRY_DONE(ost_plan_check_size(c, facts.nodes));
+    ost_plan_make(c, &facts, ost_size(ctx), plan);
 done:
     ost_chunk_destroy(&chunk);
     ost_file_materials_destroy(&materials);
     return status;
 }
 
+/* Shapes are known by their divisions. */
+static OstStatus plan_with_shape(OstContext *ctx, const OstCase *c, OstPlan *plan)
+{
+    OstPlanMesh facts = {.quadratic = c->order == 2};
+    ost_plan_shape_size(c, &facts.nodes, &facts.tets);
+    OST_TRY(ost_plan_check_size(c, facts.nodes));
+    ost_plan_make(c, &facts, ost_size(ctx), plan);
+    return OST_SUCCESS;
+}
+
+static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
+{
+    if (ost_loads_need_mesh(c))
+        OST_TRY(plan_with_mesh(ctx, c, plan));
+    else if (c->mesh_kind == OST_MESH_FILE)
+        OST_TRY(plan_with_file(ctx, c, plan));
+    else
+        OST_TRY(plan_with_shape(ctx, c, plan));
+    OST_TRY(ost_memory_free(ctx, &plan->facts.free_memory));
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    return OST_SUCCESS;
+}
+
 static double total_bytes(const OstPlan *plan)
 {
-    return plan->bytes_mesh + plan->bytes_matrix + plan->bytes_solver;
+    return plan->bytes_mesh + plan->bytes_matrix + plan->bytes_solver + plan->bytes_effects;
 }
 
 static void print_bytes(const char *label, double bytes)
@@ -64,8 +113,10 @@ static void print_solver(const OstSolverPlan *plan)
 static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 {
     printf("%s: %s\n\nEffects\n", c->path, c->title);
-    for (int e = 0; e < OST_PLAN_COUNT; e++)
-        printf("  %-20s %-4s %s\n", plan->effect[e].label, plan->effect[e].on ? "on" : "off", plan->effect[e].reason);
+    for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++) {
+        const OstEffectState *state = ost_effect_state(&plan->effects, (OstEffect)e);
+        printf("  %-23s %-4s %s\n", ost_effect_label((OstEffect)e), state->on ? "on" : "off", state->reason);
+    }
     print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
@@ -77,6 +128,7 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     print_bytes("mesh", plan->bytes_mesh);
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
+    print_bytes("effects", plan->bytes_effects);
     print_bytes("in all", total_bytes(plan));
     print_bytes("free now", plan->facts.free_memory);
     if (total_bytes(plan) > plan->facts.free_memory)
@@ -86,14 +138,15 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
-    json_t *root = json_pack(
-        "{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f}}", "case",
-        c->path, "title", c->title, "effects", ost_effects_json(plan), "solver", "recipe",
-        ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver), "relative_residual",
-        c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets,
-        "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks, "ranks_at_least", plan->least_ranks, "bytes",
-        "mesh", plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "in_all",
-        total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
+    json_t *root =
+        json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f}}",
+                  "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "solver", "recipe",
+                  ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver),
+                  "relative_residual", c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets",
+                  (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks,
+                  "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
+                  plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects, "in_all",
+                  total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

@@ -20,9 +20,7 @@ OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx)
         return OST_LIBRARY_FAILED;
     }
     made->level = OST_LOG_NORMAL;
-    made->stack[0] = OST_LEDGER_OTHER;
-    made->ledger[OST_LEDGER_OTHER].entries = 1;
-    made->clock = ost_seconds();
+    ost_ledger_open(made);
     *ctx = made;
     return OST_SUCCESS;
 }

@@ -19,13 +19,17 @@ struct OstContext {
     char error_text[OST_ERROR_TEXT_SIZE];
     char error_origin[OST_ERROR_ORIGIN_SIZE];
 
-    OstLedgerEntry ledger[OST_LEDGER_COUNT];
+    OstLedgerEntry ledger[OST_LEDGER_ACCOUNTS];
+    const char *label[OST_LEDGER_ACCOUNTS];
     OstAccount stack[OST_LEDGER_DEPTH];
     int depth;
     double clock; /* when the innermost account's clock was last brought up to date */
     size_t bytes;
     size_t peak_bytes;
 };
+
+/* Names the phases and starts the clock. */
+void ost_ledger_open(OstContext *ctx);
 
 /* Books `bytes` more (or, with `freed`, fewer) to an account. */
 void ost_ledger_book(OstContext *ctx, OstAccount account, size_t bytes, int freed);

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
 
-static const struct {
-    int is_effect;
-    const char *label;
-} account_table[OST_LEDGER_COUNT] = {
-#define OST_LEDGER_ROW(name, is_effect, label) {is_effect, label},
-    OST_LEDGER_TABLE(OST_LEDGER_ROW)
-#undef OST_LEDGER_ROW
-};
-
-const char *ost_account_label(OstAccount account)
+void ost_ledger_name(OstContext *ctx, OstAccount account, const char *label)
 {
-    return account_table[account].label;
+    ctx->label[account] = label;
 }
 
-int ost_account_is_effect(OstAccount account)
+const char *ost_ledger_label(const OstContext *ctx, OstAccount account)
 {
-    return account_table[account].is_effect;
+    return ctx->label[account] ? ctx->label[account] : "an effect";
+}
+
+void ost_ledger_open(OstContext *ctx)
+{
+#define OST_LEDGER_ROW(name, label) ost_ledger_name(ctx, name, label);
+    OST_LEDGER_TABLE(OST_LEDGER_ROW)
+#undef OST_LEDGER_ROW
+    ctx->stack[0] = OST_LEDGER_OTHER;
+    ctx->ledger[OST_LEDGER_OTHER].entries = 1;
+    ctx->clock = ost_seconds();
 }
 
 static void bring_clock_up_to_date(OstContext *ctx)
@@ -29,11 +30,13 @@ static void bring_clock_up_to_date(OstContext *ctx)
 
 void ost_ledger_enter(OstContext *ctx, OstAccount account)
 {
+    const OstAccount around = ctx->stack[ctx->depth];
+    const OstAccount booked = around >= OST_LEDGER_PHASES && account < OST_LEDGER_PHASES ? around : account;
     bring_clock_up_to_date(ctx);
     if (ctx->depth + 1 < OST_LEDGER_DEPTH)
         ctx->depth++;
-    ctx->stack[ctx->depth] = account;
-    ctx->ledger[account].entries++;
+    ctx->stack[ctx->depth] = booked;
+    ctx->ledger[booked].entries += booked != around;
 }
 
 void ost_ledger_leave(OstContext *ctx)
@@ -61,7 +64,7 @@ size_t ost_ledger_peak_bytes(const OstContext *ctx)
 
 void ost_ledger_restart_peak(OstContext *ctx)
 {
-    for (int a = 0; a < OST_LEDGER_COUNT; a++)
+    for (int a = 0; a < OST_LEDGER_ACCOUNTS; a++)
         ctx->ledger[a].peak_bytes = ctx->ledger[a].bytes;
     ctx->peak_bytes = ctx->bytes;
 }

@@ -26,7 +26,7 @@ static OstStatus raise_out_of_memory(OstContext *ctx, size_t count, size_t size)
         ctx, OST_OUT_OF_MEMORY,
         "out of memory: %zu items of %zu bytes (%.1f MiB) could not be had for '%s' on top of %.1f MiB; use "
         "more machines or a smaller mesh",
-        count, size, (double)count * (double)size / 1048576.0, ost_account_label(ctx->stack[ctx->depth]),
+        count, size, (double)count * (double)size / 1048576.0, ost_ledger_label(ctx, ctx->stack[ctx->depth]),
         (double)ctx->bytes / 1048576.0);
 }
 

@@ -12,24 +12,30 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-static OstStatus read_gmsh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+static OstStatus read_msh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OST_TRY(OST_NEW(ctx, materials, 1));
-    return ost_gmsh_read(ctx, path, chunk);
+    return ost_msh_read(ctx, path, chunk);
 }
 
 static const struct {
     const char *ending;
     OstStatus (*read)(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
-} serial_format[] = {{".msh", read_gmsh}, {".veg", ost_veg_read}};
+} serial_format[] = {{".msh", read_msh}, {".msh.gz", read_msh}, {".veg", ost_veg_read}};
 
 enum { SERIAL_FORMATS = sizeof serial_format / sizeof *serial_format };
 
+static int ends_with(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length >= tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
 /* Number of the serial format with this ending, or SERIAL_FORMATS. */
-static int find_format(const char *ending)
+static int find_format(const char *path)
 {
     int format = 0;
-    while (format < SERIAL_FORMATS && strcasecmp(ending, serial_format[format].ending) != 0)
+    while (format < SERIAL_FORMATS && !ends_with(path, serial_format[format].ending))
         format++;
     return format;
 }
@@ -61,27 +67,26 @@ static const char *ending_of(const char *path)
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
 {
     struct stat a, b;
-    if (strcasecmp(ending_of(path), ".veg") == 0)
+    if (ends_with(path, ".veg"))
         return ost_veg_reads(ctx, path, sought);
     return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
-    const char *ending = ending_of(path);
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
     *materials = NULL;
-    const int format = find_format(ending);
+    const int format = find_format(path);
     if (format < SERIAL_FORMATS)
         status = read_serial(ctx, format, path, chunk, materials);
-    else if (strcasecmp(ending, ".vtkhdf") == 0)
+    else if (ends_with(path, ".vtkhdf"))
         status = read_parallel(ctx, path, chunk, materials);
     else
         status = OST_RAISE(ctx, OST_INVALID_INPUT,
-                           "%s: the ending '%s' is not that of a mesh file; known are .msh "
+                           "%s: the ending '%s' is not that of a mesh file; known are .msh and .msh.gz "
                            "(Gmsh), .veg (Vega FEM) and .vtkhdf",
-                           path, ending);
+                           path, ending_of(path));
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(chunk);
         ost_file_materials_destroy(materials);

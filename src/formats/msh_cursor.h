@@ -4,36 +4,41 @@
 
 #include "orthostat/context.h"
 
-#include <stdio.h>
-
-enum { OST_MSH_LINE_SIZE = 250 }; /* Gmsh reads lines into 256 characters, and takes the rest for the next line */
-
-/* Walks over the numbers of a .msh file, whether they are written as text or as bytes. */
+/* A .msh file in memory, and a place in it from which numbers are read, whether they are text or bytes. */
 typedef struct OstMshCursor {
     OstContext *ctx;
     const char *path;
-    FILE *file;
-    OstGlobal bytes;     /* of the file */
-    OstGlobal line_ends; /* passed so far; not counted in binary sections */
-    OstGlobal line;      /* of what was read last, from 1 */
+    char *bytes;       /* of the file, unpacked; a zero follows the last */
+    const char *end;   /* behind the last byte */
+    const char *next;  /* what is read next */
+    const char *place; /* where what was read last begins, for messages */
     int binary;
     int swapped; /* bytes are in the other order than this machine's */
 } OstMshCursor;
 
-/* Local. Next line without its end; *found is 0 at the end of the file. Longer lines than a buffer are refused. */
-OstStatus ost_msh_line(OstMshCursor *cursor, char line[OST_MSH_LINE_SIZE], int *found);
+/* Local. Reads a file, packed by gzip or not, into memory; raises OST_FILE_FAILED or OST_INVALID_INPUT. */
+OstStatus ost_msh_open(OstContext *ctx, const char *path, OstMshCursor *cursor);
+void ost_msh_close(OstMshCursor *cursor);
 
-/* Local. Next number, of the type that the format names int, size_t and double; `what` names it in messages. */
+/* Local. The next number, of the type that the format names int, size_t and double; `what` names it in messages. An
+ * int is more than INT_MIN, a size_t at most OST_LARGEST_LABEL. */
 OstStatus ost_msh_int(OstMshCursor *cursor, const char *what, int *value);
 OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value);
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value);
+OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal count);
 
-/* Local. The next line, which must hold one whole number as text and nothing else, even in a binary file. It counts
- * things that take at least so many bytes each. */
-OstStatus ost_msh_count_line(OstMshCursor *cursor, const char *what, OstGlobal bytes_each, int *count);
+/* Local. A line that begins with a count, as text even in a binary file. */
+OstStatus ost_msh_count_line(OstMshCursor *cursor, const char *what, OstGlobal *count);
 
-/* Local. Refuses a count of things that take at least so many bytes each and so cannot be in the file. */
-OstStatus ost_msh_count(const OstMshCursor *cursor, const char *what, OstGlobal count, OstGlobal bytes_each);
+/* Local. Refuses a count of things that take at least so many bytes each and so cannot be in the rest of the file. */
+OstStatus ost_msh_check_count(const OstMshCursor *cursor, const char *what, OstGlobal count, OstGlobal bytes_each);
+
+/* Local. The rest of the line without blanks at its ends; goes to the next line. */
+typedef struct OstMshText {
+    const char *start;
+    int length;
+} OstMshText;
+OstMshText ost_msh_rest_of_line(OstMshCursor *cursor);
 
 /* Local. Raises OST_INVALID_INPUT, the text after the place in the file. */
 OstStatus ost_msh_raise(const OstMshCursor *cursor, const char *file, int line, const char *format, ...)

@@ -5,7 +5,7 @@
 #include "orthostat/mesh_file.h"
 
 /* Readers of the serial formats: local, called by the one rank that reads. They give the whole mesh. */
-OstStatus ost_gmsh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
+OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 OstStatus ost_veg_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
 /* Local. Is the file at `sought` this .veg file, or one that it includes? Mistakes in it are left to the reader. */

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/small.h"
+#include "orthostat/effect.h"
 
 /* Loads may miss balance by this share of their sizes: they are typed, and summed, with rounding. */
 static const double balance = 1e-8;
@@ -32,7 +33,7 @@ static void add_load(const double *x, const double *f, const double centre[3], d
     sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(f);
 }
 
-OstStatus ost_load_balance_check(const OstMesh *mesh, const double *force, const char *where)
+static OstStatus check(const OstMesh *mesh, const double *force, const char *where)
 {
     OstContext *ctx = mesh->ctx;
     double low[3], high[3], centre[3], sums[SUM_COUNT] = {0.0};
@@ -54,4 +55,12 @@ OstStatus ost_load_balance_check(const OstMesh *mesh, const double *force, const
         "size %g, and a moment (%g, %g, %g) of size %g about (%g, %g, %g); balance them, or hold the body",
         where, f[0], f[1], f[2], sums[SUM_FORCE_SIZE], m[0], m[1], m[2], sums[SUM_MOMENT_SIZE], centre[0], centre[1],
         centre[2]);
+}
+
+OstStatus ost_load_balance_check(const OstMesh *mesh, const double *force, const char *where)
+{
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    const OstStatus status = check(mesh, force, where);
+    ost_ledger_leave(mesh->ctx);
+    return status;
 }

@@ -45,6 +45,11 @@ double ost_equivalent_poisson(double least_eigenvalue)
     return round(0.5e12 * (1.0 - least_eigenvalue)) / 1e12; /* a quotient of whole numbers: the double nearest */
 }
 
+int ost_has_one_stiff_mode(const double eigenvalues[3], double nu_limit)
+{
+    return ost_equivalent_poisson(eigenvalues[0]) > nu_limit && ost_equivalent_poisson(eigenvalues[1]) <= nu_limit;
+}
+
 double ost_orthotropic_stable_scale(const double eigenvalues[3])
 {
     /* The block is I - t M with M's trace 0, so its smallest eigenvalue is 1 - t max(M). */

@@ -169,26 +169,37 @@ static OstStatus fill_tet_axes(OstMaterialField *field, const OstAxesSpec *specs
     return OST_SUCCESS;
 }
 
-static OstStatus allocate(OstContext *ctx, int region_count, OstMaterialField *field)
+/* What several regions hold is booked to the effect of several materials, if it is known to be on. */
+static OstStatus allocate(OstContext *ctx, const OstEffects *effects, int region_count, OstMaterialField *field)
 {
+    const int several = effects && ost_effect_on(effects, OST_EFFECT_REGIONS);
     field->ctx = ctx;
     field->region_count = region_count;
-    OST_TRY(OST_NEW(ctx, &field->material, region_count));
-    OST_TRY(OST_NEW(ctx, &field->region_stiffness, 36 * region_count));
-    return OST_NEW(ctx, &field->region_varies, region_count);
+    if (several)
+        ost_ledger_enter(ctx, OST_EFFECT_REGIONS);
+    OstStatus status = OST_NEW(ctx, &field->material, region_count);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &field->region_stiffness, 36 * region_count);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &field->region_varies, region_count);
+    if (several)
+        ost_ledger_leave(ctx);
+    return status;
 }
 
 /* Each effect's work with its account open; the accounts of effects that are off are never entered. */
-static OstStatus fill_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
+static OstStatus fill_axes(OstMaterialField *field, const OstEffects *effects, const OstAxesSpec *specs,
+                           const Tets *tets)
 {
+    const int may_vary = specs && ost_effect_on(effects, OST_EFFECT_VARYING_AXES);
     int orthotropic = 0, varying = 0;
     for (int r = 0; r < field->region_count; r++) {
         orthotropic |= !field->material[r].isotropic;
-        field->region_varies[r] = !field->material[r].isotropic && specs && ost_axes_vary(&specs[r]);
+        field->region_varies[r] = may_vary && !field->material[r].isotropic && ost_axes_vary(&specs[r]);
         varying |= field->region_varies[r];
     }
     OstStatus status = OST_SUCCESS;
-    if (orthotropic) {
+    if (orthotropic && ost_effect_on(effects, OST_EFFECT_ORTHOTROPY)) {
         ost_ledger_enter(field->ctx, OST_EFFECT_ORTHOTROPY);
         status = OST_NEW(field->ctx, &field->region_axes, 9 * field->region_count);
         ost_ledger_leave(field->ctx);
@@ -203,9 +214,10 @@ static OstStatus fill_axes(OstMaterialField *field, const OstAxesSpec *specs, co
     return status;
 }
 
-OstStatus ost_field_create(OstContext *ctx, int region_count, const OstMaterial *materials, const OstAxesSpec *specs,
-                           OstLocal tet_count, const int32_t *tet_region, const OstGlobal *tet_label,
-                           const double *centroids, const double *given_axes, OstMaterialField **out)
+OstStatus ost_field_create(OstContext *ctx, const OstEffects *effects, int region_count, const OstMaterial *materials,
+                           const OstAxesSpec *specs, OstLocal tet_count, const int32_t *tet_region,
+                           const OstGlobal *tet_label, const double *centroids, const double *given_axes,
+                           OstMaterialField **out)
 {
     const Tets tets = {tet_count, tet_region, tet_label, centroids, given_axes};
     OstMaterialField *field = NULL;
@@ -213,10 +225,10 @@ OstStatus ost_field_create(OstContext *ctx, int region_count, const OstMaterial 
     *out = NULL;
     OST_TRY(check_regions(ctx, region_count, &tets));
     OST_TRY(OST_NEW(ctx, &field, 1));
-    OST_TRY_DONE(allocate(ctx, region_count, field));
+    OST_TRY_DONE(allocate(ctx, effects, region_count, field));
     memcpy(field->material, materials, sizeof *materials * (size_t)region_count);
     field->tet_region = tet_region;
-    OST_TRY_DONE(fill_axes(field, specs, &tets));
+    OST_TRY_DONE(fill_axes(field, effects, specs, &tets));
     *out = field;
     return OST_SUCCESS;
 done:
@@ -248,7 +260,7 @@ static OstStatus split_material(OstContext *ctx, const OstMaterial *material, do
     ost_orthotropic_normalised_ratios(&material->constants, ratios);
     ost_normalised_block(ratios, block);
     OST_TRY(ost_symmetric_eigen(ctx, 3, block, eigenvalues, vectors));
-    *found = ost_equivalent_poisson(eigenvalues[0]) > nu_limit && ost_equivalent_poisson(eigenvalues[1]) <= nu_limit;
+    *found = ost_has_one_stiff_mode(eigenvalues, nu_limit);
     if (!*found)
         return OST_SUCCESS;
     const double excess = 1.0 / eigenvalues[0] - 1.0 / (1.0 - 2.0 * nu_limit);
@@ -268,6 +280,7 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
 {
     *regions = 0;
     forget_split(field);
+    ost_ledger_enter(field->ctx, OST_EFFECT_MEAN_DILATATION);
     OstStatus status = OST_NEW(field->ctx, &field->region_stiff_mode, 3 * field->region_count);
     if (status == OST_SUCCESS)
         status = OST_NEW(field->ctx, &field->region_rest, 36 * field->region_count);
@@ -279,6 +292,7 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
     }
     if (status != OST_SUCCESS || *regions == 0)
         forget_split(field);
+    ost_ledger_leave(field->ctx);
     return status;
 }
 

@@ -7,9 +7,9 @@
 
 /* The ledger over all ranks: seconds of the slowest rank, bytes of all. */
 typedef struct OstLedgerSummary {
-    double seconds[OST_LEDGER_COUNT];
-    double peak_bytes[OST_LEDGER_COUNT];
-    long entries[OST_LEDGER_COUNT];
+    double seconds[OST_EFFECT_END];
+    double peak_bytes[OST_EFFECT_END];
+    long entries[OST_EFFECT_END];
     double total_seconds;      /* since the context was made */
     double peak_tracked_bytes; /* of our own arrays, all ranks */
     double peak_process_bytes; /* as the system saw the processes, all ranks */
@@ -33,9 +33,10 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
 enum { OST_LONGEST_WARNING = 320 };
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
 
-/* Local. The plan's effects as a list of {effect, on, reason}; the caller's reference, NULL if jansson fails. */
+/* Local. The effects of a scene as a list of {effect, on, reason, bytes}: those foreseen; the caller's reference, NULL
+ * if jansson fails. */
 struct json_t;
-struct json_t *ost_effects_json(const OstPlan *plan);
+struct json_t *ost_effects_json(const OstEffects *effects);
 
 /* Local. The reasons of the solver's plan as a list of strings; likewise. */
 struct json_t *ost_solver_reasons_json(const OstSolverPlan *plan);

@@ -93,29 +93,31 @@ static json_t *objections_json(const OstVerdict *objections)
     return reasons;
 }
 
-static json_t *account_json(const OstLedgerSummary *summary, int account)
+static json_t *account_json(const OstContext *ctx, const OstLedgerSummary *summary, OstAccount account)
 {
-    return json_pack("{s:s, s:b, s:f, s:f, s:I}", "name", ost_account_label((OstAccount)account), "effect",
-                     ost_account_is_effect((OstAccount)account), "seconds", summary->seconds[account], "bytes",
+    return json_pack("{s:s, s:b, s:f, s:f, s:I}", "name", ost_ledger_label(ctx, account), "effect",
+                     account >= OST_LEDGER_PHASES, "seconds", summary->seconds[account], "bytes",
                      summary->peak_bytes[account], "entries", (json_int_t)summary->entries[account]);
 }
 
-static json_t *ledger_json(const OstLedgerSummary *summary)
+static json_t *ledger_json(const OstContext *ctx, const OstLedgerSummary *summary)
 {
     json_t *accounts = json_array();
-    for (int a = 0; a < OST_LEDGER_COUNT; a++)
-        json_array_append_new(accounts, account_json(summary, a));
+    for (int a = 0; a < OST_EFFECT_END; a++)
+        json_array_append_new(accounts, account_json(ctx, summary, a));
     return json_pack("{s:o, s:f, s:f, s:f}", "accounts", accounts, "total_seconds", summary->total_seconds,
                      "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes);
 }
 
-json_t *ost_effects_json(const OstPlan *plan)
+json_t *ost_effects_json(const OstEffects *effects)
 {
-    json_t *effects = json_array();
-    for (int e = 0; e < OST_PLAN_COUNT; e++)
-        json_array_append_new(effects, json_pack("{s:s, s:b, s:s}", "effect", plan->effect[e].label, "on",
-                                                 plan->effect[e].on, "reason", plan->effect[e].reason));
-    return effects;
+    json_t *list = json_array();
+    for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++) {
+        const OstEffectState *state = ost_effect_state(effects, (OstEffect)e);
+        json_array_append_new(list, json_pack("{s:s, s:b, s:s, s:f}", "effect", ost_effect_label((OstEffect)e), "on",
+                                              state->on, "reason", state->reason, "bytes", state->bytes));
+    }
+    return list;
 }
 
 static json_t *watched_json(const OstWatchedValue *watched, int count)
@@ -140,8 +142,8 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                      (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
                      checks_json(&result->checks), "largest_displacement", number_json(result->largest_displacement),
                      "largest_at", vector_json(result->largest_at), "watched",
-                     watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan), "ledger",
-                     ledger_json(summary), "output", file);
+                     watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects),
+                     "ledger", ledger_json(scene->ctx, summary), "output", file);
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,

@@ -63,11 +63,11 @@ static OstStatus hold_node(const OstScene *scene, const OstConstraint *constrain
 
 static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
 {
+    const OstAccount account = constraint->kind == OST_CONSTRAIN_SLIDE ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
-    const int slides = constraint->kind == OST_CONSTRAIN_SLIDE;
-    ost_ledger_enter(scene->ctx, slides ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS);
+    ost_ledger_enter(scene->ctx, account);
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
@@ -80,9 +80,11 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
 
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
 {
-    if (scene->c->free_body)
-        return ost_free_body_supports(scene->mesh, supports);
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
+        return ost_free_body_supports(scene->mesh, &scene->plan.effects, supports);
     OstStatus status = ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports));
+    if (status == OST_SUCCESS)
+        (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
         status = add_constraint(scene, &scene->c->constraints[i], *supports);
     if (status == OST_SUCCESS)
@@ -157,20 +159,8 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
     return ost_agree(scene->ctx, ost_load_traction(mesh, count, faces, nodes_per_face, traction, force));
 }
 
-/* Does a total force go over faces? Selections that are points by nature do not even look for any. */
-static int may_have_faces(const OstLoad *load)
+static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, double *force)
 {
-    if (load->kind != OST_LOAD_TOTAL_FORCE)
-        return load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE;
-    if (load->share == OST_SHARE_AUTO)
-        return load->on.kind != OST_SELECT_VERTICES && load->on.kind != OST_SELECT_NEAREST;
-    return load->share == OST_SHARE_FACES;
-}
-
-static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, double *force)
-{
-    if (!may_have_faces(load))
-        return add_vertex_load(scene, load, force);
     OstLocal count = 0;
     OstLocal *faces = NULL;
     int nodes_per_face = 3;
@@ -179,8 +169,6 @@ static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, d
     OstStatus status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
     if (status == OST_SUCCESS && area > 0.0)
         status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
-    else if (status == OST_SUCCESS && load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_AUTO)
-        status = add_vertex_load(scene, load, force);
     else if (status == OST_SUCCESS)
         status = OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                            "the selection holds no whole face of the body's surface, and this load needs faces; "
@@ -189,25 +177,24 @@ static OstStatus add_selected_load(const OstScene *scene, const OstLoad *load, d
     return status;
 }
 
-static OstAccount account_of_load(const OstLoad *load)
+static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force)
 {
-    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
-        return OST_EFFECT_BODY_FORCE;
-    return may_have_faces(load) ? OST_EFFECT_SURFACE_LOAD : OST_EFFECT_POINT_FORCE;
+    OstStatus status;
+    ost_ledger_enter(scene->ctx, effect);
+    if (effect == OST_EFFECT_BODY_FORCE)
+        status = ost_agree(scene->ctx, add_body_load(scene, load, force));
+    else if (effect == OST_EFFECT_SURFACE_LOAD)
+        status = add_surface_load(scene, load, force);
+    else
+        status = add_vertex_load(scene, load, force);
+    ost_ledger_leave(scene->ctx);
+    return at_line(scene->c, load->line, status);
 }
 
 OstStatus ost_scene_loads(const OstScene *scene, double *force)
 {
-    for (int i = 0; i < scene->c->load_count; i++) {
-        const OstLoad *load = &scene->c->loads[i];
-        ost_ledger_enter(scene->ctx, account_of_load(load));
-        OstStatus status;
-        if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
-            status = ost_agree(scene->ctx, add_body_load(scene, load, force));
-        else
-            status = add_selected_load(scene, load, force);
-        ost_ledger_leave(scene->ctx);
-        OST_TRY(at_line(scene->c, load->line, status));
-    }
+    for (int i = 0; i < scene->c->load_count; i++)
+        if (ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
+            OST_TRY(add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
     return OST_SUCCESS;
 }

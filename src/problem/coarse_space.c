@@ -63,9 +63,7 @@ OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialF
     OstLinearSpace *made = NULL;
     int has_rows = 0;
     *space = NULL;
-    if (quadratic->mesh->nodes_per_tet == 4)
-        return OST_SUCCESS;
-    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
+    ost_ledger_enter(ctx, OST_EFFECT_LINEAR_SPACE);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
     if (status == OST_SUCCESS)
         status = take_vertices(made, quadratic);

@@ -17,7 +17,7 @@ typedef struct OstLinearSpace {
 } OstLinearSpace;
 
 /* Collective. The linear space under a quadratic system; `with_metric` as for the quadratic rows. NULL comes back where
- * there is none: the mesh is linear, or its vertices are all held. Account OST_LEDGER_HIERARCHY, which it is part of.
+ * there is none: its vertices are all held. OST_EFFECT_LINEAR_SPACE.
  */
 OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,
                                   OstLinearSpace **space);

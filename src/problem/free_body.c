@@ -111,12 +111,17 @@ static OstStatus hold_three(const OstMesh *mesh, OstSupports *supports)
     return ost_supports_complete(supports);
 }
 
-OstStatus ost_free_body_supports(const OstMesh *mesh, OstSupports **supports)
+OstStatus ost_free_body_supports(const OstMesh *mesh, const OstEffects *effects, OstSupports **supports)
 {
-    OST_TRY(ost_agree(mesh->ctx, ost_supports_create(mesh, supports)));
-    const OstStatus status = hold_three(mesh, *supports);
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    OstStatus status = ost_agree(mesh->ctx, ost_supports_create(mesh, supports));
+    if (status == OST_SUCCESS) {
+        (*supports)->effects = effects;
+        status = hold_three(mesh, *supports);
+    }
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
+    ost_ledger_leave(mesh->ctx);
     return status;
 }
 
@@ -149,7 +154,7 @@ static void add_tet(const OstMesh *mesh, const OstLocal *nodes, const double *u,
     }
 }
 
-OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
+static OstStatus centre_body(const OstMesh *mesh, double *displacement)
 {
     double sums[SUM_BODY] = {0.0};
     double centre[3], mean[3], rotation[3];
@@ -169,4 +174,12 @@ OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
             displacement[3 * (size_t)n + (size_t)i] -= mean[i] + turned[i];
     }
     return OST_SUCCESS;
+}
+
+OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement)
+{
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_FREE_BODY);
+    const OstStatus status = centre_body(mesh, displacement);
+    ost_ledger_leave(mesh->ctx);
+    return status;
 }

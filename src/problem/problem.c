@@ -27,7 +27,7 @@ static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports
 {
     OstContext *ctx = parts->mesh->ctx;
     if (parts->free_body)
-        return ost_free_body_supports(parts->mesh, supports);
+        return ost_free_body_supports(parts->mesh, NULL, supports);
     OstStatus status = ost_supports_create(parts->mesh, supports);
     for (OstLocal i = 0; i < parts->constraint_count && status == OST_SUCCESS; i++) {
         const OstNodeConstraint *constraint = &parts->constraints[i];
@@ -90,8 +90,9 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     if (status != OST_SUCCESS)
         goto done;
     made->c = scene->c;
-    made->free_body = scene->c->free_body;
-    made->with_metric = scene->plan.effect[OST_PLAN_ORTHOTROPY].on;
+    made->effects = &scene->plan.effects;
+    made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
+    made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
     OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, made->force));

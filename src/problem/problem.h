@@ -10,12 +10,13 @@ struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
-    const OstCase *c;      /* NULL, or where supports and loads come from, for messages */
-    OstSupports *supports; /* with the displacements prescribed at t = 1 */
-    double *force;         /* 3 × owned_nodes: the load at t = 1 */
-    OstSystem *system;     /* NULL until the stiffness is asked for, and after its release */
-    int filled;            /* does the matrix have values? */
-    int linear;            /* is the internal force linear in the displacement? */
+    const OstCase *c;          /* NULL, or where supports and loads come from, for messages */
+    const OstEffects *effects; /* the scene's, or NULL: nobody has looked for them */
+    OstSupports *supports;     /* with the displacements prescribed at t = 1 */
+    double *force;             /* 3 × owned_nodes: the load at t = 1 */
+    OstSystem *system;         /* NULL until the stiffness is asked for, and after its release */
+    int filled;                /* does the matrix have values? */
+    int linear;                /* is the internal force linear in the displacement? */
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid wants the material's metric? */
     OstSolverFacts facts; /* of the materials */

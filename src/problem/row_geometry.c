@@ -12,8 +12,11 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
     OstStatus status = OST_NEW(ctx, &rows->coordinates, 3 * count);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &rows->modes, 18 * count);
-    if (status == OST_SUCCESS && with_metric)
+    if (status == OST_SUCCESS && with_metric) {
+        ost_ledger_enter(ctx, OST_EFFECT_ORTHOTROPY);
         status = OST_NEW(ctx, &rows->metric, 6 * count);
+        ost_ledger_leave(ctx);
+    }
     OST_TRY(ost_agree(ctx, status));
     rows->geometry =
         (OstSolverGeometry){.coordinates = rows->coordinates, .metric = rows->metric, .modes = rows->modes};

@@ -19,14 +19,6 @@ static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kin
     return !materials->material[region].isotropic && materials->axes[region].kind == kind;
 }
 
-static int any_wants(const OstMesh *mesh, const OstSceneMaterials *materials, OstAxesKind kind)
-{
-    for (int r = 0; r < mesh->regions.count; r++)
-        if (wants(materials, r, kind))
-            return 1;
-    return 0;
-}
-
 static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
 {
     const char *brings = c->mesh_kind == OST_MESH_FILE
@@ -88,13 +80,13 @@ static int needs_centroids(const OstMesh *mesh, const OstMaterial *materials, co
     return 0;
 }
 
-OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes,
-                              const double *tet_axes, OstMaterialField **field)
+static OstStatus create_field(const OstMesh *mesh, const OstEffects *effects, const OstMaterial *materials,
+                              const OstAxesSpec *axes, const double *tet_axes, OstMaterialField **field)
 {
     OstContext *ctx = mesh->ctx;
     double *centroids = NULL;
     OstStatus status = OST_SUCCESS;
-    if (needs_centroids(mesh, materials, axes)) {
+    if (ost_effect_on(effects, OST_EFFECT_VARYING_AXES) && needs_centroids(mesh, materials, axes)) {
         ost_ledger_enter(ctx, OST_EFFECT_VARYING_AXES);
         status = OST_NEW(ctx, &centroids, (size_t)mesh->tet_count * 3);
         if (status == OST_SUCCESS)
@@ -102,41 +94,57 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
         ost_ledger_leave(ctx);
     }
     if (status == OST_SUCCESS)
-        status = ost_field_create(ctx, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
+        status = ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
                                   mesh->tet_label, centroids, tet_axes, field);
     OST_FREE(centroids);
     return ost_agree(ctx, status);
 }
 
+OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes,
+                              const double *tet_axes, OstMaterialField **field)
+{
+    return create_field(mesh, NULL, materials, axes, tet_axes, field);
+}
+
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
 {
     OstContext *ctx = scene->ctx;
+    const OstEffects *effects = &scene->plan.effects;
     const OstMesh *mesh = scene->mesh;
     double *gradient_axes = NULL;
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
-    if (status == OST_SUCCESS && any_wants(mesh, materials, OST_AXES_GRADIENT))
+    if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_GRADIENT_AXES))
         status = solve_gradient_axes(scene, materials, &gradient_axes);
     if (status == OST_SUCCESS)
-        status = ost_field_create_on(mesh, materials->material, materials->axes,
-                                     gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field);
+        status = create_field(mesh, effects, materials->material, materials->axes,
+                              gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field);
     OST_FREE(gradient_axes);
     return status;
+}
+
+static int count_nearly_incompressible(const OstScene *scene)
+{
+    int regions = 0;
+    for (int r = 0; r < scene->field->region_count; r++) {
+        double eigenvalues[3] = {1.0, 1.0, 1.0};
+        if (ost_orthotropic_eigenvalues(scene->ctx, &scene->field->material[r].constants, eigenvalues) == OST_SUCCESS)
+            regions += ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE);
+    }
+    return regions;
 }
 
 /* Linear tets cannot keep their volume and bend: near incompressibility they lock, and say so here. Quadratic ones see
  * the mean of the dilatation alone, which frees them. */
 static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
-    int regions = 0;
-    const int quadratic = scene->mesh->nodes_per_tet == 10;
-    OST_TRY(ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions));
-    if (regions == 0)
-        return OST_SUCCESS;
-    if (quadratic) {
+    int regions = count_nearly_incompressible(scene);
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MEAN_DILATATION)) {
         ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet sees its mean dilatation",
                 OST_NEARLY_INCOMPRESSIBLE);
-        return OST_SUCCESS;
+        return ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
     }
+    if (regions == 0)
+        return OST_SUCCESS;
     /* Measured on sectors of a thick cylinder under pressure, 20 hexes of linear tets through the wall and 6 to 20
      * along 30 to 90 degrees; cases/verify/cylinder-nu-499 and -4999 hold the program to it. */
     ost_warn(
@@ -145,7 +153,7 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
         "them through its wall by 5 %% at nu = 0.49, 10 to 25 %% at 0.499, 10 to 50 %% at 0.4999, where quadratic "
         "ones are right to 0.1 %%: element: {order: 2}; `orthostat cost` says how much they differ here",
         OST_NEARLY_INCOMPRESSIBLE, regions, regions == 1 ? "" : "s");
-    return ost_field_mean_dilatation(scene->field, 0.5, &regions); /* linear tets have no use for it */
+    return OST_SUCCESS;
 }
 
 static OstStatus check_places(const OstCase *c, const OstMesh *mesh)
@@ -154,6 +162,22 @@ static OstStatus check_places(const OstCase *c, const OstMesh *mesh)
         OST_TRY(ost_select_check_place(c, mesh, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(ost_select_check_place(c, mesh, &c->loads[i].on));
+    return OST_SUCCESS;
+}
+
+static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
+{
+    const OstMesh *mesh = scene->mesh;
+    const OstCase *c = scene->c;
+    OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, &scene->load_effect, (size_t)c->load_count)));
+    OST_TRY(ost_load_effects(c, mesh, scene->load_effect));
+    const OstPlanMesh facts = {.nodes = mesh->global_nodes,
+                               .tets = mesh->global_tets,
+                               .quadratic = mesh->nodes_per_tet == 10,
+                               .regions = &mesh->regions,
+                               .materials = from_file,
+                               .load = scene->load_effect};
+    ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);
     return OST_SUCCESS;
 }
 
@@ -174,7 +198,7 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
                        : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
-    ost_plan_make(c, made->mesh->global_nodes, made->mesh->global_tets, from_file, ost_size(ctx), &made->plan);
+    OST_TRY_DONE(make_plan(made, from_file));
     OST_TRY_DONE(check_places(c, made->mesh));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
@@ -203,6 +227,7 @@ void ost_scene_destroy(OstScene **scene)
 {
     if (!*scene)
         return;
+    OST_FREE((*scene)->load_effect);
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);
     OST_FREE(*scene);

@@ -14,7 +14,7 @@ static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
 {
     OstPlan plan;
     double left = 0.0;
-    ost_plan_make(c, nodes, tets, NULL, ost_size(c->ctx), &plan);
+    ost_plan_make(c, &(OstPlanMesh){.nodes = nodes, .tets = tets, .quadratic = c->order == 2}, ost_size(c->ctx), &plan);
     OST_TRY(ost_memory_free(c->ctx, &left));
     const double wanted = plan.bytes_mesh + plan.bytes_matrix;
     if (wanted > left)

@@ -38,7 +38,7 @@ static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const 
         if (!has_direction(chunk, materials, r))
             material[r] = (OstMaterial){.isotropic = 1, .constants.youngs_modulus = {1.0, 1.0, 1.0}};
     }
-    const OstStatus status = ost_field_create(ctx, regions, material, materials->axes, chunk->tet_count,
+    const OstStatus status = ost_field_create(ctx, NULL, regions, material, materials->axes, chunk->tet_count,
                                               chunk->tet_region, chunk->tet_label, centroids, chunk->tet_axes, &field);
     for (OstLocal t = 0; t < chunk->tet_count && status == OST_SUCCESS; t++)
         ost_field_metric(field, t, metric + 6 * (size_t)t);

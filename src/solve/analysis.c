@@ -122,11 +122,12 @@ OstStatus ost_scene_dry_run(const OstScene *scene)
 
 OstStatus ost_scene_solve(const OstScene *scene, OstResult **result)
 {
+    const int recovers = ost_effect_on(&scene->plan.effects, OST_EFFECT_RECOVERY);
     OstProblem *problem = NULL;
     *result = NULL;
     OstStatus status = ost_scene_problem(scene, &problem);
     if (status == OST_SUCCESS)
-        status = ost_problem_solve(problem, &scene->c->solver, scene->c->output_fields, result);
+        status = ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result);
     ost_problem_destroy(&problem);
     return status;
 }

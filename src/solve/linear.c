@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
+#include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/reduce.h"
@@ -66,15 +67,11 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     return ost_guard_load(problem, linear->rhs, before);
 }
 
-static int is_multigrid(OstRecipe recipe)
+/* Where nobody has looked for effects, the rule of that one is applied here. */
+static int needs_linear_space(const OstProblem *problem, const OstSolverPlan *plan)
 {
-    return recipe != OST_RECIPE_PLAIN && recipe != OST_RECIPE_DIRECT;
-}
-
-/* A factorisation that is bounded may turn out not to fit, and then multigrid takes its place. */
-static int may_be_multigrid(const OstSolverPlan *plan)
-{
-    return is_multigrid(plan->first) || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+    return problem->effects ? ost_effect_on(problem->effects, OST_EFFECT_LINEAR_SPACE)
+                            : problem->mesh->nodes_per_tet == 10 && ost_solver_may_be_multigrid(plan);
 }
 
 static OstStatus make_solver(const OstAnalysis *analysis, Linear *linear)
@@ -82,7 +79,7 @@ static OstStatus make_solver(const OstAnalysis *analysis, Linear *linear)
     const OstProblem *problem = analysis->problem;
     OstSolverPlan plan;
     ost_solver_plan(&analysis->options, &linear->facts, &plan);
-    if (may_be_multigrid(&plan))
+    if (needs_linear_space(problem, &plan))
         OST_TRY(ost_linear_space_create(problem->system, problem->field, problem->with_metric, &linear->coarse));
     OstSolverGeometry geometry = linear->rows.geometry;
     geometry.coarse = linear->coarse ? &linear->coarse->space : NULL;

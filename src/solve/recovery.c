@@ -53,7 +53,7 @@ OstStatus ost_result_recover(OstResult *result, unsigned fields)
     if (!at_nodes && !asks(fields, OST_FIELD_STRAIN) && !asks(fields, OST_FIELD_STRESS) &&
         !asks(fields, OST_FIELD_ENERGY))
         return OST_SUCCESS;
-    ost_ledger_enter(ctx, OST_LEDGER_RECOVERY);
+    ost_ledger_enter(ctx, OST_EFFECT_RECOVERY);
     OstStatus status = ost_agree(ctx, recover_means(result, fields));
     if (status == OST_SUCCESS && at_nodes)
         status = ost_result_recover_node_stress(result);

@@ -9,39 +9,43 @@
 enum { MOST_REPEATS = 3 };
 static const double long_enough = 0.5;
 
-/* Accounts that are not listed count as the rest. */
-static const OstCostPhase phase_of[OST_LEDGER_COUNT] = {
-    [OST_LEDGER_MESH] = OST_COST_MESH,
-    [OST_LEDGER_PARTITION] = OST_COST_MESH,
-    [OST_LEDGER_SELECTION] = OST_COST_ASSEMBLY,
-    [OST_LEDGER_PATTERN] = OST_COST_ASSEMBLY,
-    [OST_LEDGER_STIFFNESS] = OST_COST_ASSEMBLY,
-    [OST_LEDGER_SUPPORTS] = OST_COST_ASSEMBLY,
-    [OST_LEDGER_HIERARCHY] = OST_COST_SETUP,
-    [OST_LEDGER_SOLVE] = OST_COST_SOLVE,
-    [OST_EFFECT_ORTHOTROPY] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_VARYING_AXES] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_GRADIENT_AXES] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_REGIONS] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_GIVEN_DISPLACEMENT] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_SLIDING] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_POINT_FORCE] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_SURFACE_LOAD] = OST_COST_ASSEMBLY,
-    [OST_EFFECT_BODY_FORCE] = OST_COST_ASSEMBLY,
-};
+/* What an effect calls for is part of the assembly, but for the linear space, which multigrid stands on, and what comes
+ * after the solve. */
+static OstCostPhase phase_of(OstAccount account)
+{
+    switch (account) {
+    case OST_LEDGER_MESH:
+    case OST_LEDGER_PARTITION:
+        return OST_COST_MESH;
+    case OST_LEDGER_SELECTION:
+    case OST_LEDGER_PATTERN:
+    case OST_LEDGER_STIFFNESS:
+    case OST_LEDGER_SUPPORTS:
+        return OST_COST_ASSEMBLY;
+    case OST_LEDGER_HIERARCHY:
+    case OST_EFFECT_LINEAR_SPACE:
+        return OST_COST_SETUP;
+    case OST_LEDGER_SOLVE:
+        return OST_COST_SOLVE;
+    case OST_EFFECT_RECOVERY:
+        return OST_COST_REST;
+    default:
+        return account < OST_LEDGER_PHASES ? OST_COST_REST : OST_COST_ASSEMBLY;
+    }
+}
 
 /* This rank's ledger when a run began. */
 typedef struct Meter {
     double start;
-    double seconds[OST_LEDGER_COUNT];
+    double seconds[OST_EFFECT_END];
     size_t bytes;
 } Meter;
 
 static OstStatus start_meter(OstContext *ctx, Meter *meter)
 {
     OST_TRY(OST_MPI(ctx, MPI_Barrier(ost_comm(ctx))));
-    for (int a = 0; a < OST_LEDGER_COUNT; a++)
-        meter->seconds[a] = ost_ledger_entry(ctx, (OstAccount)a).seconds;
+    for (int a = 0; a < OST_EFFECT_END; a++)
+        meter->seconds[a] = ost_ledger_entry(ctx, a).seconds;
     ost_ledger_restart_peak(ctx);
     meter->bytes = ost_ledger_bytes(ctx);
     meter->start = ost_seconds();
@@ -53,8 +57,8 @@ static OstStatus read_meter(OstContext *ctx, const Meter *meter, OstCostRun *run
     run->seconds = ost_seconds() - meter->start;
     run->bytes = (double)(ost_ledger_peak_bytes(ctx) - meter->bytes);
     memset(run->phase, 0, sizeof run->phase);
-    for (int a = 0; a < OST_LEDGER_COUNT; a++)
-        run->phase[phase_of[a]] += ost_ledger_entry(ctx, (OstAccount)a).seconds - meter->seconds[a];
+    for (int a = 0; a < OST_EFFECT_END; a++)
+        run->phase[phase_of(a)] += ost_ledger_entry(ctx, a).seconds - meter->seconds[a];
     MPI_Comm comm = ost_comm(ctx);
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->seconds, 1, MPI_DOUBLE, MPI_MAX, comm)));
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, run->phase, OST_COST_PHASES, MPI_DOUBLE, MPI_MAX, comm)));

@@ -80,8 +80,8 @@ static inline OstMaterialField *make_field(const OstMesh *mesh, const OstMateria
     axes_of(7, spec.fixed);
     for (size_t t = 0; t < tets; t++)
         axes_of(kind == AXES_RANDOM_BY_TET ? mesh->tet_label[t] : 7, axes + 9 * t);
-    assert_success(ost_field_create(mesh->ctx, 1, material, &spec, mesh->tet_count, mesh->tet_region, mesh->tet_label,
-                                    centroids, kind == AXES_FIXED ? NULL : axes, &field));
+    assert_success(ost_field_create(mesh->ctx, NULL, 1, material, &spec, mesh->tet_count, mesh->tet_region,
+                                    mesh->tet_label, centroids, kind == AXES_FIXED ? NULL : axes, &field));
     free(axes);
     free(centroids);
     return field;

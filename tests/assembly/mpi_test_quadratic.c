@@ -383,7 +383,7 @@ static OstMaterialField *field_of_ring(const OstMesh *mesh, int at_points)
     assert_success(ost_mesh_tet_centroids(mesh, centroids));
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
         assert_success(ost_axes_at(mesh->ctx, &formula, centroids + 3 * tet, given + 9 * tet));
-    assert_success(ost_field_create(mesh->ctx, 1, &material, at_points ? &formula : &by_tet, mesh->tet_count,
+    assert_success(ost_field_create(mesh->ctx, NULL, 1, &material, at_points ? &formula : &by_tet, mesh->tet_count,
                                     mesh->tet_region, mesh->tet_label, centroids, given, &field));
     free(centroids);
     free(given);

@@ -157,7 +157,7 @@ static void partly_held_nodes_keep_what_is_free(void **state)
 static void the_right_hand_side_is_minus_k_g(void **state)
 {
     (void)state;
-    const long before = ost_ledger_entry(ctx, OST_EFFECT_GIVEN_DISPLACEMENT).entries;
+    const long before = ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries;
     Held held = make_held(ctx, 1, 0.25);
     const OstMesh *mesh = held.mesh;
     OstSupports *none = NULL;
@@ -187,7 +187,7 @@ static void the_right_hand_side_is_minus_k_g(void **state)
         for (int i = 0; i < 3; i++)
             assert_close(rhs[3 * row + i] / size, expected[i] / size, 1e-13);
     }
-    const int moved = ost_ledger_entry(ctx, OST_EFFECT_GIVEN_DISPLACEMENT).entries > before;
+    const int moved = ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries > before;
     assert_true(sum_over_ranks(ctx, moved) > 0.0);
     free(force);
     free(g);
@@ -205,7 +205,7 @@ static void effects_that_are_off_are_not_entered(void **state)
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);
     OstSupports *supports = NULL;
-    const long given = ost_ledger_entry(ctx, OST_EFFECT_GIVEN_DISPLACEMENT).entries;
+    const long given = ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries;
     const long sliding = ost_ledger_entry(ctx, OST_EFFECT_SLIDING).entries;
     assert_success(ost_supports_create(mesh, &supports));
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
@@ -217,7 +217,7 @@ static void effects_that_are_off_are_not_entered(void **state)
     double *force = numbers(3 * (size_t)mesh->node_count);
     double *rhs = numbers(3 * (size_t)system->matrix->rows);
     assert_success(ost_system_right_hand_side(system, field, force, rhs));
-    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_GIVEN_DISPLACEMENT).entries, given);
+    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries, given);
     assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_SLIDING).entries, sliding);
     free(force);
     free(rhs);

@@ -143,6 +143,8 @@ MISTAKES = [
     ("folded quadratic tet", with_mesh("m.msh"), {"m.msh": tet10_msh("2.5 0 0")}, ["tet 1", "folds over"]),
     ("two orders in one mesh", with_mesh("m.msh"), {"m.msh": tet10_msh(more="2 4 2 1 1 1 2 3 4\n")}, ["m.msh:", "one order"]),
     ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
+    ("a mesh without tets", with_mesh("m.msh"), {"m.msh": MSH.replace("3 4 2 1 1 1 2 3 4", "3 2 2 1 1 1 2 4")},
+     ["case.yaml:2:9: m.msh: holds no tets among its 3 elements; mesh the volume (gmsh -3 MODEL.geo -o NEW.msh)"]),
     ("a curve among faces", with_mesh("m.msh").replace("nearest: [1, 0, 0]", "boundary: [lid, rim]"), {"m.msh": MSH},
      ["case.yaml:8:21: ", "'rim' is one of curves"]),
     ("potentials that meet", GOOD.replace("1000,", "[1000, 10, 10],").replace(

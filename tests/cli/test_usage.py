@@ -118,7 +118,7 @@ def main():
     check(report["solver"]["recipe"] == "direct" and report["solver"]["attainable_residual"] is None,
           f"nobody asked what double precision can hold: {report['solver']}")
     accounts = {a["name"]: a for a in report["ledger"]["accounts"]}
-    for name in ("orthotropy", "varying axes", "gradient axes", "body force", "given displacement"):
+    for name in ("orthotropy", "varying axes", "gradient axes", "body force", "prescribed displacement"):
         check(accounts[name]["entries"] == 0 and accounts[name]["bytes"] == 0, f"{name} is off but was called")
     for name in ("sliding support", "surface load"):
         check(accounts[name]["entries"] > 0, f"{name} is on but was not called")

@@ -45,7 +45,7 @@ static void accounts_nest_and_add_up(void **state)
     const double after =
         ost_ledger_entry(ctx, OST_LEDGER_SOLVE).seconds + ost_ledger_entry(ctx, OST_LEDGER_OUTPUT).seconds;
     assert_true(after - before >= 0.019 && after - before <= ost_seconds() - start + 1e-3);
-    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_BODY_FORCE).entries, 0);
+    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_PHASES).entries, 0);
 }
 
 static void eigenvalues_of_a_known_matrix(void **state)

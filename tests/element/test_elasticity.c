@@ -35,7 +35,7 @@ static OstMaterialField *make_field(int mixed, int32_t region[TETS])
         centroids[3 * t + 1] = t;
         centroids[3 * t + 2] = sin(t);
     }
-    assert_success(ost_field_create(ctx, REGIONS, material, axes, TETS, region, label, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, REGIONS, material, axes, TETS, region, label, centroids, NULL, &field));
     return field;
 }
 
@@ -187,7 +187,7 @@ static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **st
     OstElasticity elasticity;
     int regions = 0;
     assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, NULL, OST_LANES, region, label, NULL, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, OST_LANES, region, label, NULL, NULL, &field));
     assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     ost_elasticity_clear(&elasticity);
     ost_elasticity_gather(&elasticity, field, tets, 1, places);
@@ -219,7 +219,7 @@ static OstMaterialField *family_field(const double youngs_modulus[3], double nu,
         random_axes(lane + 1u, axes + 9 * lane);
     random_axes(9u, spec.fixed);
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, &spec, OST_LANES, region, label, centroids, axes, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, OST_LANES, region, label, centroids, axes, &field));
     return field;
 }
 
@@ -328,7 +328,7 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
         }
     }
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, &spec, OST_LANES, region, label, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, OST_LANES, region, label, centroids, NULL, &field));
     ost_elasticity_clear(&about_line);
     about_line.metric_suffices = 1;
     ost_elasticity_gather(&about_line, field, first_tets, 0, NULL);

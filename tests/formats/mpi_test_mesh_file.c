@@ -42,7 +42,7 @@ static void assert_shares(OstLocal node_count, OstLocal tet_count)
 static void all_ranks_know_the_names_of_a_gmsh_mesh(void **state)
 {
     (void)state;
-    for (int f = 0; f < MSH_FLAVOURS; f += 3) {
+    for (int f = MSH_22_TEXT; f < MSH_FLAVOURS; f += 3) {
         assert_success(ost_mesh_file_read(ctx, msh_write(&model, msh_flavours[f], "mesh.msh"), &chunk, &materials));
         assert_shares(5, 2);
         assert_int_equal(chunk->regions.count, 2);

@@ -4,7 +4,7 @@
 
 #include "scratch.h"
 
-/* Writes small .msh files in every flavour: after the description of the formats 2.2 and 4.1 in Gmsh's manual. */
+/* Writes small .msh files in every flavour, after the description of the formats 1 to 4.1 in Gmsh's manuals. */
 
 typedef struct MshNode {
     int tag;
@@ -28,9 +28,12 @@ typedef struct MshFlavour {
     int version, binary, swapped;
 } MshFlavour;
 
-static const MshFlavour msh_flavours[] = {{"2.2 text", 22, 0, 0}, {"2.2 binary", 22, 1, 0}, {"2.2 swapped", 22, 1, 1},
-                                          {"4.1 text", 41, 0, 0}, {"4.1 binary", 41, 1, 0}, {"4.1 swapped", 41, 1, 1}};
-enum { MSH_FLAVOURS = 6, MSH_SIZE = 16384 };
+static const MshFlavour msh_flavours[] = {{"1 text", 10, 0, 0},     {"2.0 text", 20, 0, 0},    {"2.0 binary", 20, 1, 0},
+                                          {"2.1 text", 21, 0, 0},   {"2.1 swapped", 21, 1, 1}, {"2.2 text", 22, 0, 0},
+                                          {"2.2 binary", 22, 1, 0}, {"2.2 swapped", 22, 1, 1}, {"4.0 text", 40, 0, 0},
+                                          {"4.0 binary", 40, 1, 0}, {"4.1 text", 41, 0, 0},    {"4.1 binary", 41, 1, 0},
+                                          {"4.1 swapped", 41, 1, 1}};
+enum { MSH_FLAVOURS = 13, MSH_22_TEXT = 5, MSH_22_BINARY = 6, MSH_41_TEXT = 10, MSH_41_BINARY = 11, MSH_SIZE = 16384 };
 
 typedef struct MshFile {
     MshFlavour flavour;
@@ -99,9 +102,10 @@ static void put_count_line(MshFile *file, int count)
     put_text(file, text);
 }
 
-static void put_model_22(MshFile *file, const MshModel *model)
+static void put_model_2(MshFile *file, const MshModel *model)
 {
-    put_text(file, "$Nodes\n");
+    const int first = file->flavour.version < 20;
+    put_text(file, first ? "$NOD\n" : "$Nodes\n");
     put_count_line(file, model->node_count);
     for (const MshNode *n = model->node; n < model->node + model->node_count; n++) {
         put_int(file, n->tag);
@@ -109,21 +113,25 @@ static void put_model_22(MshFile *file, const MshModel *model)
             put_double(file, n->x[c]);
         put_line_end(file);
     }
-    put_text(file, file->flavour.binary ? "\n$EndNodes\n$Elements\n" : "$EndNodes\n$Elements\n");
+    put_text(file, file->flavour.binary ? "\n$EndNodes\n$Elements\n"
+                   : first              ? "$ENDNOD\n$ELM\n"
+                                        : "$EndNodes\n$Elements\n");
     put_count_line(file, model->element_count);
     for (const MshElement *e = model->element; e < model->element + model->element_count; e++) {
         const int head[2][3] = {{e->tag, e->type, 2}, {e->type, 1, 2}};
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3 - first; i++)
             put_int(file, head[file->flavour.binary][i]);
         if (file->flavour.binary)
             put_int(file, e->tag);
         put_int(file, e->physical);
         put_int(file, e->entity);
+        if (first)
+            put_int(file, element_nodes(e->type));
         for (int i = 0; i < element_nodes(e->type); i++)
             put_int(file, e->nodes[i]);
         put_line_end(file);
     }
-    put_text(file, file->flavour.binary ? "\n$EndElements\n" : "$EndElements\n");
+    put_text(file, file->flavour.binary ? "\n$EndElements\n" : first ? "$ENDELM\n" : "$EndElements\n");
 }
 
 /* Is the element the first of its entity? */
@@ -149,7 +157,7 @@ static void put_entities(MshFile *file, const MshModel *model)
             if (e->dimension != dimension || !begins_entity(model, e))
                 continue;
             put_int(file, e->entity);
-            for (int i = 0; i < (dimension == 0 ? 3 : 6); i++)
+            for (int i = 0; i < (dimension == 0 && file->flavour.version > 40 ? 3 : 6); i++)
                 put_double(file, 0.0);
             put_size(file, e->physical != 0);
             if (e->physical != 0)
@@ -160,68 +168,103 @@ static void put_entities(MshFile *file, const MshModel *model)
         }
 }
 
-static void put_model_41(MshFile *file, const MshModel *model)
+/* A tag of a node or an element: version 4.0 has int. */
+static void put_tag(MshFile *file, int tag)
 {
-    const int body_first[3] = {3, model->element[model->element_count - 1].entity, 0};
+    if (file->flavour.version > 40)
+        put_size(file, (size_t)tag);
+    else
+        put_int(file, tag);
+}
+
+static void put_head(MshFile *file, int blocks, int count)
+{
+    const size_t head[4] = {(size_t)blocks, (size_t)count, 1, 100};
+    for (int i = 0; i < (file->flavour.version > 40 ? 4 : 2); i++)
+        put_size(file, head[i]);
+    put_line_end(file);
+}
+
+static void put_block(MshFile *file, int dimension, int entity, int number, int count)
+{
+    const int old = file->flavour.version == 40;
+    put_int(file, old ? entity : dimension);
+    put_int(file, old ? dimension : entity);
+    put_int(file, number);
+    put_size(file, (size_t)count);
+    put_line_end(file);
+}
+
+static void put_model_4(MshFile *file, const MshModel *model)
+{
     put_text(file, "$Entities\n");
     put_entities(file, model);
     put_text(file, file->flavour.binary ? "\n$EndEntities\n$Nodes\n" : "$EndEntities\n$Nodes\n");
-    for (int i = 0; i < 4; i++)
-        put_size(file, (size_t[]){1, (size_t)model->node_count, (size_t)model->node[0].tag,
-                                  (size_t)model->node[model->node_count - 1].tag}[i]);
-    put_line_end(file);
-    for (int i = 0; i < 3; i++)
-        put_int(file, body_first[i]);
-    put_size(file, (size_t)model->node_count);
-    put_line_end(file);
-    for (int n = 0; n < model->node_count; n++) {
-        put_size(file, (size_t)model->node[n].tag);
+    put_head(file, 1, model->node_count);
+    put_block(file, 3, model->element[model->element_count - 1].entity, 0, model->node_count);
+    for (int n = 0; file->flavour.version > 40 && n < model->node_count; n++) {
+        put_tag(file, model->node[n].tag);
         put_line_end(file);
     }
     for (int n = 0; n < model->node_count; n++) {
+        if (file->flavour.version == 40)
+            put_tag(file, model->node[n].tag);
         for (int c = 0; c < 3; c++)
             put_double(file, model->node[n].x[c]);
         put_line_end(file);
     }
     put_text(file, file->flavour.binary ? "\n$EndNodes\n$Elements\n" : "$EndNodes\n$Elements\n");
-    for (int i = 0; i < 4; i++)
-        put_size(file, (size_t[]){(size_t)model->element_count, (size_t)model->element_count, 1, 100}[i]);
-    put_line_end(file);
+    put_head(file, model->element_count, model->element_count);
     for (const MshElement *e = model->element; e < model->element + model->element_count; e++) {
-        put_int(file, e->dimension);
-        put_int(file, e->entity);
-        put_int(file, e->type);
-        put_size(file, 1);
-        put_line_end(file);
-        put_size(file, (size_t)e->tag);
+        put_block(file, e->dimension, e->entity, e->type, 1);
+        put_tag(file, e->tag);
         for (int i = 0; i < element_nodes(e->type); i++)
-            put_size(file, (size_t)e->nodes[i]);
+            put_tag(file, e->nodes[i]);
         put_line_end(file);
     }
     put_text(file, file->flavour.binary ? "\n$EndElements\n" : "$EndElements\n");
 }
 
-static void msh_make(const MshModel *model, MshFlavour flavour, MshFile *file)
+/* Version 2.0 does not write the dimension, which is the first of each line but that of the count. */
+static void put_names(MshFile *file, const char *names)
+{
+    const char *line = strchr(names, '\n') + 1;
+    put_text(file, "$PhysicalNames\n");
+    put_count_line(file, atoi(names));
+    for (; *line; line = strchr(line, '\n') + 1) {
+        char text[128];
+        const char *start = line + (file->flavour.version == 20 ? 2 : 0);
+        snprintf(text, sizeof text, "%.*s\n", (int)strcspn(start, "\n"), start);
+        put_text(file, text);
+    }
+    put_text(file, "$EndPhysicalNames\n");
+}
+
+static void put_format(MshFile *file)
 {
     const int one = 1;
-    *file = (MshFile){.flavour = flavour};
-    put_text(file, "$MeshFormat\n");
-    put_text(file, flavour.version == 22 ? "2.2 " : "4.1 ");
-    put_text(file, flavour.binary ? "1 8\n" : "0 8\n");
-    if (flavour.binary) {
+    char text[64];
+    snprintf(text, sizeof text, "$MeshFormat\n%d.%d %d 8\n", file->flavour.version / 10, file->flavour.version % 10,
+             file->flavour.binary);
+    put_text(file, text);
+    if (file->flavour.binary) {
         put_raw(file, &one, sizeof one);
         put_text(file, "\n");
     }
     put_text(file, "$EndMeshFormat\n");
-    if (model->names) {
-        put_text(file, "$PhysicalNames\n");
-        put_text(file, model->names);
-        put_text(file, "$EndPhysicalNames\n");
-    }
-    if (flavour.version == 22)
-        put_model_22(file, model);
+}
+
+static void msh_make(const MshModel *model, MshFlavour flavour, MshFile *file)
+{
+    *file = (MshFile){.flavour = flavour};
+    if (flavour.version > 10)
+        put_format(file);
+    if (flavour.version > 10 && model->names)
+        put_names(file, model->names);
+    if (flavour.version < 40)
+        put_model_2(file, model);
     else
-        put_model_41(file, model);
+        put_model_4(file, model);
 }
 
 /* Writes the model under this name in the scratch folder and gives the path. */

@@ -69,7 +69,8 @@ static void an_isotropic_body_carries_no_axes(void **state)
     const OstAxesSpec specs[2] = {cylindrical, fixed};
     const Booked before = booked();
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
     const Booked after = booked();
     assert_int_equal(after.orthotropy, 0);
     assert_int_equal(after.varying, 0);
@@ -90,7 +91,8 @@ static void fixed_axes_cost_nothing_per_tet(void **state)
     const Booked before = booked();
     const size_t bytes_before = ost_ledger_bytes(ctx);
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 1, &material, &fixed, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 1, &material, &fixed, TETS, one_region, labels, centroids, NULL, &field));
     const Booked after = booked();
     assert_int_equal(after.orthotropy, 9 * sizeof(double));
     assert_int_equal(after.varying, 0);
@@ -111,7 +113,7 @@ static void varying_axes_are_kept_by_tet(void **state)
     const OstMaterial material = orthotropic();
     OstMaterialField *field = NULL;
     assert_success(
-        ost_field_create(ctx, 1, &material, &cylindrical, TETS, one_region, labels, centroids, NULL, &field));
+        ost_field_create(ctx, NULL, 1, &material, &cylindrical, TETS, one_region, labels, centroids, NULL, &field));
     assert_int_equal(booked().orthotropy, 9 * sizeof(double));
     assert_int_equal(booked().varying, 9 * TETS * sizeof(double) + formula_bytes);
     for (OstLocal t = 0; t < TETS; t++) {
@@ -131,7 +133,7 @@ static void each_region_keeps_its_own_ways(void **state)
     const OstAxesSpec specs[4] = {cylindrical, cylindrical, fixed, {.kind = OST_AXES_NONE}};
     const int32_t regions[TETS] = {0, 1, 2, 3, 0, 2};
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 4, materials, specs, TETS, regions, labels, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 4, materials, specs, TETS, regions, labels, centroids, NULL, &field));
     for (OstLocal t = 0; t < TETS; t++) {
         double axes[9];
         if (regions[t] == 0)
@@ -154,7 +156,7 @@ static void a_curve_is_followed(void **state)
     unchanged.points = same;
     const OstMaterial material = orthotropic();
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field));
     const size_t curve_bytes = sizeof(OstCurve) + 3 * 9 * sizeof(double); /* points, tangents, normals */
     assert_int_equal(booked().varying, 9 * TETS * sizeof(double) + formula_bytes + curve_bytes);
     memset(points, 0, sizeof points); /* the field has its own */
@@ -175,20 +177,21 @@ static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
     OstMaterialField *field = NULL;
     for (OstLocal t = 0; t < TETS; t++)
         random_axes(given + 9 * t);
-    assert_success(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field));
     for (OstLocal t = 0; t < TETS; t++)
         assert_tet_is(field, t, &material, given + 9 * t);
     ost_field_destroy(&field);
     for (int i = 0; i < 3; i++)
         given[9 * 3 + 6 + i] *= -1.0;
-    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
                    OST_INVALID_INPUT, "tet 104 (material 'wood'): given axes: the axes are left-handed");
     assert_null(field);
     for (int i = 0; i < 3; i++)
         given[9 * 1 + i] *= 1.5;
-    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
                    OST_INVALID_INPUT, "tet 102 (material 'wood'): given axes: e1 has length 1.5");
-    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "tet by tet, but none came");
 }
 
@@ -198,15 +201,15 @@ static void bad_axes_regions_and_points_are_refused(void **state)
     const OstMaterial material = orthotropic(), plain = isotropic();
     OstAxesSpec spec = {.kind = OST_AXES_FIXED, .fixed = {1, 0, 0, 0, 1, 0, 0, 0, -1}};
     OstMaterialField *field = NULL;
-    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "axes of material 'wood': the axes are left-handed");
-    assert_failure(ost_field_create(ctx, 1, &plain, &spec, TETS, one_region, labels, centroids, NULL, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &plain, &spec, TETS, one_region, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "axes of material 'rubber': the axes are left-handed");
-    assert_failure(ost_field_create(ctx, 1, &material, NULL, TETS, two_regions, labels, centroids, NULL, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, NULL, TETS, two_regions, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "tet 102 is of region 1");
     spec = cylindrical;
     spec.origin[0] = 1.0; /* the first centroid is on the axis */
-    assert_failure(ost_field_create(ctx, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
+    assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
                    OST_INVALID_INPUT, "tet 101 (material 'wood'): the point (1, 0, 0) lies on the cylinder's axis");
     assert_null(field);
 }
@@ -217,7 +220,7 @@ static void a_rank_without_tets_has_a_field_too(void **state)
     const OstMaterial material = orthotropic();
     const OstAxesSpec spec = {.kind = OST_AXES_CELLS};
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 1, &material, &spec, 0, NULL, NULL, NULL, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, 0, NULL, NULL, NULL, NULL, &field));
     assert_int_equal(booked().varying, 0);
     ost_field_destroy(&field);
 }
@@ -231,7 +234,8 @@ static void a_formula_gives_axes_at_any_point(void **state)
     const double on_axis[3] = {0.0, 0.0, 1.0};
     double axes[9], expected[9];
     OstMaterialField *field = NULL;
-    assert_success(ost_field_create(ctx, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 2, materials, specs, TETS, two_regions, labels, centroids, NULL, &field));
     assert_true(ost_field_has_formula(field, 0));
     assert_false(ost_field_has_formula(field, 1));
     assert_success(ost_axes_at(ctx, &cylindrical, point, expected));
@@ -276,7 +280,7 @@ static void the_stiff_mode_of_nearly_incompressible_regions_is_found(void **stat
         assert_success(ost_material_create(ctx, "rubber", &constants, 0.0, &materials[r]));
     }
     const size_t before = ost_ledger_bytes(ctx);
-    assert_success(ost_field_create(ctx, 3, materials, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 3, materials, NULL, TETS, one_region, labels, centroids, NULL, &field));
     const size_t plain = ost_ledger_bytes(ctx);
     assert_success(ost_field_mean_dilatation(field, 0.49995, &regions));
     assert_int_equal(regions, 0);
@@ -309,7 +313,7 @@ static void the_rest_keeps_its_digits_next_to_incompressible(void **state)
     OstMaterialField *field = NULL;
     int regions = 0;
     assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
     assert_null(ost_field_rest(field, 0));
     assert_success(ost_field_mean_dilatation(field, 0.45, &regions));
     assert_int_equal(regions, 1);
@@ -334,7 +338,7 @@ static void two_stiff_modes_are_left_alone(void **state)
     OstMaterialField *field = NULL;
     int regions = 1;
     assert_success(ost_material_create(ctx, "foam", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, TETS, one_region, labels, centroids, NULL, &field));
     assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     assert_int_equal(regions, 0);
     ost_field_destroy(&field);

@@ -200,8 +200,8 @@ static void nodes_between_regions_belong_to_the_first(void **state)
             for (int a = 0; a < mesh->nodes_per_tet; a++)
                 touched[mesh->tet_nodes[mesh->nodes_per_tet * tet + a]] |= mesh->tet_region[tet] == 0;
         }
-        assert_success(ost_field_create(ctx, 2, materials, axes, mesh->tet_count, mesh->tet_region, mesh->tet_label,
-                                        centroids, NULL, &field));
+        assert_success(ost_field_create(ctx, NULL, 2, materials, axes, mesh->tet_count, mesh->tet_region,
+                                        mesh->tet_label, centroids, NULL, &field));
         OstResult result = {.ctx = ctx, .mesh = mesh, .field = field};
         displace(&result, linear_at);
         assert_success(ost_result_recover(&result, 1U << OST_FIELD_NODE_STRESS));
@@ -225,10 +225,10 @@ static void what_is_not_asked_for_is_not_made(void **state)
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);
     OstResult result = {.ctx = ctx, .mesh = mesh, .field = field};
-    const long entries = ost_ledger_entry(ctx, OST_LEDGER_RECOVERY).entries;
+    const long entries = ost_ledger_entry(ctx, OST_EFFECT_RECOVERY).entries;
     displace(&result, linear_at);
     assert_success(ost_result_recover(&result, 1U << OST_FIELD_DISPLACEMENT | 1U << OST_FIELD_REGION));
-    assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_RECOVERY).entries, entries);
+    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_RECOVERY).entries, entries);
     assert_null(result.node_stress);
     assert_success(ost_result_recover(&result, 1U << OST_FIELD_STRESS));
     assert_non_null(result.stress);

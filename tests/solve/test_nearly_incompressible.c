@@ -90,8 +90,8 @@ static Pose make_pose(int order, double nu, int by_mean)
     OstMaterial material;
     int regions = 0;
     assert_success(ost_material_create(ctx, "rubber", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, 1, &material, NULL, mesh->tet_count, mesh->tet_region, mesh->tet_label, NULL,
-                                    NULL, &pose.field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, mesh->tet_count, mesh->tet_region, mesh->tet_label,
+                                    NULL, NULL, &pose.field));
     if (by_mean)
         assert_success(ost_field_mean_dilatation(pose.field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     assert_int_equal(regions, by_mean);

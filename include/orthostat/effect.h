@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_EFFECT_H
+#define ORTHOSTAT_EFFECT_H
+
+#include "orthostat/context.h"
+
+/* The one table of effects: what a scene may call for beyond an isotropic body that stands still. `explain` prints it,
+ * the plan and the ledger are arranged by it, and the code that does the work asks it. What is off is not called, holds
+ * no byte and takes no second.
+ * Columns: name, which is its account in the ledger too; label; the rule in src/effect/effect.c that says when it is
+ * on, why, and what it will hold. */
+#define OST_EFFECT_TABLE(X)                                                                   \
+    X(OST_EFFECT_ORTHOTROPY, "orthotropy", orthotropy)                                        \
+    X(OST_EFFECT_VARYING_AXES, "varying axes", varying_axes)                                  \
+    X(OST_EFFECT_GRADIENT_AXES, "gradient axes", gradient_axes)                               \
+    X(OST_EFFECT_REGIONS, "several materials", several_materials)                             \
+    X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
+    X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
+    X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
+    X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
+    X(OST_EFFECT_FREE_BODY, "free body", free_body)                                           \
+    X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
+    X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
+    X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
+    X(OST_EFFECT_RECOVERY, "strain and stress", recovery)
+
+#define OST_EFFECT_ENUM(name, label, rule) name,
+typedef enum {
+    OST_EFFECT_BEFORE_FIRST = OST_LEDGER_PHASES - 1,
+    OST_EFFECT_TABLE(OST_EFFECT_ENUM) OST_EFFECT_END,
+    OST_EFFECT_FIRST = OST_LEDGER_PHASES,
+    OST_EFFECT_COUNT = OST_EFFECT_END - OST_EFFECT_FIRST
+} OstEffect;
+#undef OST_EFFECT_ENUM
+
+/* What the rules go by: counts and sizes, over the whole body. */
+typedef struct OstEffectFacts {
+    int materials;                /* in use */
+    int orthotropic, varying;     /* materials that are not isotropic; those of them whose axes vary */
+    char orthotropic_reason[160]; /* of the first of them, in words */
+    char varying_reason[160];
+    const char *gradient_region; /* a region whose axes follow potentials, or NULL */
+    int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
+    int quadratic;               /* are the tets quadratic? */
+    int multigrid;               /* may the linear system be solved by multigrid? */
+    int constraints, prescribed, slides;
+    int free_body;
+    int loads, point_loads, surface_loads, body_loads, gravity_loads;
+    int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
+    int node_fields; /* numbers a node likewise */
+    double nodes, tets, regions; /* of the mesh */
+} OstEffectFacts;
+
+/* An effect of one scene. `bytes`: foreseen at its peak on one rank, halos apart; 0 where that is next to
+ * nothing, or cannot be foreseen. */
+typedef struct OstEffectState {
+    int on;
+    double bytes;
+    char reason[160];
+} OstEffectState;
+
+/* Every effect, on or off, with the reason. Plain data. */
+typedef struct OstEffects {
+    OstEffectState state[OST_EFFECT_COUNT];
+} OstEffects;
+
+/* Local. Applies every rule of the table. */
+void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects);
+
+/* Local. Gives the effects' accounts their labels in the ledger. */
+void ost_effects_name_accounts(OstContext *ctx);
+
+/* Local. Is the work of an effect to be done? With NULL, where nobody has looked at a scene, any effect may be needed.
+ */
+int ost_effect_on(const OstEffects *effects, OstEffect effect);
+
+/* Local. The effect's state: on or off, why, and its bytes. */
+const OstEffectState *ost_effect_state(const OstEffects *effects, OstEffect effect);
+const char *ost_effect_label(OstEffect effect);
+
+#endif

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/effect.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+_Static_assert((int)OST_EFFECT_END <= (int)OST_LEDGER_ACCOUNTS, "the ledger has no room for so many effects");
+
+static void on(OstEffectState *state, double bytes, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static void on(OstEffectState *state, double bytes, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    state->on = 1;
+    state->bytes = bytes;
+    vsnprintf(state->reason, sizeof state->reason, format, arguments);
+    va_end(arguments);
+}
+
+static void off(OstEffectState *state, const char *reason)
+{
+    state->on = 0;
+    state->bytes = 0.0;
+    snprintf(state->reason, sizeof state->reason, "%s", reason);
+}
+
+/* The metric of each node, which multigrid wants. */
+static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->orthotropic > 0)
+        on(state, 48.0 * f->nodes + 72.0 * f->regions, "%s", f->orthotropic_reason);
+    else
+        off(state, "every material is isotropic");
+}
+
+/* Nine numbers a tet, and its centroid while they are found. */
+static void varying_axes(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->varying > 0)
+        on(state, (72.0 + 24.0) * f->tets, "%s", f->varying_reason);
+    else
+        off(state, f->orthotropic > 0 ? "the axes are the same all over each region"
+                                      : "an isotropic body has no use for axes");
+}
+
+/* A mesh of V vertices and T tets has about V + T + 6 V^(2/3) edges (by Euler's formula, on a compact body), and K a
+ * block of 76 bytes for each vertex and two for each edge. */
+static double matrix_bytes(double vertices, double tets)
+{
+    return 76.0 * (3.0 * vertices + 2.0 * tets + 12.0 * pow(vertices, 2.0 / 3.0));
+}
+
+/* Quadratic tets have a node on each of about 7/6 edges a tet. */
+static double vertices(const OstEffectFacts *f)
+{
+    return f->quadratic ? fmax(f->nodes - 7.0 / 6.0 * f->tets, 0.0) : f->nodes;
+}
+
+/* The axes, and the mesh, the matrix and the hierarchy of the potentials, which are solved for like displacements. */
+static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->gradient_region)
+        on(state, 112.0 * f->tets + 600.0 * vertices(f) + 2.5 * matrix_bytes(vertices(f), f->tets),
+           "axes of region '%.60s' follow potentials between boundaries", f->gradient_region);
+    else
+        off(state, "no axes are given by gradients");
+}
+
+/* The constants of each region, its stiffness and compliance in material axes, and its stiffness in world axes. */
+static void several_materials(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->materials > 1)
+        on(state, 8.0 * 128.0 * f->regions, "%d materials", f->materials);
+    else
+        off(state, "one material for the whole body");
+}
+
+static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->quadratic && f->nearly_incompressible > 0)
+        on(state, 8.0 * (36.0 + 3.0) * f->regions, "quadratic tets, and %d of %d materials are nearly incompressible",
+           f->nearly_incompressible, f->materials);
+    else
+        off(state,
+            f->nearly_incompressible > 0 ? "linear tets have no use for it" : "no material is nearly incompressible");
+}
+
+/* The linear tets' mesh and matrix, where each tet's blocks go while it is filled, and where each node is in it. */
+static void linear_space(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->quadratic && f->multigrid)
+        on(state, matrix_bytes(vertices(f), f->tets) + 300.0 * vertices(f) + 100.0 * f->tets + 24.0 * f->nodes,
+           "quadratic tets: multigrid goes on with the linear tets of their vertices");
+    else
+        off(state, f->quadratic ? "the solver that is planned is not our multigrid" : "the tets are linear themselves");
+}
+
+/* The displacement of each node, and the force that it makes. */
+static void prescribed_displacement(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->prescribed > 0)
+        on(state, 48.0 * f->nodes, "%d of %d constraints prescribe a displacement other than zero", f->prescribed,
+           f->constraints);
+    else
+        off(state, f->constraints > 0 ? "every constraint is zero" : "there is no constraint");
+}
+
+static void sliding(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->slides > 0)
+        on(state, 0.0, "%d of %d constraints let the body slide on a plane", f->slides, f->constraints);
+    else
+        off(state, "no constraint is a slide");
+}
+
+static void free_body(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->free_body)
+        on(state, 0.0, "the case says so: the loads balance each other");
+    else
+        off(state, f->constraints > 0 ? "the body is constrained" : "the case does not say free_body");
+}
+
+static void loads(const OstEffectFacts *f, OstEffectState *state, int count, const char *where)
+{
+    char none[64];
+    snprintf(none, sizeof none, "no load acts %s", where);
+    if (count > 0)
+        on(state, 0.0, "%d of %d loads act %s", count, f->loads, where);
+    else
+        off(state, f->loads == 0 ? "there is no load" : none);
+}
+
+static void point_force(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->point_loads, "on vertices");
+}
+
+static void surface_load(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->surface_loads, "on faces");
+}
+
+static void body_force(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
+}
+
+static void recovery(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->cell_fields + f->node_fields > 0)
+        on(state, 8.0 * (f->cell_fields * f->tets + f->node_fields * f->nodes),
+           "the output holds %d of their components a tet, and %d a node", f->cell_fields, f->node_fields);
+    else
+        off(state, "the output holds neither");
+}
+
+void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
+{
+#define OST_EFFECT_RULE(name, label, rule) rule(facts, &effects->state[name - OST_EFFECT_FIRST]);
+    OST_EFFECT_TABLE(OST_EFFECT_RULE)
+#undef OST_EFFECT_RULE
+}
+
+void ost_effects_name_accounts(OstContext *ctx)
+{
+    for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
+        ost_ledger_name(ctx, e, ost_effect_label((OstEffect)e));
+}
+
+int ost_effect_on(const OstEffects *effects, OstEffect effect)
+{
+    return !effects || effects->state[effect - OST_EFFECT_FIRST].on;
+}
+
+const OstEffectState *ost_effect_state(const OstEffects *effects, OstEffect effect)
+{
+    return &effects->state[effect - OST_EFFECT_FIRST];
+}
+
+const char *ost_effect_label(OstEffect effect)
+{
+    static const char *const label[OST_EFFECT_COUNT] = {
+#define OST_EFFECT_LABEL(name, text, rule) text,
+        OST_EFFECT_TABLE(OST_EFFECT_LABEL)
+#undef OST_EFFECT_LABEL
+    };
+    return label[effect - OST_EFFECT_FIRST];
+}
