@@ -4,7 +4,7 @@
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <string.h>

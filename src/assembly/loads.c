@@ -2,7 +2,7 @@
 #include "assembly/loads.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/element.h"
 

@@ -4,7 +4,7 @@
 #include "assembly/limits.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/numbering.h"
+#include "core/parallel/numbering.h"
 #include "core/small.h"
 #include "element/element.h"
 

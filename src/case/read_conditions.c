@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/regions.h"
 #include "case/sections.h"
-#include "case/yaml_message.h"
+#include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
-#include "case/yaml_message.h"
+#include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "mesh/label_ranges.h"

@@ -2,7 +2,7 @@
 #include "orthostat/verify.h"
 
 #include "case/sections.h"
-#include "case/yaml_message.h"
+#include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/select.h"
 
-#include "case/yaml_read.h"
+#include "case/yaml/read.h"
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "mesh/label_ranges.h"
 #include "mesh/nearest.h"

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "orthostat/scene.h"
 #include "study/watch.h"
 

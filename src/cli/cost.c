@@ -4,7 +4,7 @@
 #include "cli/cost_picture.h"
 #include "cli/destination.h"
 #include "core/error.h"
-#include "core/free_memory.h"
+#include "core/parallel/free_memory.h"
 #include "study/cost.h"
 
 #include <argp.h>

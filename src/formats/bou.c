@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/line_reader.h"
+#include "formats/serial/line_reader.h"
 #include "mesh/label_ranges.h"
 #include "orthostat/mesh_file.h"
 

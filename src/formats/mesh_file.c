@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/file_materials.h"
-#include "formats/serial.h"
-#include "formats/vtkhdf.h"
-#include "mesh/share.h"
+#include "formats/serial/serial.h"
+#include "formats/vtkhdf/vtkhdf.h"
+#include "mesh/distribution/share.h"
 
 #include <string.h>
 #include <strings.h>

@@ -2,8 +2,8 @@
 #include "guard/freedom_ties.h"
 
 #include "core/error.h"
-#include "core/gather.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "core/small.h"
 
 #include <stdlib.h>

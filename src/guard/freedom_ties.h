@@ -4,7 +4,7 @@
 
 #include "assembly/supports.h"
 #include "guard/freedom_rows.h"
-#include "mesh/component.h"
+#include "mesh/components/component.h"
 
 /* What holds a component, or two components to each other: all conditions of the same kind in one triangle
  * (freedom_rows.h). For a pair it is on the motion of body[0] relative to body[1], seen in the frame of the smaller

@@ -2,7 +2,7 @@
 #include "guard/linearity.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/strain_lanes.h"
 #include "mesh/tet.h"

@@ -2,7 +2,7 @@
 #include "guard/number_range.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 

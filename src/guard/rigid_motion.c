@@ -3,9 +3,9 @@
 
 #include "assembly/batch.h"
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <float.h>

@@ -3,9 +3,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/numbering.h"
-#include "core/reduce.h"
-#include "core/route.h"
+#include "core/parallel/numbering.h"
+#include "core/parallel/reduce.h"
+#include "core/parallel/route.h"
 #include "core/small.h"
 #include "mesh/tet.h"
 

@@ -2,9 +2,9 @@
 #include "orthostat/mesh.h"
 
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "mesh/names.h"
 
 #include <math.h>

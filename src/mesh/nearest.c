@@ -2,7 +2,7 @@
 #include "mesh/nearest.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <float.h>

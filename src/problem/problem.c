@@ -4,9 +4,9 @@
 #include "assembly/means.h"
 #include "case/plan_parts.h"
 #include "core/error.h"
-#include "core/free_memory.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/free_memory.h"
+#include "core/parallel/reduce.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
 

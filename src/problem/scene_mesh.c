@@ -2,8 +2,8 @@
 #include "problem/scene_mesh.h"
 
 #include "core/error.h"
-#include "core/free_memory.h"
-#include "mesh/merge.h"
+#include "core/parallel/free_memory.h"
+#include "mesh/distribution/merge.h"
 #include "orthostat/plan.h"
 #include "orthostat/refine.h"
 #include "problem/scene_partition.h"

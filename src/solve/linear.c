@@ -3,7 +3,7 @@
 #include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/coarse_space.h"
 #include "problem/free_body.h"

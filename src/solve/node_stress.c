@@ -3,8 +3,8 @@
 
 #include "assembly/batch.h"
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "element/strain_lanes.h"
 
 #include <string.h>

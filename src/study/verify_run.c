@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "study/verify_view.h"
 
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 

@@ -6,8 +6,8 @@
 
 #include "assembly/loads.h"
 #include "assembly/system.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "core/small.h"
 #include "orthostat/orthostat.h"
 

@@ -2,8 +2,8 @@
 #include "case_text.h"
 
 #include "case/select.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 
 enum { AROUND = 12, RADIAL = 2, AXIAL = 5, NX = 4, NY = 3, NZ = 2 };
 

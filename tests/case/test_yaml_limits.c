@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "case/yaml_tree.h"
+#include "case/yaml/tree.h"
 #include "case_text.h"
 
 static void text_that_is_not_yaml_is_refused_with_its_place(void **state)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "core/halo.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "support.h"
 
 enum { OWNED = 5 };

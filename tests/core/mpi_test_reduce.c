@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "core/free_memory.h"
-#include "core/numbering.h"
-#include "core/reduce.h"
+#include "core/parallel/free_memory.h"
+#include "core/parallel/numbering.h"
+#include "core/parallel/reduce.h"
 #include "support.h"
 
 static void sums_and_extremes_are_of_all_ranks(void **state)

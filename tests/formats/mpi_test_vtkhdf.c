@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/vtkhdf.h"
-#include "formats/vtkhdf_hdf5.h"
+#include "formats/vtkhdf/hdf5.h"
+#include "formats/vtkhdf/vtkhdf.h"
 #include "support.h"
 #include "vtkhdf_whole.h"
 

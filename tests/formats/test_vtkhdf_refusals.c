@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf.h"
+#include "formats/vtkhdf/vtkhdf.h"
 #include "support.h"
 
 #include <hdf5.h>

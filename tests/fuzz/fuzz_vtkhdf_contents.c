@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf_rehearsal.h"
+#include "formats/vtkhdf/rehearsal.h"
 #include "fuzz.h"
 #include "hdf5_from_text.h"
 #include "read_mesh.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "mesh/graph.h"
-#include "mesh/partition.h"
+#include "mesh/distribution/graph.h"
+#include "mesh/distribution/partition.h"
 #include "mesh_support.h"
 
 /* A unit cube in six tets (nodes 0-7), for a hand-made fault each. */

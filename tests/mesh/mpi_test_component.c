@@ -3,7 +3,7 @@
 
 #include "mesh/mesh_support.h"
 
-#include "mesh/component.h"
+#include "mesh/components/component.h"
 #include "mesh/lattice.h"
 #include "orthostat/refine.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
-#include "core/halo.h"
+#include "core/parallel/halo.h"
 #include "mesh_support.h"
 
 /* A mesh before partition, complete on every rank, to compare pieces with: node n has label n + 1, tet t has t + 1. */

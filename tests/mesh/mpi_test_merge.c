@@ -4,9 +4,9 @@
 #include "mesh/mesh_support.h"
 
 #include "mesh/coincident.h"
+#include "mesh/components/component.h"
+#include "mesh/distribution/merge.h"
 #include "mesh/lattice.h"
-#include "mesh/merge.h"
-#include "mesh/component.h"
 
 static int count_parts(const OstMesh *mesh)
 {

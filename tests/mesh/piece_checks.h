@@ -3,7 +3,7 @@
 #define ORTHOSTAT_TESTS_PIECE_CHECKS_H
 
 /* Include after mesh_support.h: the promises of orthostat/mesh.h, checked on a mesh that was made of another. */
-#include "core/halo.h"
+#include "core/parallel/halo.h"
 
 static inline OstGlobal sum_over_ranks(OstGlobal mine)
 {

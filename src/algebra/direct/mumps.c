@@ -2,8 +2,8 @@
 #include "algebra/direct/mumps.h"
 
 #include "core/error.h"
-#include "core/free_memory.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 
 #include <dmumps_c.h>
 #include <float.h>

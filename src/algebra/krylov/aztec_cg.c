@@ -3,7 +3,7 @@
 #include "algebra/matrix/vector.h"
 #include "algebra/trilinos/conjugate_gradients.h"
 #include "core/error.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <stdio.h>

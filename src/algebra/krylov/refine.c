@@ -7,7 +7,7 @@
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/reduce.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_LEVEL_FETCHED_ROWS_H
 #define ORTHOSTAT_ALGEBRA_LEVEL_FETCHED_ROWS_H
 
-#include "core/halo.h"
+#include "core/parallel/halo.h"
 
 /* Rows of blocks on their way between ranks; columns by their global numbers. */
 typedef struct OstFetchedRows {

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_MATRIX_BLOCK_MATRIX_H
 #define ORTHOSTAT_ALGEBRA_MATRIX_BLOCK_MATRIX_H
 
-#include "core/halo.h"
+#include "core/parallel/halo.h"
 
 /* A sparse matrix of 3×3 blocks, rows distributed: this rank's complete rows, columns in local numbers (owned rows
  * first, then the halo's ghosts), ascending within a row. Blocks are row-major. */

@@ -2,8 +2,8 @@
 #include "algebra/trilinos/conjugate_gradients.h"
 
 #include "core/error.h"
-#include "core/free_memory.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 
 #include <az_aztec.h>
 #include <string.h>

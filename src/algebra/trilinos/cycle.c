@@ -3,9 +3,9 @@
 
 #include "algebra/trilinos/ml.h"
 #include "core/error.h"
-#include "core/free_memory.h"
 #include "core/memory.h"
-#include "core/reduce.h"
+#include "core/parallel/free_memory.h"
+#include "core/parallel/reduce.h"
 
 #include <string.h>
 

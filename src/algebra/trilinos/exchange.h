@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_TRILINOS_EXCHANGE_H
 #define ORTHOSTAT_ALGEBRA_TRILINOS_EXCHANGE_H
 
-#include "core/halo.h"
+#include "core/parallel/halo.h"
 
 /* ML's exchange of ghost values (ML_exchange_bdry) between the neighbours of a halo, for entries of `width` numbers.
  * (Epetra's importer would do the same with a barrier over all ranks in each exchange.) */

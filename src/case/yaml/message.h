@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_YAML_MESSAGE_H
+#define ORTHOSTAT_CASE_YAML_MESSAGE_H
+
+#include "case/yaml/tree.h"
+
+enum { OST_YAML_PLACE_SIZE = 128, OST_YAML_LIST_SIZE = 512 };
+
+/* Raises at a node. */
+OstStatus ost_yaml_raise(const OstYaml *yaml, const OstYamlNode *node, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Puts the node's place in front of a failure raised further down; passes success. */
+OstStatus ost_yaml_located(const OstYaml *yaml, const OstYamlNode *node, OstStatus status);
+
+/* Local. Where a node is, as a person would say it: "the case", "materials[0].axes"; written to `text`, which is
+ * returned. Walks the tree from its root, so it is for messages alone. */
+const char *ost_yaml_place(const OstYaml *yaml, const OstYamlNode *node, char *text, size_t size);
+
+/* Local. "a, b, c" */
+void ost_yaml_name_list(const char *const *names, int count, char *text, size_t size);
+
+/* Local. Raises "path:line:column: PLACE: found THIS, expected EXPECTED MORE". */
+OstStatus ost_yaml_raise_type(const OstYaml *yaml, const OstYamlNode *node, const char *expected, const char *more);
+
+/* Local. The name nearest to `word` by edit distance, or that begins like it, or NULL if none is near enough to be
+ * meant. */
+const char *ost_nearest_word(const char *word, const char *const *words, int count);
+
+#endif

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_CASE_YAML_READ_H
+#define ORTHOSTAT_CASE_YAML_READ_H
+
+#include "case/yaml/message.h"
+#include "orthostat/case.h"
+
+/* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
+ * "path:line:column: what was found, what was expected". */
+
+/* A key a mapping may have; `value` is filled (NULL: not given). */
+typedef struct OstYamlKey {
+    const char *name;
+    int needed;
+    const OstYamlNode *value;
+} OstYamlKey;
+
+enum { OST_OPTIONAL = 0, OST_NEEDED = 1 };
+
+#define OST_COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
+
+OstPlace ost_yaml_at(const OstYamlNode *node);
+
+/* Fills the keys' values; refuses unknown, doubled and missing keys and keys without a value. */
+OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count);
+
+/* Which one of the first `count` keys has a value; refuses none and several. */
+OstStatus ost_yaml_one_of(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int count, int *which);
+
+/* A sequence's length (a short one has OST_YAML_MOST_ENTRIES at most), and its items: first = ost_yaml_first(node),
+ * then ost_yaml_next. */
+enum { OST_YAML_MOST_ENTRIES = 10000 };
+OstStatus ost_yaml_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
+OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
+
+/* Scalars. A number is finite and has nothing after it; an integer lies in [low, high]. The text lives as long as the
+ * tree. */
+OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char **text);
+OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *number);
+OstStatus ost_yaml_positive(const OstYaml *yaml, const OstYamlNode *node, double *number);
+OstStatus ost_yaml_integer(const OstYaml *yaml, const OstYamlNode *node, int64_t low, int64_t high, int64_t *number);
+OstStatus ost_yaml_numbers(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers);
+OstStatus ost_yaml_positives(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers);
+
+/* Three numbers that are not all zero, scaled to length 1. */
+OstStatus ost_yaml_direction(const OstYaml *yaml, const OstYamlNode *node, double direction[3]);
+
+/* One of some words; `what` names their kind ("field"). */
+OstStatus ost_yaml_word(const OstYaml *yaml, const OstYamlNode *node, const char *what, const char *const *words,
+                        int count, int *which);
+
+#endif

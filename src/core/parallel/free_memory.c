@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/parallel/free_memory.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The number behind `key` in a file of lines "key value", or the file's first number where key is NULL; INFINITY if
+ * there is none ("max" of a control group is none). */
+static double number_in(const char *path, const char *key)
+{
+    FILE *file = fopen(path, "r");
+    char line[256];
+    double found = INFINITY;
+    const size_t length = key ? strlen(key) : 0;
+    while (file && !isfinite(found) && fgets(line, sizeof line, file))
+        if (!key || strncmp(line, key, length) == 0)
+            if (sscanf(line + length, "%lf", &found) != 1)
+                found = INFINITY;
+    if (file)
+        fclose(file);
+    return found;
+}
+
+static const char group_limit[] = "/sys/fs/cgroup/memory.max";
+static const char older_group_limit[] = "/sys/fs/cgroup/memory/memory.limit_in_bytes";
+
+/* What a control group (a container, a job of a batch system) has left; the cache of files it read is given back. */
+static double left_in_group(const char *most, const char *used, const char *statistics, const char *cache)
+{
+    const double limit = number_in(most, NULL);
+    if (!isfinite(limit))
+        return INFINITY;
+    const double inactive = number_in(statistics, cache);
+    return limit - number_in(used, NULL) + (isfinite(inactive) ? inactive : 0.0);
+}
+
+/* By the kernel's own estimate and the control groups; INFINITY where there is no /proc. */
+static double free_here(void)
+{
+    const double machine = 1024.0 * number_in("/proc/meminfo", "MemAvailable:");
+    const double group =
+        left_in_group(group_limit, "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "inactive_file ");
+    const double older = left_in_group(older_group_limit, "/sys/fs/cgroup/memory/memory.usage_in_bytes",
+                                       "/sys/fs/cgroup/memory/memory.stat", "total_inactive_file ");
+    return fmax(fmin(machine, fmin(group, older)), 0.0);
+}
+
+/* Ranks of one machine, and this rank's number among them. What they keep for themselves is given back, so that it
+ * counts as free. */
+static OstStatus share_machine(OstContext *ctx, MPI_Comm *machine, int *rank)
+{
+    ost_return_freed_memory();
+    OST_TRY(
+        OST_MPI(ctx, MPI_Comm_split_type(ost_comm(ctx), MPI_COMM_TYPE_SHARED, ost_rank(ctx), MPI_INFO_NULL, machine)));
+    return OST_MPI(ctx, MPI_Comm_rank(*machine, rank));
+}
+
+OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *demand)
+{
+    MPI_Comm machine;
+    int rank = 0;
+    OST_TRY(share_machine(ctx, &machine, &rank));
+    double here = free_here(); /* ranks read it at different moments: the least counts */
+    OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_SUM, machine));
+    if (status == OST_SUCCESS)
+        status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_DOUBLE, MPI_MIN, machine));
+    MPI_Comm_free(&machine);
+    OST_TRY(ost_agree(ctx, status));
+    struct {
+        double lack;
+        int rank;
+    } worst = {mine - here, ost_rank(ctx)};
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ost_comm(ctx))));
+    double both[2] = {mine, here};
+    OST_TRY(OST_MPI(ctx, MPI_Bcast(both, 2, MPI_DOUBLE, worst.rank, ost_comm(ctx))));
+    *demand = (OstMemoryDemand){.wanted = both[0], .free = both[1]};
+    return OST_SUCCESS;
+}
+
+/* Adds up what every machine has, each counted once. */
+static OstStatus sum_machines(OstContext *ctx, double (*of_machine)(void), double *bytes)
+{
+    MPI_Comm machine;
+    int rank = 0;
+    OST_TRY(share_machine(ctx, &machine, &rank));
+    MPI_Comm_free(&machine);
+    *bytes = rank == 0 ? of_machine() : 0.0;
+    return ost_sum(ctx, 1, bytes);
+}
+
+OstStatus ost_memory_free(OstContext *ctx, double *bytes)
+{
+    return sum_machines(ctx, free_here, bytes);
+}
+
+/* A container may be given less than its machine has. */
+static double installed_here(void)
+{
+    const double machine = 1024.0 * number_in("/proc/meminfo", "MemTotal:");
+    return fmin(machine, fmin(number_in(group_limit, NULL), number_in(older_group_limit, NULL)));
+}
+
+OstStatus ost_memory_installed(OstContext *ctx, double *bytes)
+{
+    return sum_machines(ctx, installed_here, bytes);
+}
+
+OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who)
+{
+    void *tried = malloc((size_t)bytes + 1);
+    const int fits = tried && bytes <= free_here();
+    free(tried);
+    if (fits)
+        return ost_agree(ctx, OST_SUCCESS);
+    return ost_agree(ctx, OST_RAISE(ctx, OST_OUT_OF_MEMORY,
+                                    "%s would need another %.1f MiB on rank %d, which are not free; use more machines "
+                                    "or a smaller mesh",
+                                    who, bytes / 0x1p20, ost_rank(ctx)));
+}

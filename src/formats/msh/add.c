@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/msh/msh.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Takes nodes and elements as they are read. */
+
+/* An element may be in many groups, but not so often that its share of the file is less than some bytes. */
+enum { FIRST_ROOM = 64, SMALLEST_SHARE = 4 };
+
+static const char point[] = "Point", line[] = "Line", triangle[] = "Triangle", quad[] = "Quadrilateral",
+                  tet[] = "Tetrahedron", hex[] = "Hexahedron", prism[] = "Prism", pyramid[] = "Pyramid";
+
+const OstMshType ost_msh_types[OST_MSH_TYPES] = {
+    {0, 0, ""},        {1, 2, line},      {2, 3, triangle}, {2, 4, quad},      {3, 4, tet},       {3, 8, hex},
+    {3, 6, prism},     {3, 5, pyramid},   {1, 3, line},     {2, 6, triangle},  {2, 9, quad},      {3, 10, tet},
+    {3, 27, hex},      {3, 18, prism},    {3, 14, pyramid}, {0, 1, point},     {2, 8, quad},      {3, 20, hex},
+    {3, 15, prism},    {3, 13, pyramid},  {2, 9, triangle}, {2, 10, triangle}, {2, 12, triangle}, {2, 15, triangle},
+    {2, 15, triangle}, {2, 21, triangle}, {1, 4, line},     {1, 5, line},      {1, 6, line},      {3, 20, tet},
+    {3, 35, tet},      {3, 56, tet}};
+
+OstStatus ost_msh_check_type(const OstMsh *msh, int type)
+{
+    if (type >= 1 && type < OST_MSH_TYPES)
+        return OST_SUCCESS;
+    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected tets (types 4 and 11) and what bounds them",
+                         type);
+}
+
+OstStatus ost_msh_reserve_nodes(OstMsh *msh, OstGlobal count)
+{
+    OstMeshChunk *chunk = msh->chunk;
+    if (count > INT_MAX)
+        return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED,
+                         "%s: %" PRId64 " nodes, at most %d can be read from a .msh file", msh->cursor.path, count,
+                         INT_MAX);
+    OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, count));
+    return OST_NEW(chunk->ctx, &chunk->coordinates, 3 * count);
+}
+
+OstStatus ost_msh_add_node(OstMsh *msh, OstGlobal tag, const double x[3])
+{
+    OstMeshChunk *chunk = msh->chunk;
+    if (tag < 0)
+        return OST_RAISE_MSH(&msh->cursor, "node tag %" PRId64 " found, expected 0 or more", tag);
+    chunk->node_label[chunk->node_count] = tag;
+    memcpy(chunk->coordinates + 3 * (size_t)chunk->node_count++, x, 3 * sizeof *x);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_msh_index_nodes(OstMsh *msh)
+{
+    const OstMeshChunk *chunk = msh->chunk;
+    OST_TRY(ost_label_index_create(chunk->ctx, chunk->node_count, chunk->node_label, &msh->nodes));
+    if (!msh->nodes.repeated)
+        return OST_SUCCESS;
+    return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: node tag %" PRId64 " is given to two nodes", msh->cursor.path,
+                     msh->nodes.repeated_label);
+}
+
+/* Half as many again. */
+static OstStatus grow(const OstMsh *msh, OstLocal count, OstLocal *room)
+{
+    const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
+    if (grown > INT_MAX)
+        return OST_RAISE(msh->cursor.ctx, OST_LIMIT_EXCEEDED,
+                         "%s: more than %d elements of a kind, too many to be read from a .msh file", msh->cursor.path,
+                         INT_MAX / 3 * 2);
+    *room = (OstLocal)grown;
+    return OST_SUCCESS;
+}
+
+static OstStatus find_nodes(const OstMsh *msh, int count, const OstGlobal *tags, OstGlobal *positions)
+{
+    for (int i = 0; i < count; i++) {
+        positions[i] = ost_label_index_find(&msh->nodes, tags[i]);
+        if (positions[i] < 0)
+            return OST_RAISE_MSH(&msh->cursor, "an element uses node %" PRId64 ", which the file does not define",
+                                 tags[i]);
+    }
+    return OST_SUCCESS;
+}
+
+/* Volumes first, points last; by tag. */
+static int comes_before(const OstMshGroup *group, int dimension, int tag)
+{
+    return group->dimension > dimension || (group->dimension == dimension && group->tag < tag);
+}
+
+OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group)
+{
+    int low = 0, high = msh->group_count;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (comes_before(&msh->group[middle], dimension, tag))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *group = msh->group + low;
+    if (low < msh->group_count && (*group)->dimension == dimension && (*group)->tag == tag)
+        return OST_SUCCESS;
+    OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->group, msh->group_count + 1));
+    *group = msh->group + low;
+    memmove(*group + 1, *group, (size_t)(msh->group_count++ - low) * sizeof **group);
+    **group = (OstMshGroup){.dimension = dimension, .tag = tag};
+    return OST_SUCCESS;
+}
+
+/* Gmsh orders the last two mid-edge nodes of a tet the other way round. */
+static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, int group)
+{
+    OstMeshChunk *chunk = msh->chunk;
+    const OstLocal t = chunk->tet_count;
+    OstMshGroup *region = NULL;
+    if (t == msh->room) {
+        OST_TRY(grow(msh, t, &msh->room));
+        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_nodes, (size_t)msh->room * (size_t)width));
+        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_label, msh->room));
+        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_region, msh->room));
+    }
+    OstGlobal *own = chunk->tet_nodes + (size_t)t * (size_t)width;
+    OST_TRY(find_nodes(msh, width, nodes, own));
+    if (width == 10) {
+        const OstGlobal ninth = own[8];
+        own[8] = own[9];
+        own[9] = ninth;
+    }
+    if (t == 0 || group != chunk->tet_region[t - 1])
+        OST_TRY(ost_msh_group(msh, 3, group, &region));
+    msh->tets_out_of_order |= t > 0 && tag < chunk->tet_label[t - 1];
+    chunk->tet_label[t] = tag;
+    chunk->tet_region[t] = group;
+    chunk->tet_count++;
+    return OST_SUCCESS;
+}
+
+/* Of elements of several types in a group the first, and then one that differs, is remembered. */
+static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag)
+{
+    const OstMshType *facts = &ost_msh_types[type];
+    OstMshGroup *group = NULL;
+    if (++msh->items > (msh->cursor.end - msh->cursor.bytes) / SMALLEST_SHARE)
+        return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
+    OST_TRY(ost_msh_group(msh, facts->dimension, tag, &group));
+    if (group->count == 0)
+        group->type = type;
+    if (group->type != type) {
+        group->other_type = type;
+        return OST_SUCCESS;
+    }
+    if (group->count == group->room) {
+        OST_TRY(grow(msh, group->count, &group->room));
+        OST_TRY(OST_RESIZE(msh->cursor.ctx, &group->nodes, (size_t)group->room * (size_t)facts->nodes));
+    }
+    OST_TRY(find_nodes(msh, facts->nodes, nodes, group->nodes + (size_t)group->count * (size_t)facts->nodes));
+    group->count++;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
+                              const int *groups)
+{
+    const OstMshType *facts = &ost_msh_types[type];
+    if (tag < 0)
+        return OST_RAISE_MSH(&msh->cursor, "element tag %" PRId64 " found, expected 0 or more", tag);
+    msh->read[type]++;
+    if (type == OST_MSH_TET4 || type == OST_MSH_TET10) {
+        if (msh->tet_type == 0)
+            msh->tet_type = type;
+        return type == msh->tet_type ? add_tet(msh, facts->nodes, tag, nodes, group_count > 0 ? abs(groups[0]) : 0)
+                                     : OST_SUCCESS;
+    }
+    for (OstGlobal i = 0; i < group_count && facts->dimension < 3; i++)
+        if (groups[i] != 0)
+            OST_TRY(add_item(msh, type, nodes, abs(groups[i])));
+    return OST_SUCCESS;
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/serial/chunk_tidy.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "formats/serial/label_index.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static OstStatus permute(OstContext *ctx, const OstLabelIndex *index, size_t size, void **values)
+{
+    char *permuted = NULL;
+    OST_TRY(ost_allocate(ctx, (size_t)index->count, size, (void **)&permuted));
+    for (OstGlobal i = 0; i < index->count; i++)
+        memcpy(permuted + (size_t)i * size, (char *)*values + (size_t)index->sorted[i].position * size, size);
+    ost_free_memory(*values);
+    *values = permuted;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path)
+{
+    OstLabelIndex index = {0};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_label_index_create(chunk->ctx, chunk->tet_count, chunk->tet_label, &index));
+    if (index.repeated)
+        status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: element tag %" PRId64 " is given to two tets", path,
+                           index.repeated_label);
+    if (status != OST_SUCCESS || !index.sorted)
+        goto done;
+    OST_TRY_DONE(
+        permute(chunk->ctx, &index, sizeof(OstGlobal) * (size_t)chunk->nodes_per_tet, (void **)&chunk->tet_nodes));
+    OST_TRY_DONE(permute(chunk->ctx, &index, sizeof *chunk->tet_label, (void **)&chunk->tet_label));
+    OST_TRY_DONE(permute(chunk->ctx, &index, sizeof *chunk->tet_region, (void **)&chunk->tet_region));
+done:
+    ost_label_index_clear(&index);
+    return status;
+}
+
+static double volume(const OstMeshChunk *chunk, const OstGlobal *nodes)
+{
+    double edge[9];
+    const double *x = chunk->coordinates;
+    for (int e = 0; e < 3; e++)
+        for (int d = 0; d < 3; d++)
+            edge[3 * e + d] = x[3 * nodes[e + 1] + d] - x[3 * nodes[0] + d];
+    return ost_determinant3(edge);
+}
+
+static void swap(OstGlobal *a, OstGlobal *b)
+{
+    const OstGlobal kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Exchanges vertices 1 and 2, and so the mid-edge nodes 01 with 02 and 13 with 23. */
+static void turn(OstGlobal *nodes, int nodes_per_tet)
+{
+    swap(&nodes[1], &nodes[2]);
+    if (nodes_per_tet == 10) {
+        swap(&nodes[4], &nodes[6]);
+        swap(&nodes[8], &nodes[9]);
+    }
+}
+
+void ost_tets_turn(OstMeshChunk *chunk, const char *path)
+{
+    const size_t width = (size_t)chunk->nodes_per_tet, count = (size_t)chunk->tet_count;
+    int inverted = 0;
+    for (size_t t = 0; t < count; t++) {
+        const double signed_volume = volume(chunk, chunk->tet_nodes + t * width);
+        if (!(signed_volume <= 0.0))
+            return;
+        inverted |= signed_volume < 0.0;
+    }
+    if (!inverted)
+        return;
+    for (size_t t = 0; t < count; t++)
+        turn(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
+    ost_warn(chunk->ctx, "%s: all its tets are numbered the other way round; they were turned", path);
+}
+
+/* A tet's vertices in ascending order, and which tet it is. */
+typedef struct VertexSet {
+    OstLocal vertex[4];
+    OstLocal tet;
+} VertexSet;
+
+static int compare_sets(const void *a, const void *b)
+{
+    const VertexSet *x = a, *y = b;
+    for (int i = 0; i < 4; i++)
+        if (x->vertex[i] != y->vertex[i])
+            return x->vertex[i] < y->vertex[i] ? -1 : 1;
+    return 0;
+}
+
+static VertexSet vertex_set(const OstMeshChunk *chunk, OstLocal tet)
+{
+    const OstGlobal *nodes = chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
+    VertexSet set = {.tet = tet};
+    for (int i = 0; i < 4; i++) {
+        int place = i;
+        for (; place > 0 && set.vertex[place - 1] > nodes[i]; place--)
+            set.vertex[place] = set.vertex[place - 1];
+        set.vertex[place] = (OstLocal)nodes[i];
+    }
+    return set;
+}
+
+OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path)
+{
+    VertexSet *set = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY(OST_NEW(chunk->ctx, &set, chunk->tet_count));
+    for (OstLocal t = 0; t < chunk->tet_count; t++)
+        set[t] = vertex_set(chunk, t);
+    qsort(set, (size_t)chunk->tet_count, sizeof *set, compare_sets);
+    for (OstLocal t = 1; t < chunk->tet_count && status == OST_SUCCESS; t++)
+        if (compare_sets(&set[t - 1], &set[t]) == 0)
+            status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
+                               "%s: tets %" PRId64 " (region '%s') and %" PRId64 " (region '%s') have the same "
+                               "vertices; a tet can be in one region only",
+                               path, chunk->tet_label[set[t - 1].tet],
+                               chunk->regions.name[chunk->tet_region[set[t - 1].tet]], chunk->tet_label[set[t].tet],
+                               chunk->regions.name[chunk->tet_region[set[t].tet]]);
+    OST_FREE(set);
+    return status;
+}
+
+/* Numbers the nodes that tets use in their order, the others -1; gives how many are used. */
+static OstLocal number_used(const OstMeshChunk *chunk, OstLocal *number)
+{
+    OstLocal used = 0;
+    for (size_t i = 0; i < (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet; i++)
+        number[chunk->tet_nodes[i]] = 1;
+    for (OstLocal n = 0; n < chunk->node_count; n++)
+        number[n] = number[n] ? used++ : -1;
+    return used;
+}
+
+static void move_nodes(OstMeshChunk *chunk, const OstLocal *number)
+{
+    for (OstLocal n = 0; n < chunk->node_count; n++) {
+        if (number[n] < 0)
+            continue;
+        chunk->node_label[number[n]] = chunk->node_label[n];
+        for (int d = 0; d < 3; d++)
+            chunk->coordinates[3 * (size_t)number[n] + (size_t)d] = chunk->coordinates[3 * (size_t)n + (size_t)d];
+    }
+    for (size_t i = 0; i < (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet; i++)
+        chunk->tet_nodes[i] = number[chunk->tet_nodes[i]];
+}
+
+/* Gives the number of items left out. */
+static OstLocal move_items(OstBoundary *boundary, const OstLocal *number)
+{
+    const OstLocal before = boundary->count;
+    const size_t width = (size_t)boundary->nodes_per_item;
+    boundary->count = 0;
+    for (OstLocal i = 0; i < before; i++) {
+        const OstGlobal *from = boundary->nodes + (size_t)i * width;
+        OstGlobal *to = boundary->nodes + (size_t)boundary->count * width;
+        size_t used = 0;
+        for (; used < width && number[from[used]] >= 0; used++)
+            to[used] = number[from[used]];
+        boundary->count += used == width;
+    }
+    return before - boundary->count;
+}
+
+OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path)
+{
+    OstLocal *number = NULL;
+    char more[80] = "";
+    OstGlobal items = 0;
+    OST_TRY(OST_NEW(chunk->ctx, &number, chunk->node_count));
+    const OstLocal used = number_used(chunk, number);
+    const OstLocal unused = chunk->node_count - used;
+    move_nodes(chunk, number);
+    for (int b = 0; b < chunk->boundary_count; b++)
+        items += move_items(&chunk->boundaries[b], number);
+    chunk->global_nodes = chunk->node_count = used;
+    if (items > 0)
+        snprintf(more, sizeof more, ", and %" PRId64 " points, curves and faces of boundaries with them", items);
+    if (unused > 0)
+        ost_warn(chunk->ctx, "%s: %d %s used by no tet and left out%s", path, unused,
+                 unused == 1 ? "vertex is" : "vertices are", more);
+    OST_FREE(number);
+    return OST_SUCCESS;
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/serial/line_reader.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { FIRST_CAPACITY = 256, SHOWN_WORD = 40, MESSAGE_SIZE = 2048 };
+
+static const char separators[] = " \t,";
+static const char word_ends[] = " \t,:#";
+
+OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes)
+{
+    struct stat facts;
+    *file = NULL;
+    if (stat(path, &facts) != 0)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be read: %s", path, strerror(errno));
+    if (!S_ISREG(facts.st_mode))
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: is %s, expected a file", path,
+                         S_ISDIR(facts.st_mode) ? "a folder" : "no regular file");
+    *file = fopen(path, "rb");
+    if (!*file)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
+    *bytes = (OstGlobal)facts.st_size;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_lines_open(OstContext *ctx, const char *path, OstLineReader *reader)
+{
+    *reader = (OstLineReader){.ctx = ctx};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_file_open(ctx, path, &reader->file, &reader->bytes));
+    OST_TRY_DONE(ost_copy_string(ctx, path, &reader->path));
+    OST_TRY_DONE(OST_NEW(ctx, &reader->text, FIRST_CAPACITY));
+    reader->capacity = FIRST_CAPACITY;
+    reader->next = reader->text;
+done:
+    if (status != OST_SUCCESS)
+        ost_lines_close(reader);
+    return status;
+}
+
+void ost_lines_close(OstLineReader *reader)
+{
+    if (reader->file)
+        fclose(reader->file);
+    reader->file = NULL;
+    OST_FREE(reader->path);
+    OST_FREE(reader->text);
+}
+
+OstStatus ost_lines_raise(const OstLineReader *reader, const char *file, int line, const char *format, ...)
+{
+    char text[MESSAGE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ')
+            *c = '?';
+    return ost_error_set(reader->ctx, OST_INVALID_INPUT, file, line, "%s:%" PRId64 ": %s", reader->path, reader->line,
+                         text);
+}
+
+/* Reads up to the next line end; *found is 0 when the file has ended before it. */
+static OstStatus read_line(OstLineReader *reader, int *found)
+{
+    size_t length = 0;
+    int c = getc_unlocked(reader->file);
+    *found = c != EOF;
+    reader->line += c != EOF;
+    for (; c != EOF && c != '\n'; c = getc_unlocked(reader->file)) {
+        if (c == '\0')
+            return OST_RAISE_LINE(reader, "holds a zero byte: not a text file");
+        if (length + 1 == reader->capacity) {
+            OST_TRY(OST_RESIZE(reader->ctx, &reader->text, 2 * reader->capacity));
+            reader->capacity *= 2;
+        }
+        reader->text[length++] = (char)c;
+    }
+    if (ferror(reader->file))
+        return OST_RAISE(reader->ctx, OST_FILE_FAILED, "%s: reading failed after line %" PRId64 ": %s", reader->path,
+                         reader->line, strerror(errno));
+    while (length > 0 && strchr(" \t\r", reader->text[length - 1]))
+        length--;
+    reader->text[length] = '\0';
+    reader->next = reader->text;
+    return OST_SUCCESS;
+}
+
+static const char *skip_separators(OstLineReader *reader)
+{
+    reader->next += strspn(reader->next, separators);
+    return reader->next;
+}
+
+int ost_lines_ended(OstLineReader *reader)
+{
+    const char next = *skip_separators(reader);
+    return next == '\0' || next == '#';
+}
+
+OstStatus ost_lines_next(OstLineReader *reader, int *found)
+{
+    do {
+        OST_TRY(read_line(reader, found));
+    } while (*found && ost_lines_ended(reader));
+    reader->next = reader->text;
+    return OST_SUCCESS;
+}
+
+int ost_lines_take(OstLineReader *reader, char character)
+{
+    if (*skip_separators(reader) != character)
+        return 0;
+    reader->next++;
+    return 1;
+}
+
+static OstStatus raise_not_a_number(OstLineReader *reader, const char *what, const char *kind)
+{
+    if (ost_lines_ended(reader))
+        return OST_RAISE_LINE(reader, "the line ends where %s is expected", what);
+    char word[SHOWN_WORD];
+    ost_lines_word(reader, word, sizeof word);
+    return OST_RAISE_LINE(reader, "%s is '%s', expected %s", what, word, kind);
+}
+
+OstStatus ost_lines_integer(OstLineReader *reader, const char *what, OstGlobal *value)
+{
+    const char *start = skip_separators(reader);
+    char *end = NULL;
+    errno = 0;
+    const long long number = strtoll(start, &end, 10);
+    if (end == start || !strchr(word_ends, *end) || errno != 0)
+        return raise_not_a_number(reader, what, "a whole number");
+    reader->next = end;
+    *value = number;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_lines_number(OstLineReader *reader, const char *what, double *value)
+{
+    const char *start = skip_separators(reader);
+    char *end = NULL;
+    const double number = strtod(start, &end);
+    if (end == start || !strchr(word_ends, *end))
+        return raise_not_a_number(reader, what, "a number");
+    if (!isfinite(number))
+        return raise_not_a_number(reader, what, "a finite number");
+    reader->next = end;
+    *value = number;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_lines_finish(OstLineReader *reader, const char *what)
+{
+    if (ost_lines_ended(reader))
+        return OST_SUCCESS;
+    return OST_RAISE_LINE(reader, "'%.*s' follows %s, expected the end of the line", (int)SHOWN_WORD, reader->next,
+                          what);
+}
+
+void ost_lines_word(OstLineReader *reader, char *word, size_t size)
+{
+    const char *start = skip_separators(reader);
+    const size_t length = strcspn(start, separators);
+    const size_t kept = length < size ? length : size - 1;
+    memcpy(word, start, kept);
+    word[kept] = '\0';
+    reader->next = start + length;
+}

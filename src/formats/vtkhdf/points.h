@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_FORMATS_VTKHDF_POINTS_H
+#define ORTHOSTAT_FORMATS_VTKHDF_POINTS_H
+
+#include "formats/vtkhdf/hdf5.h"
+#include "orthostat/mesh.h"
+
+/* Pieces of a file each hold the points they use, so a node on the border of pieces is there several times. The first
+ * of its points in the file becomes the node; nodes are numbered in the order of their points. */
+
+/* This rank's share of the file's points, wherever the pieces begin and end. */
+typedef struct OstFilePoints {
+    OstGlobal first, total; /* in the file, all pieces in a row */
+    OstLocal count;
+    OstGlobal piece_count;
+    OstGlobal *piece_start; /* piece_count + 1: first point of each piece */
+    double *coordinates;    /* count × 3 */
+    OstGlobal *label;       /* NULL if the file has no "vertex" array */
+    OstGlobal *node;        /* number of the node each point is, once merged */
+} OstFilePoints;
+
+/* Collective. Finds which points are one node: those with equal labels, or with exactly equal coordinates where the
+ * file has no labels. Gives the chunk its nodes, and every point its node's number. Raises OST_INVALID_INPUT where a
+ * piece has a label twice, or a label is at two places. */
+OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMeshChunk *chunk);
+
+/* Collective. Replaces points of the file (numbers over all pieces) by their nodes' numbers. */
+OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points, size_t count, OstGlobal *point);
+
+void ost_file_points_free(OstFilePoints *points);
+
+#endif

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/vtkhdf/vtkhdf.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "formats/vtkhdf/groups.h"
+#include "formats/vtkhdf/points.h"
+#include "formats/vtkhdf/rehearsal.h"
+
+#include <string.h>
+
+/* VTK's numbers of the cell types we know. */
+enum { VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
+
+/* What is known of a file while it is read. Every rank reads its own share of points and tets. */
+typedef struct Reader {
+    OstHdf5 h5;
+    OstFilePoints points;
+    OstGlobal *tet_start; /* points.piece_count + 1: first tet of each piece */
+    OstMeshChunk *chunk;
+} Reader;
+
+static OstStatus check_kind(Reader *reader)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    char type[64] = "";
+    int version[2] = {0, 0};
+    if (!ost_hdf5_has(h5, "/VTKHDF"))
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: an HDF5 file, but it has no group VTKHDF", h5->path);
+    OST_TRY(ost_hdf5_read_text(h5, "/VTKHDF", "Type", type, sizeof type));
+    if (strcmp(type, "UnstructuredGrid") != 0)
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: holds VTKHDF of type '%s'; expected UnstructuredGrid",
+                         h5->path, type);
+    OST_TRY(ost_hdf5_read_integers(h5, "/VTKHDF", "Version", 2, version));
+    if (version[0] != 1 && version[0] != 2)
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: VTKHDF version %d.%d; expected 1 or 2", h5->path, version[0],
+                         version[1]);
+    if (ost_hdf5_has(h5, "/VTKHDF/Steps"))
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT,
+                         "%s: holds a series of time steps; expected a single state (save one step alone)", h5->path);
+    return OST_SUCCESS;
+}
+
+/* Where each piece begins, from the numbers of its entries; room for one more at the end. */
+static OstStatus read_starts(const OstHdf5 *h5, const char *name, OstGlobal pieces, OstGlobal **start)
+{
+    OST_TRY(OST_NEW(h5->ctx, start, pieces + 1));
+    OST_TRY(ost_hdf5_read_rows(h5, name, H5T_NATIVE_INT64, 1, pieces, 0, pieces, *start + 1));
+    for (OstGlobal p = 0; p < pieces; p++) {
+        OstGlobal *end = *start + p + 1;
+        if (*end < 0 || *end > INT64_MAX / 64 - (*start)[p])
+            return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: %s of piece %lld is %lld; the file is damaged", h5->path,
+                             name, (long long)p, (long long)*end);
+        *end += (*start)[p];
+    }
+    return OST_SUCCESS;
+}
+
+/* Rank r's share of `total` entries begins at total·r/size; no rank can hold more than it can number. */
+static OstStatus take_share(const OstHdf5 *h5, const char *what, OstGlobal total, OstGlobal *first, OstLocal *count)
+{
+    const OstGlobal size = ost_size(h5->ctx), rank = ost_rank(h5->ctx);
+    const OstGlobal even = total / size, rest = total % size;
+    *first = even * rank + (rank < rest ? rank : rest);
+    if (even >= INT32_MAX)
+        return OST_RAISE(h5->ctx, OST_LIMIT_EXCEEDED, "%s: %lld %s on %lld ranks are more than 2^31 - 1 each; use more",
+                         h5->path, (long long)total, what, (long long)size);
+    *count = (OstLocal)(even + (rank < rest));
+    return OST_SUCCESS;
+}
+
+static OstStatus read_counts(Reader *reader)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    OstFilePoints *points = &reader->points;
+    OstMeshChunk *chunk = reader->chunk;
+    int components = 0;
+    OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/NumberOfPoints", &points->piece_count, &components));
+    OST_TRY(read_starts(h5, "/VTKHDF/NumberOfPoints", points->piece_count, &points->piece_start));
+    OST_TRY(read_starts(h5, "/VTKHDF/NumberOfCells", points->piece_count, &reader->tet_start));
+    points->total = points->piece_start[points->piece_count];
+    chunk->global_tets = reader->tet_start[points->piece_count];
+    if (chunk->global_tets == 0)
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: holds no cells; expected tets", h5->path);
+    OST_TRY(take_share(h5, "points", points->total, &points->first, &points->count));
+    return take_share(h5, "tets", chunk->global_tets, &chunk->first_tet, &chunk->tet_count);
+}
+
+static OstStatus read_points(Reader *reader)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    OstFilePoints *points = &reader->points;
+    static const char labels[] = "/VTKHDF/PointData/vertex";
+    OstGlobal rows = 0;
+    int components = 0;
+    OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/Points", &rows, &components)); /* before memory is had for them */
+    if (rows != points->total || components != 3)
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: Points has %lld rows of %d; the pieces count %lld of 3",
+                         h5->path, (long long)rows, components, (long long)points->total);
+    OST_TRY(OST_NEW(h5->ctx, &points->coordinates, 3 * (size_t)points->count));
+    OST_TRY(ost_hdf5_read_rows(h5, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, 3, points->total, points->first, points->count,
+                               points->coordinates));
+    if (!ost_hdf5_has(h5, labels))
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(h5->ctx, &points->label, points->count));
+    return ost_hdf5_read_rows(h5, labels, H5T_NATIVE_INT64, 1, points->total, points->first, points->count,
+                              points->label);
+}
+
+static OstStatus read_types(Reader *reader)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    OstMeshChunk *chunk = reader->chunk;
+    OstGlobal rows = 0;
+    int components = 0;
+    unsigned char *types = NULL;
+    OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/Types", &rows, &components));
+    if (rows != chunk->global_tets || components != 1)
+        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: Types has %lld rows; the pieces count %lld cells", h5->path,
+                         (long long)rows, (long long)chunk->global_tets);
+    OST_TRY(OST_NEW(h5->ctx, &types, chunk->tet_count));
+    OstStatus status = ost_hdf5_read_rows(h5, "/VTKHDF/Types", H5T_NATIVE_UCHAR, 1, chunk->global_tets,
+                                          chunk->first_tet, chunk->tet_count, types);
+    for (OstLocal t = 0; t < chunk->tet_count && status == OST_SUCCESS; t++) {
+        const int nodes = types[t] == VTK_TETRA ? 4 : types[t] == VTK_QUADRATIC_TETRA ? 10 : 0;
+        if (nodes == 0)
+            status =
+                OST_RAISE(h5->ctx, OST_INVALID_INPUT,
+                          "%s: cell %lld has VTK's type %d; expected tets only, type 10 (4 nodes) or 24 (10 nodes)",
+                          h5->path, (long long)(chunk->first_tet + t), types[t]);
+        else if (t > 0 && nodes != chunk->nodes_per_tet)
+            status = OST_RAISE(h5->ctx, OST_INVALID_INPUT,
+                               "%s: cell %lld has %d nodes, others have %d; expected tets of one kind", h5->path,
+                               (long long)(chunk->first_tet + t), nodes, chunk->nodes_per_tet);
+        chunk->nodes_per_tet = nodes;
+    }
+    OST_FREE(types);
+    return status;
+}
+
+/* Collective. Tets are of one kind on all ranks; a rank with no tets takes the others'. */
+static OstStatus agree_on_kind(Reader *reader)
+{
+    OstMeshChunk *chunk = reader->chunk;
+    int range[2] = {chunk->tet_count > 0 ? -chunk->nodes_per_tet : -INT32_MAX, chunk->nodes_per_tet};
+    OST_TRY(ost_max_ints(chunk->ctx, 2, range));
+    chunk->nodes_per_tet = range[1];
+    if (-range[0] != range[1])
+        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: tets of %d and of %d nodes are mixed; expected one kind",
+                         reader->h5.path, -range[0], range[1]);
+    return OST_SUCCESS;
+}
+
+static OstGlobal piece_of_tet(const Reader *reader, OstGlobal piece, OstGlobal tet)
+{
+    while (tet >= reader->tet_start[piece + 1])
+        piece++;
+    return piece;
+}
+
+/* Every piece lists one offset more than it has tets, so tet t of piece p has entries t + p and t + p + 1. */
+static OstStatus check_offsets(const Reader *reader, const OstGlobal *offset, OstGlobal first_piece)
+{
+    const OstMeshChunk *chunk = reader->chunk;
+    const OstGlobal n = chunk->nodes_per_tet;
+    OstGlobal piece = first_piece;
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const OstGlobal tet = chunk->first_tet + t;
+        piece = piece_of_tet(reader, piece, tet);
+        const OstGlobal *entry = offset + t + (piece - first_piece);
+        const OstGlobal expected = n * (tet - reader->tet_start[piece]);
+        if (entry[0] != expected || entry[1] != expected + n)
+            return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
+                             "%s: Offsets of cell %lld are %lld and %lld; expected %lld and %lld", reader->h5.path,
+                             (long long)tet, (long long)entry[0], (long long)entry[1], (long long)expected,
+                             (long long)(expected + n));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus read_offsets(const Reader *reader)
+{
+    const OstMeshChunk *chunk = reader->chunk;
+    if (chunk->tet_count == 0)
+        return OST_SUCCESS;
+    const OstGlobal last = chunk->first_tet + chunk->tet_count - 1;
+    const OstGlobal first_piece = piece_of_tet(reader, 0, chunk->first_tet);
+    const OstGlobal last_piece = piece_of_tet(reader, first_piece, last);
+    const OstGlobal count = chunk->tet_count + last_piece - first_piece + 1;
+    OstGlobal *offset = NULL;
+    OST_TRY(OST_NEW(chunk->ctx, &offset, count));
+    OstStatus status = ost_hdf5_read_rows(&reader->h5, "/VTKHDF/Offsets", H5T_NATIVE_INT64, 1,
+                                          chunk->global_tets + reader->points.piece_count,
+                                          chunk->first_tet + first_piece, count, offset);
+    if (status == OST_SUCCESS)
+        status = check_offsets(reader, offset, first_piece);
+    OST_FREE(offset);
+    return status;
+}
+
+/* The tets' nodes as points of the file, all pieces in a row. */
+static OstStatus read_connectivity(Reader *reader)
+{
+    OstMeshChunk *chunk = reader->chunk;
+    const OstFilePoints *points = &reader->points;
+    const OstGlobal n = chunk->nodes_per_tet;
+    OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_nodes, n * chunk->tet_count));
+    OST_TRY(ost_hdf5_read_rows(&reader->h5, "/VTKHDF/Connectivity", H5T_NATIVE_INT64, 1, n * chunk->global_tets,
+                               n * chunk->first_tet, n * chunk->tet_count, chunk->tet_nodes));
+    OstGlobal piece = 0;
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        piece = piece_of_tet(reader, piece, chunk->first_tet + t);
+        const OstGlobal size = points->piece_start[piece + 1] - points->piece_start[piece];
+        OstGlobal *nodes = chunk->tet_nodes + n * t;
+        for (OstGlobal k = 0; k < n; k++) {
+            if (nodes[k] < 0 || nodes[k] >= size)
+                return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
+                                 "%s: cell %lld uses point %lld of its piece, which has %lld", reader->h5.path,
+                                 (long long)(chunk->first_tet + t), (long long)nodes[k], (long long)size);
+            nodes[k] += points->piece_start[piece];
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* Rows of a cell array into new memory. */
+static OstStatus read_tet_array(const Reader *reader, const char *name, hid_t type, int components, size_t size,
+                                void **values)
+{
+    const OstMeshChunk *chunk = reader->chunk;
+    OST_TRY(ost_allocate(chunk->ctx, (size_t)chunk->tet_count * (size_t)components, size, values));
+    return ost_hdf5_read_rows(&reader->h5, name, type, components, chunk->global_tets, chunk->first_tet,
+                              chunk->tet_count, *values);
+}
+
+/* Without our group an array called region may be anything: the whole is one region. */
+static OstStatus read_regions(Reader *reader)
+{
+    static const char name[] = "/VTKHDF/CellData/region";
+    const OstHdf5 *h5 = &reader->h5;
+    OstMeshChunk *chunk = reader->chunk;
+    const int named = ost_hdf5_has(h5, "/Orthostat");
+    OST_TRY(ost_groups_read_regions(h5, chunk));
+    if (!named || !ost_hdf5_has(h5, name))
+        return OST_NEW(chunk->ctx, &chunk->tet_region, chunk->tet_count);
+    OST_TRY(read_tet_array(reader, name, H5T_NATIVE_INT32, 1, sizeof(int32_t), (void **)&chunk->tet_region));
+    for (OstLocal t = 0; t < chunk->tet_count; t++)
+        if (chunk->tet_region[t] < 0 || chunk->tet_region[t] >= chunk->regions.count)
+            return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: cell %lld is of region %d; the file names %d regions",
+                             h5->path, (long long)(chunk->first_tet + t), chunk->tet_region[t], chunk->regions.count);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_tets(Reader *reader)
+{
+    static const char labels[] = "/VTKHDF/CellData/tet";
+    static const char axes[] = "/VTKHDF/CellData/axes";
+    OstMeshChunk *chunk = reader->chunk;
+    OST_TRY(read_offsets(reader));
+    OST_TRY(read_connectivity(reader));
+    OST_TRY(read_regions(reader));
+    if (ost_hdf5_has(&reader->h5, labels))
+        OST_TRY(read_tet_array(reader, labels, H5T_NATIVE_INT64, 1, sizeof(int64_t), (void **)&chunk->tet_label));
+    OstGlobal rows = 0;
+    int components = 0;
+    if (ost_hdf5_has(&reader->h5, axes))
+        OST_TRY(ost_hdf5_shape(&reader->h5, axes, &rows, &components));
+    if (components == 9)
+        OST_TRY(read_tet_array(reader, axes, H5T_NATIVE_DOUBLE, 9, sizeof(double), (void **)&chunk->tet_axes));
+    return OST_SUCCESS;
+}
+
+/* Local. All that is needed before the ranks must speak to each other. */
+static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader)
+{
+    OST_TRY(OST_NEW(ctx, &reader->chunk, 1));
+    reader->chunk->ctx = ctx;
+    OST_TRY(ost_hdf5_open(ctx, path, &reader->h5));
+    OST_TRY(check_kind(reader));
+    OST_TRY(read_counts(reader));
+    OST_TRY(read_types(reader));
+    return read_points(reader);
+}
+
+/* Local. Has HDF5 do all that the reading will ask of it, if not with all the numbers: past what it refuses as well, as
+ * the reading comes by in another order. */
+static OstStatus rehearse(OstContext *ctx, const char *path)
+{
+    const struct {
+        const char *name;
+        hid_t type;
+    } arrays[] = {{"/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64},   {"/VTKHDF/NumberOfCells", H5T_NATIVE_INT64},
+                  {"/VTKHDF/Points", H5T_NATIVE_DOUBLE},          {"/VTKHDF/Types", H5T_NATIVE_UCHAR},
+                  {"/VTKHDF/Offsets", H5T_NATIVE_INT64},          {"/VTKHDF/Connectivity", H5T_NATIVE_INT64},
+                  {"/VTKHDF/PointData/vertex", H5T_NATIVE_INT64}, {"/VTKHDF/CellData/tet", H5T_NATIVE_INT64},
+                  {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
+    Reader reader = {.h5.file = H5I_INVALID_HID};
+    OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
+    if (status == OST_SUCCESS)
+        status = check_kind(&reader);
+    const int can_be_read = status == OST_SUCCESS;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
+        const OstStatus one = ost_hdf5_look(&reader.h5, arrays[i].name, arrays[i].type);
+        status = one == OST_SUCCESS ? status : one;
+    }
+    if (can_be_read && status != OST_OUT_OF_MEMORY)
+        status = ost_groups_look(&reader.h5);
+    ost_hdf5_close(&reader.h5);
+    return status;
+}
+
+OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    Reader reader = {.h5.file = H5I_INVALID_HID};
+    OstStatus status = OST_SUCCESS;
+    *chunk = NULL;
+    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_rehearse(ctx, path, rehearse)));
+    OST_TRY_DONE(ost_agree(ctx, open_and_look(ctx, path, &reader)));
+    OST_TRY_DONE(agree_on_kind(&reader));
+    OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));
+    OST_TRY_DONE(ost_file_points_merge(&reader.h5, &reader.points, reader.chunk));
+    OST_TRY_DONE(ost_file_points_to_nodes(ctx, &reader.points,
+                                          (size_t)reader.chunk->tet_count * (size_t)reader.chunk->nodes_per_tet,
+                                          reader.chunk->tet_nodes));
+    OST_TRY_DONE(ost_groups_read_boundaries(&reader.h5, reader.chunk));
+    *chunk = reader.chunk;
+    reader.chunk = NULL;
+done:
+    if (reader.h5.ctx)
+        ost_hdf5_close(&reader.h5);
+    ost_file_points_free(&reader.points);
+    OST_FREE(reader.tet_start);
+    if (reader.chunk)
+        ost_chunk_destroy(&reader.chunk);
+    return status;
+}

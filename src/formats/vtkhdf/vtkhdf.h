@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_FORMATS_VTKHDF_VTKHDF_H
+#define ORTHOSTAT_FORMATS_VTKHDF_VTKHDF_H
+
+#include "orthostat/mesh.h"
+#include "orthostat/mesh_file.h"
+
+typedef enum { OST_ON_NODES, OST_ON_TETS } OstCentring;
+typedef enum { OST_VALUES_DOUBLE, OST_VALUES_INT32 } OstValueType;
+
+/* One array of the file. `values` start at local node 0 (all local nodes) or at owned tet 0 (owned tets). */
+typedef struct OstOutputArray {
+    const char *name;
+    OstCentring centring;
+    OstValueType type;
+    int components;
+    const void *values;
+} OstOutputArray;
+
+/* Says in the file that its fields are no answer: an attribute Status of /VTKHDF, the reasons as /Orthostat/Objections,
+ * and field data arrays `refused` and, where so, `unfinished` (1), which VTK's reader hands on. */
+typedef struct OstOutputMark {
+    const char *status; /* one word */
+    int unfinished;
+    int reason_count;
+    char *const *reasons;
+} OstOutputMark;
+
+/* Collective. Writes a VTKHDF 1.0 UnstructuredGrid, one piece per rank (its owned tets and their nodes), in parallel.
+ * The file appears under its name only when complete (core/write_aside.h); on failure what was there stays. `mark` is
+ * NULL for an answer. Labels, region names and boundaries go along, so that the file can be read back as a mesh. Every
+ * array's values must be finite. */
+OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
+                           const OstOutputArray *arrays, const OstOutputMark *mark);
+
+/* Collective. The mesh of a VTKHDF file of tets (types 10 and 24 only), each rank reading its share; nodes that pieces
+ * share are merged by their labels, or where a file of another program has none, by exactly equal coordinates. */
+OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
+
+#endif

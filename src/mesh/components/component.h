@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
+#define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
+
+#include "orthostat/mesh.h"
+
+/* A component: tets joined through faces. Such a set moves as one where it does not deform; components that touch in an
+ * edge or a vertex alone are hinged there. */
+typedef struct OstComponent {
+    OstGlobal tets;
+    OstGlobal first_tet; /* its lowest label */
+    double low[3], high[3];
+} OstComponent;
+
+typedef struct OstComponents {
+    OstContext *ctx;
+    OstLocal count;          /* over the whole body */
+    OstLocal *of_tet;        /* tet_count: the component of each tet held here */
+    OstComponent *component; /* count: the same on every rank, in the order of first_tet */
+} OstComponents;
+
+/* Collective. Raises OST_INVALID_INPUT, naming two tets, where tets lie on the same side of a face. */
+OstStatus ost_components_create(const OstMesh *mesh, OstComponents **components);
+void ost_components_destroy(OstComponents **components);
+
+#endif

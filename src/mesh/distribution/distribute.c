@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "mesh/check/check.h"
+#include "mesh/distribution/partition.h"
+#include "mesh/distribution/redistribute.h"
+
+static OstStatus label_all(OstMeshChunk *chunk)
+{
+    if (!chunk->node_label) {
+        OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
+        for (OstLocal i = 0; i < chunk->node_count; i++)
+            chunk->node_label[i] = chunk->first_node + i + 1;
+    }
+    if (!chunk->tet_label) {
+        OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_label, chunk->tet_count));
+        for (OstLocal t = 0; t < chunk->tet_count; t++)
+            chunk->tet_label[t] = chunk->first_tet + t + 1;
+    }
+    return OST_SUCCESS;
+}
+
+/* What every rank knows moves over as it is; a boundary's items are put right later. */
+static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
+{
+    mesh->nodes_per_tet = chunk->nodes_per_tet;
+    mesh->global_nodes = chunk->global_nodes;
+    mesh->global_tets = chunk->global_tets;
+    mesh->regions = chunk->regions;
+    mesh->boundary_count = chunk->boundary_count;
+    mesh->boundaries = chunk->boundaries;
+    chunk->regions = (OstNames){0, NULL};
+    chunk->boundary_count = 0;
+    chunk->boundaries = NULL;
+}
+
+#define TAKE(mesh, chunk, array)        \
+    do {                                \
+        (mesh)->array = (chunk)->array; \
+        (chunk)->array = NULL;          \
+    } while (0)
+
+/* On one rank the chunk is the mesh, but for the size of its numbers. */
+static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
+{
+    OstContext *ctx = chunk->ctx;
+    const size_t entries = (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet;
+    take_names(chunk, mesh);
+    mesh->node_count = mesh->owned_nodes = chunk->node_count;
+    mesh->tet_count = mesh->owned_tets = chunk->tet_count;
+    TAKE(mesh, chunk, coordinates);
+    TAKE(mesh, chunk, node_label);
+    TAKE(mesh, chunk, tet_label);
+    TAKE(mesh, chunk, tet_region);
+    TAKE(mesh, chunk, tet_axes);
+    OST_TRY(OST_NEW(ctx, &mesh->node_number, mesh->node_count));
+    for (OstLocal i = 0; i < mesh->node_count; i++)
+        mesh->node_number[i] = i;
+    OST_TRY(OST_NEW(ctx, &mesh->tet_nodes, entries));
+    for (size_t i = 0; i < entries; i++)
+        mesh->tet_nodes[i] = (OstLocal)chunk->tet_nodes[i];
+    return ost_halo_create(ctx, mesh->owned_nodes, 0, 0, NULL, &mesh->halo);
+}
+
+static OstStatus cut_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
+{
+    OstContext *ctx = chunk->ctx;
+    Slab *slab = NULL;
+    NodeMetric *metric = NULL;
+    int *part = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_slab_create(chunk, &slab));
+    if (tets)
+        OST_TRY_DONE(ost_cut_metric_create(chunk, slab, tets, &metric));
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
+    OST_TRY_DONE(ost_partition(slab, metric, part));
+    OST_FREE(metric);
+    take_names(chunk, mesh);
+    OST_TRY_DONE(ost_mesh_redistribute(chunk, slab, part, mesh));
+done:
+    OST_FREE(metric);
+    OST_FREE(part);
+    ost_slab_destroy(&slab);
+    return status;
+}
+
+static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh **mesh)
+{
+    OstContext *ctx = chunk->ctx;
+    OST_TRY(ost_check_chunk(chunk));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, mesh, 1)));
+    (*mesh)->ctx = ctx;
+    OST_TRY(ost_agree(ctx, label_all(chunk)));
+    OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : cut_and_move(chunk, tets, *mesh));
+    return ost_check_mesh(*mesh);
+}
+
+OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh)
+{
+    return ost_mesh_distribute_by(ctx, chunk, NULL, mesh);
+}
+
+OstStatus ost_mesh_distribute_by(OstContext *ctx, OstMeshChunk **chunk, const OstTetMetric *tets, OstMesh **mesh)
+{
+    *mesh = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_PARTITION);
+    const OstStatus status = distribute(*chunk, tets, mesh);
+    ost_chunk_destroy(chunk);
+    if (status != OST_SUCCESS)
+        ost_mesh_destroy(mesh);
+    ost_ledger_leave(ctx);
+    return status;
+}

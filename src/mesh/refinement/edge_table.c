@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/refinement/edge_table.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "mesh/tet.h"
+
+#include <stdlib.h>
+
+void ost_edge_table_clear(EdgeTable *table)
+{
+    OST_FREE(table->start);
+    OST_FREE(table->low);
+    OST_FREE(table->high);
+    OST_FREE(table->of_tet);
+    table->count = 0;
+}
+
+static void sort_ends(const OstMesh *mesh, OstLocal a, OstLocal b, OstLocal *low, OstLocal *high)
+{
+    const int ascending = mesh->node_number[a] < mesh->node_number[b];
+    *low = ascending ? a : b;
+    *high = ascending ? b : a;
+}
+
+static void edge_ends(const OstMesh *mesh, OstLocal tet, int edge, OstLocal *low, OstLocal *high)
+{
+    const OstLocal *nodes = mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
+    sort_ends(mesh, nodes[ost_tet_edge[edge][0]], nodes[ost_tet_edge[edge][1]], low, high);
+}
+
+static int compare(const void *a, const void *b)
+{
+    const OstLocal x = *(const OstLocal *)a;
+    const OstLocal y = *(const OstLocal *)b;
+    return (x > y) - (x < y);
+}
+
+/* The other ends under each node, once for every tet that has the edge. */
+static OstStatus file_mentions(const OstMesh *mesh, OstGlobal *start, OstLocal **mention)
+{
+    OstGlobal *next = start + 1; /* one behind, so that filing moves each start to its place */
+    OstLocal low = 0;
+    OstLocal high = 0;
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        for (int e = 0; e < 6; e++) {
+            edge_ends(mesh, t, e, &low, &high);
+            next[low + 1]++;
+        }
+    }
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        next[n + 1] += next[n];
+    OST_TRY(OST_NEW(mesh->ctx, mention, next[mesh->node_count]));
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        for (int e = 0; e < 6; e++) {
+            edge_ends(mesh, t, e, &low, &high);
+            (*mention)[next[low]++] = high;
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* Sorts each node's other ends and moves them together without repetition. */
+static OstStatus remove_repetitions(const OstMesh *mesh, const OstGlobal *start, OstLocal *mention, EdgeTable *table)
+{
+    OstGlobal kept = 0;
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        const OstGlobal first = kept;
+        qsort(mention + start[n], (size_t)(start[n + 1] - start[n]), sizeof *mention, compare);
+        for (OstGlobal i = start[n]; i < start[n + 1]; i++)
+            if (kept == first || mention[i] != mention[kept - 1])
+                mention[kept++] = mention[i];
+        if (kept > INT32_MAX)
+            return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
+                             "a rank would hold more than the %d mid-edge nodes it can number; use more ranks",
+                             INT32_MAX);
+        table->start[n + 1] = (OstLocal)kept;
+    }
+    table->count = (OstLocal)kept;
+    return OST_SUCCESS;
+}
+
+static OstStatus file_edges(const OstMesh *mesh, EdgeTable *table)
+{
+    OstGlobal *start = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &start, (size_t)mesh->node_count + 2));
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &table->start, (size_t)mesh->node_count + 1));
+    OST_TRY_DONE(file_mentions(mesh, start, &table->high));
+    OST_TRY_DONE(remove_repetitions(mesh, start, table->high, table));
+    OST_TRY_DONE(OST_RESIZE(mesh->ctx, &table->high, table->count));
+done:
+    OST_FREE(start);
+    return status;
+}
+
+OstLocal ost_edge_find(const EdgeTable *table, const OstMesh *mesh, OstLocal a, OstLocal b)
+{
+    OstLocal low = 0;
+    OstLocal high = 0;
+    sort_ends(mesh, a, b, &low, &high);
+    const OstLocal first = table->start[low];
+    const OstLocal *found =
+        bsearch(&high, table->high + first, (size_t)(table->start[low + 1] - first), sizeof high, compare);
+    return found ? (OstLocal)(found - table->high) : -1;
+}
+
+OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)
+{
+    OST_TRY(file_edges(mesh, table));
+    OST_TRY(OST_NEW(mesh->ctx, &table->low, table->count));
+    OST_TRY(OST_NEW(mesh->ctx, &table->of_tet, 6 * (size_t)mesh->tet_count));
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        for (OstLocal e = table->start[n]; e < table->start[n + 1]; e++)
+            table->low[e] = n;
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        for (int e = 0; e < 6; e++)
+            table->of_tet[6 * (size_t)t + (size_t)e] =
+                ost_edge_find(table, mesh, nodes[ost_tet_edge[e][0]], nodes[ost_tet_edge[e][1]]);
+    }
+    return OST_SUCCESS;
+}

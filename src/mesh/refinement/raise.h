@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_REFINEMENT_RAISE_H
+#define ORTHOSTAT_MESH_REFINEMENT_RAISE_H
+
+#include "mesh/refinement/mid_nodes.h"
+
+/* Collective. The quadratic mesh over new nodes that are already placed. */
+OstStatus ost_mesh_raise_over(const MidNodes *mid, OstMesh **quadratic);
+
+#endif

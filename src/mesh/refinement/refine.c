@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "mesh/check/check.h"
+#include "mesh/refinement/divide.h"
+#include "mesh/refinement/raise.h"
+#include "mesh/tet.h"
+
+/* Bey's red refinement (J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378): four tets at the vertices,
+ * and four around the diagonal of the inner octahedron between the middles of edges 02 and 13. His order of the
+ * children's vertices, with which any tet has children of no more than three shapes however often it is refined, leaves
+ * the sixth and the eighth inverted; their first and third vertices are swapped here, which the rule cannot tell. */
+static const int bey_tet[8][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3},
+                                  {4, 6, 7, 8}, {5, 6, 4, 8}, {6, 7, 8, 9}, {8, 5, 6, 9}};
+static const int halves[2][2] = {{0, 2}, {2, 1}};
+static const int quarters[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+static const int point[1] = {0};
+static const Division refining = {{8, 4, bey_tet[0]}, {{1, 1, point}, {2, 2, halves[0]}, {4, 3, quarters[0]}}};
+
+/* Another diagonal is taken if it is shorter than Bey's by more than this: in meshes whose tets' vertices come in any
+ * order. Tets of our own shapes come in the order that suits the rule. */
+static const double much_longer = 1.5;
+
+static unsigned char choose_turn(const MidNodes *mid, OstLocal tet)
+{
+    double length[3];
+    int shortest = 0;
+    for (int turn = 0; turn < 3; turn++) {
+        const double *x[2];
+        for (int end = 0; end < 2; end++) { /* the middles of 02 and 13 are nodes 6 and 8 */
+            const int edge = ost_tet_turn[turn][end == 0 ? 6 : 8] - 4;
+            const OstLocal node = mid->mesh->node_count + mid->edges.of_tet[6 * (size_t)tet + (size_t)edge];
+            x[end] = mid->coordinates + 3 * (size_t)node;
+        }
+        const double diagonal[3] = {x[1][0] - x[0][0], x[1][1] - x[0][1], x[1][2] - x[0][2]};
+        length[turn] = ost_norm3(diagonal);
+        if (length[turn] < length[shortest])
+            shortest = turn;
+    }
+    return (unsigned char)(length[0] > much_longer * length[shortest] ? shortest : 0);
+}
+
+/* A refinement in the making: of a linear mesh, which may be the skeleton of a quadratic one. */
+typedef struct Refinement {
+    const OstMesh *linear;
+    const OstMesh *quadratic; /* or NULL */
+    const OstShapeSurface *shape;
+    unsigned char *turn;
+    OstMesh *fine;
+    OstLocal *origin; /* of the fine tets: parent × 8 + child */
+} Refinement;
+
+static int has_shape(const Refinement *refinement)
+{
+    return refinement->shape && refinement->shape->kind != OST_SURFACE_NONE;
+}
+
+/* The middles of the edges are nodes of the quadratic mesh already. */
+static void take_middles(const Refinement *refinement, MidNodes *mid)
+{
+    const OstMesh *quadratic = refinement->quadratic;
+    double *middle = mid->coordinates + 3 * (size_t)mid->mesh->node_count;
+    for (OstLocal t = 0; t < quadratic->tet_count; t++) {
+        for (size_t e = 0; e < 6; e++) {
+            const size_t edge = (size_t)mid->edges.of_tet[6 * (size_t)t + e];
+            const size_t node = (size_t)quadratic->tet_nodes[10 * (size_t)t + 4 + e];
+            for (size_t d = 0; d < 3; d++)
+                middle[3 * edge + d] = quadratic->coordinates[3 * node + d];
+        }
+    }
+}
+
+static OstStatus refine_linear(Refinement *refinement)
+{
+    const OstMesh *linear = refinement->linear;
+    MidNodes mid = {0};
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_mid_nodes_create(linear, refinement->shape, &mid));
+    if (refinement->quadratic && !has_shape(refinement))
+        take_middles(refinement, &mid);
+    OST_TRY_DONE(ost_agree(linear->ctx, OST_NEW(linear->ctx, &refinement->turn, linear->tet_count)));
+    for (OstLocal t = 0; t < linear->tet_count; t++)
+        refinement->turn[t] = choose_turn(&mid, t);
+    OST_TRY_DONE(ost_mesh_divide(&mid, &refining, refinement->turn, &refinement->fine, &refinement->origin));
+    if (refinement->quadratic || has_shape(refinement))
+        OST_TRY_DONE(ost_check_mesh(refinement->fine));
+done:
+    ost_mid_nodes_clear(&mid);
+    return status;
+}
+
+/* Barycentric coordinates of a tet's node 0-9. */
+static void barycentric(int node, double b[4])
+{
+    for (int v = 0; v < 4; v++)
+        b[v] = node == v ? 1.0 : 0.0;
+    if (node >= 4) {
+        b[ost_tet_edge[node - 4][0]] = 0.5;
+        b[ost_tet_edge[node - 4][1]] = 0.5;
+    }
+}
+
+/* The point of a quadratic tet at barycentric coordinates b. */
+static void map_point(const OstMesh *quadratic, OstLocal tet, const double b[4], double x[3])
+{
+    for (int d = 0; d < 3; d++)
+        x[d] = 0.0;
+    for (int n = 0; n < 10; n++) {
+        const double *node = quadratic->coordinates + 3 * (size_t)quadratic->tet_nodes[10 * (size_t)tet + (size_t)n];
+        const double weight =
+            n < 4 ? b[n] * (2.0 * b[n] - 1.0) : 4.0 * b[ost_tet_edge[n - 4][0]] * b[ost_tet_edge[n - 4][1]];
+        for (int d = 0; d < 3; d++)
+            x[d] += weight * node[d];
+    }
+}
+
+/* The middles of the fine edges lie where the coarse tets put them; each is placed by the tet that labelled it. */
+static void map_middles(const Refinement *refinement, MidNodes *mid)
+{
+    double *middle = mid->coordinates + 3 * (size_t)mid->mesh->node_count;
+    for (OstLocal t = 0; t < mid->mesh->tet_count; t++) {
+        const OstLocal parent = refinement->origin[t] / 8;
+        const int *child = bey_tet[refinement->origin[t] % 8];
+        const int *turn = ost_tet_turn[refinement->turn[parent]];
+        for (int e = 0; e < 6; e++) {
+            double b[2][4];
+            const OstLocal edge = mid->edges.of_tet[6 * (size_t)t + (size_t)e];
+            if (mid->label[mid->mesh->node_count + edge] != ost_mid_nodes_label(mid, t, e))
+                continue;
+            barycentric(turn[child[ost_tet_edge[e][0]]], b[0]);
+            barycentric(turn[child[ost_tet_edge[e][1]]], b[1]);
+            for (int v = 0; v < 4; v++)
+                b[0][v] = 0.5 * (b[0][v] + b[1][v]);
+            map_point(refinement->quadratic, parent, b[0], middle + 3 * (size_t)edge);
+        }
+    }
+}
+
+static OstStatus raise_fine(Refinement *refinement)
+{
+    MidNodes mid = {0};
+    OstMesh *raised = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_mid_nodes_create(refinement->fine, refinement->shape, &mid));
+    if (!has_shape(refinement))
+        map_middles(refinement, &mid);
+    OST_TRY_DONE(ost_mesh_raise_over(&mid, &raised));
+    ost_mesh_destroy(&refinement->fine);
+    refinement->fine = raised;
+    OST_TRY_DONE(ost_check_folds(raised));
+done:
+    ost_mid_nodes_clear(&mid);
+    return status;
+}
+
+static OstStatus refine(const OstMesh *coarse, const OstShapeSurface *shape, OstMesh **fine)
+{
+    Refinement refinement = {coarse, NULL, shape, NULL, NULL, NULL};
+    OstMesh *skeleton = NULL;
+    OstStatus status = OST_SUCCESS;
+    if (coarse->nodes_per_tet == 10) {
+        OST_TRY_DONE(ost_mesh_linear(coarse, &skeleton, NULL));
+        refinement.linear = skeleton;
+        refinement.quadratic = coarse;
+    }
+    OST_TRY_DONE(refine_linear(&refinement));
+    if (refinement.quadratic)
+        OST_TRY_DONE(raise_fine(&refinement));
+    *fine = refinement.fine;
+    refinement.fine = NULL;
+done:
+    OST_FREE(refinement.turn);
+    OST_FREE(refinement.origin);
+    ost_mesh_destroy(&refinement.fine);
+    ost_mesh_destroy(&skeleton);
+    return status;
+}
+
+OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, OstMesh **fine)
+{
+    *fine = NULL;
+    ost_ledger_enter(coarse->ctx, OST_LEDGER_MESH);
+    const OstStatus status = refine(coarse, shape, fine);
+    ost_ledger_leave(coarse->ctx);
+    return status;
+}

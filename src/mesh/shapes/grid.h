@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_MESH_SHAPES_GRID_H
+#define ORTHOSTAT_MESH_SHAPES_GRID_H
+
+#include "mesh/hexes.h"
+
+/* A box of hexes in index space (mesh/hexes.h), nodes numbered with the last index fastest. The three index directions
+ * form a right-handed system. */
+typedef struct Grid {
+    const char *name; /* for messages, and of the one region */
+    OstLocal cells[3];
+    int round[3]; /* does the index go round? then the last node is the first again */
+    const void *shape;
+    void (*place)(const void *shape, const OstGlobal index[3], double x[3]);
+} Grid;
+
+/* A boundary: one or both ends of an index direction. */
+typedef struct GridSide {
+    const char *name;
+    int direction;
+    int ends; /* HEX_LOW | HEX_HIGH */
+} GridSide;
+
+/* Collective, as ost_hexes_create_chunk. */
+OstStatus ost_grid_create_chunk(OstContext *ctx, const Grid *grid, int side_count, const GridSide *sides,
+                                OstMeshChunk **chunk);
+
+#endif
