@@ -1,11 +1,17 @@
-"""Answers compared with closed-form solutions, on all the meshes that the README tells of."""
+"""Answers against closed forms, on all the meshes that docs/verification.md tells of; its picture and table show them."""
+import json
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SOURCE, check, run  # noqa: E402
+tests = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+sys.path += [os.path.join(tests, "cli"), os.path.join(tests, "docs")]
+from drawn import check_drawn, pictures  # noqa: E402
+from program import SOURCE, check, new_folder, run  # noqa: E402
 
 os.environ["ORTHOSTAT_CASES"] = os.path.join(SOURCE, "cases")
-finished = run("verify", ranks=2)
+report = os.path.join(new_folder(), "verify.json")
+finished = run("verify", "--json", report, ranks=2, timeout=580)
 check(finished.exit_code == 0, f"verify: {finished.output[-4000:]}{finished.errors}")
 check("FAIL" not in finished.output, finished.output)
+with open(report, encoding="utf-8") as stream:
+    check_drawn("verify.png", pictures.numbers_of_verify(json.load(stream)), 0.05, "verify")

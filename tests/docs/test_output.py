@@ -1,0 +1,62 @@
+"""Every field, summary line and JSON key that solve writes stands in docs/output.md."""
+import json
+import os
+import re
+
+from pages import check, code_of, has_word, new_folder, read, run
+
+CASE = """
+title: everything at once
+mesh: {block: {size: [1, 1, 1], divisions: [3, 3, 3]}}
+materials: [{region: all, youngs_modulus: [1e6, 2e6, 3e6], poissons_ratio: 0.3, axes: {euler: {degrees: [10, 20, 30]}}}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, traction: [1e6, 0, 0]}]
+watch: {end: {displacement: {nearest: [1, 0, 0]}, component: x}}
+"""
+
+
+def keys_of(value, free=("watched",)):
+    """All keys, but not those that the case itself names."""
+    if isinstance(value, list):
+        return {key for item in value for key in keys_of(item)}
+    if not isinstance(value, dict):
+        return set()
+    return {key for name, item in value.items()
+            for key in {name} | (keys_of(list(item.values())) if name in free else keys_of(item))}
+
+
+code = code_of(read("docs", "output.md"))
+folder = new_folder()
+with open(os.path.join(folder, "case.yaml"), "w") as stream:
+    stream.write(CASE)
+finished = run("solve", "case.yaml", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+labels = re.findall(r"^  (\S.*?)  +\S", finished.output.split("\nledger")[0], re.M)
+check("residual" in labels and "WARNING" in labels, f"the summary has changed its form: {labels}")
+missing = sorted(label for label in set(labels) if label not in code)
+check(not missing, f"docs/output.md says nothing of the summary's lines {missing}")
+
+run("solve", "case.yaml", "-q", "--json", "summary.json", folder=folder)
+with open(os.path.join(folder, "summary.json")) as stream:
+    keys = keys_of(json.load(stream))
+check({"solver", "iterations", "largest_rotation", "peak_bytes"} <= keys, f"keys: {sorted(keys)}")
+missing = sorted(key for key in keys if not has_word(code, key))
+check(not missing, f"docs/output.md says nothing of the JSON keys {missing}")
+for command in ("check", "explain"):
+    report = json.loads(run(command, "case.yaml", "--json", folder=folder).output)
+    missing = sorted(key for key in keys_of(report) if not has_word(code, key))
+    check(not missing, f"docs/output.md says nothing of {command}'s JSON keys {missing}")
+
+from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
+
+reader = vtkHDFReader()
+reader.SetFileName(os.path.join(folder, "case.vtkhdf"))
+reader.Update()
+rows = {name: (on, components) for name, on, components in
+        re.findall(r"^\| `(\w+)` \| (points|cells) \| (\d)", read("docs", "output.md"), re.M)}
+for on, data in (("points", reader.GetOutput().GetPointData()), ("cells", reader.GetOutput().GetCellData())):
+    for i in range(data.GetNumberOfArrays()):
+        found = (on, str(data.GetArray(i).GetNumberOfComponents()))
+        check(rows.pop(data.GetArrayName(i), None) == found,
+              f"docs/output.md does not have {data.GetArrayName(i)} on {found[0]} with {found[1]} components")
+check(not rows, f"docs/output.md has fields that are not in the file: {sorted(rows)}")
