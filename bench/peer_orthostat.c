@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
+#include "problem/scene_data.h"
 #include "process_cost.h"
 #include "system_matrix.h"
 

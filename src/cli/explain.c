@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/case_data.h"
+#include "case/plan.h"
 #include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
-#include "orthostat/case.h"
-#include "orthostat/plan.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
 #include "problem/scene_mesh.h"
@@ -26,7 +26,7 @@ static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &load, (size_t)c->load_count));
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_scene_mesh(c, &mesh, &from_file, &materials));
+    OST_TRY_DONE(ost_scene_make_mesh(c, &mesh, &from_file, &materials));
     OST_TRY_DONE(ost_load_effects(c, mesh, load));
     const OstPlanMesh facts = {.nodes = mesh->global_nodes,
                                .tets = mesh->global_tets,

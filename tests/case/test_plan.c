@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case_text.h"
 
-#include "orthostat/plan.h"
+#include "case/plan.h"
 
 #define CUBE "mesh: {block: {size: [1, 1, 1], divisions: [10, 10, 10]}}\n"
 #define STEEL "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3, density: 1}]\n"

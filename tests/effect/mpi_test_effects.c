@@ -2,7 +2,7 @@
 #include "../case/case_text.h"
 
 #include "core/memory.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* Every effect of the table is solved with once and without once, and the ledger is held to the table: what is off is
  * not called, holds no byte and takes no second; what is on is called. */

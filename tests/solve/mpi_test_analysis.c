@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
+#include "problem/result_data.h"
+#include "problem/scene_data.h"
 
 #include "orthostat/analysis.h"
 #include "orthostat/orthostat.h"
