@@ -30,16 +30,16 @@ struct OstSolver {
 /* May the solver take another strategy? Not if the user has chosen the method. */
 static int may_change(const OstSolver *solver)
 {
-    return solver->plan.options.recipe == OST_RECIPE_AUTO;
+    return solver->plan.options.method == OST_METHOD_AUTO;
 }
 
 /* Records how a strategy ended. If there are too many, the last place is overwritten, so that the final one is there.
  */
-static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstRecipe method, const char *outcome)
+static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstMethod method, const char *outcome)
 {
     OstSolveStep *noted = &step[*steps < OST_MAX_STEPS ? (*steps)++ : OST_MAX_STEPS - 1];
     memset(noted, 0, sizeof *noted);
-    noted->rung = method;
+    noted->method = method;
     snprintf(noted->outcome, sizeof noted->outcome, "%s", outcome);
     return noted;
 }
@@ -52,7 +52,7 @@ static int is_mendable(OstStatus status)
 
 /* Builds the strategy for `method`. If that fails and the solver may change it, builds the next one that can be built.
  */
-static OstStatus build(OstSolver *solver, OstRecipe method, OstSolveStep *step, int *steps)
+static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, int *steps)
 {
     OstSolverOptions options;
     for (;; method++) {
@@ -63,12 +63,12 @@ static OstStatus build(OstSolver *solver, OstRecipe method, OstSolveStep *step, 
         ost_ledger_leave(solver->ctx);
         solver->strategy_seconds = ost_seconds() - start;
         solver->setup_seconds += solver->strategy_seconds;
-        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_recipe_name(method),
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
         if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
             return status;
         note_step(step, steps, method, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
-        if (method == OST_RECIPE_DIRECT)
+        if (method == OST_METHOD_DIRECT)
             return status;
     }
 }
@@ -85,7 +85,7 @@ static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps,
     snprintf(last, sizeof last, "%s", ost_error_text(ctx));
     for (int s = 0; s < steps && length < sizeof tried; s++)
         length += (size_t)snprintf(tried + length, sizeof tried - length, "%s%s (%d iterations): %s", s ? "; " : "",
-                                   ost_recipe_name(step[s].rung), step[s].iterations, step[s].outcome);
+                                   ost_method_name(step[s].method), step[s].iterations, step[s].outcome);
     return OST_RAISE(ctx, OST_NOT_CONVERGED, "%s. Tried: %s", last, tried);
 }
 
@@ -101,7 +101,7 @@ static OstSolverFacts facts_of(const OstSolver *solver)
 static void tell_plan(const OstSolver *solver)
 {
     for (int r = 0; r < solver->plan.reasons; r++)
-        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_method_name(solver->plan.first) : "",
                 r == 0 ? " first: " : "", solver->plan.reason[r]);
 }
 
@@ -111,7 +111,7 @@ static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstStatus status = build(solver, solver->plan.first, solver->step, &solver->steps);
     const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
-    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_RECIPE_DIRECT)
+    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_METHOD_DIRECT)
         return status;
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan_without_factors(options, &facts, &solver->plan);
@@ -155,9 +155,9 @@ done:
 
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
-    const OstRecipe current = solver->strategy ? ost_strategy_recipe(solver->strategy) : OST_RECIPE_AUTO;
+    const OstMethod current = solver->strategy ? ost_strategy_method(solver->strategy) : OST_METHOD_AUTO;
     /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
-    const int may_stay = current >= OST_RECIPE_METRIC && current <= OST_RECIPE_TWO_LEVEL;
+    const int may_stay = current >= OST_METHOD_METRIC && current <= OST_METHOD_TWO_LEVEL;
     if (how == OST_UPDATE_KEEP && may_stay)
         return OST_SUCCESS;
     ost_strategy_destroy(&solver->strategy);
@@ -207,13 +207,13 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
                           : goal->end == OST_END_REACHED ? "reached the requested residual"
                                                          : goal->words;
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_recipe(solver->strategy), outcome);
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_method(solver->strategy), outcome);
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->strategy_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
-            ost_recipe_name(step->rung), report->engine, step->iterations, ost_seconds() - start,
+            ost_method_name(step->method), report->engine, step->iterations, ost_seconds() - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
     return status;
@@ -224,17 +224,17 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int mendable =
         goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return may_change(solver) && mendable && ost_strategy_recipe(solver->strategy) < OST_RECIPE_DIRECT;
+    return may_change(solver) && mendable && ost_strategy_method(solver->strategy) < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
-static OstRecipe fastest(const OstSolveReport *report)
+static OstMethod fastest(const OstSolveReport *report)
 {
-    OstRecipe found = OST_RECIPE_AUTO;
+    OstMethod found = OST_METHOD_AUTO;
     double least = 0.9999;
     for (int s = 0; s < report->steps; s++)
         if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
-            found = report->step[s].rung;
+            found = report->step[s].method;
             least = report->step[s].factor;
         }
     return found;
@@ -243,12 +243,12 @@ static OstRecipe fastest(const OstSolveReport *report)
 /* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstRecipe from = ost_strategy_recipe(solver->strategy);
-    const OstStatus status = build(solver, (OstRecipe)(from + 1), report->step, &report->steps);
+    const OstMethod from = ost_strategy_method(solver->strategy);
+    const OstStatus status = build(solver, (OstMethod)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
-    const OstRecipe best = fastest(report);
-    if (best == OST_RECIPE_AUTO)
+    const OstMethod best = fastest(report);
+    if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */
     return build(solver, best, report->step, &report->steps);
@@ -267,7 +267,7 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
 
 static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
 {
-    report->recipe = solver->strategy ? ost_strategy_recipe(solver->strategy) : solver->plan.first;
+    report->method = solver->strategy ? ost_strategy_method(solver->strategy) : solver->plan.first;
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;

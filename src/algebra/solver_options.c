@@ -15,7 +15,7 @@ static const double two_level_aggregate = 20.0;
 
 OstSolverOptions ost_solver_default_options(void)
 {
-    return (OstSolverOptions){.recipe = OST_RECIPE_AUTO,
+    return (OstSolverOptions){.method = OST_METHOD_AUTO,
                               .relative_residual = 1e-8,
                               .max_iterations = 1000,
                               .patience = 150,
@@ -28,12 +28,24 @@ OstSolverOptions ost_solver_default_options(void)
                               .most_levels = OST_MAX_LEVELS};
 }
 
-const char *ost_recipe_name(OstRecipe recipe)
+const char *ost_method_name(OstMethod method)
 {
     static const char *const names[] = {
-        [OST_RECIPE_AUTO] = "auto",     [OST_RECIPE_PLAIN] = "plain",         [OST_RECIPE_METRIC] = "metric",
-        [OST_RECIPE_STRONG] = "strong", [OST_RECIPE_TWO_LEVEL] = "two_level", [OST_RECIPE_DIRECT] = "direct"};
-    return recipe >= OST_RECIPE_AUTO && recipe <= OST_RECIPE_DIRECT ? names[recipe] : "unknown";
+        [OST_METHOD_AUTO] = "auto",     [OST_METHOD_PLAIN] = "plain",         [OST_METHOD_METRIC] = "metric",
+        [OST_METHOD_STRONG] = "strong", [OST_METHOD_TWO_LEVEL] = "two_level", [OST_METHOD_DIRECT] = "direct"};
+    return method >= OST_METHOD_AUTO && method <= OST_METHOD_DIRECT ? names[method] : "unknown";
+}
+
+const char *ost_method_engine(OstMethod method)
+{
+    switch (method) {
+    case OST_METHOD_DIRECT:
+        return "MUMPS factors, refined by CG";
+    case OST_METHOD_PLAIN:
+        return "AztecOO CG, ML V-cycle on levels of its own";
+    default:
+        return "AztecOO CG, ML cycle";
+    }
 }
 
 static OstStatus check_number(OstContext *ctx, const char *name, double value, double above, double most)
@@ -63,17 +75,17 @@ OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *opti
                      options->factor_memory);
 }
 
-void ost_solver_strategy_options(const OstSolverOptions *planned, OstRecipe method, OstSolverOptions *options)
+void ost_solver_strategy_options(const OstSolverOptions *planned, OstMethod method, OstSolverOptions *options)
 {
     *options = *planned;
-    options->recipe = method;
-    if (method != OST_RECIPE_STRONG && method != OST_RECIPE_TWO_LEVEL)
+    options->method = method;
+    if (method != OST_METHOD_STRONG && method != OST_METHOD_TWO_LEVEL)
         return;
     if (!(planned->given & OST_GIVEN_DEGREE) && planned->smoother_degree < STRONG_DEGREE)
         options->smoother_degree = STRONG_DEGREE;
     if (!(planned->given & OST_GIVEN_RATIO) && planned->smoother_ratio < strong_ratio)
         options->smoother_ratio = strong_ratio;
-    if (method == OST_RECIPE_STRONG)
+    if (method == OST_METHOD_STRONG)
         return;
     if (!(planned->given & OST_GIVEN_AGGREGATE))
         options->aggregate_nodes = two_level_aggregate;

@@ -8,6 +8,6 @@
 OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *options);
 
 /* Local. The options of the strategy for `method`, from the planned ones. */
-void ost_solver_strategy_options(const OstSolverOptions *planned, OstRecipe method, OstSolverOptions *options);
+void ost_solver_strategy_options(const OstSolverOptions *planned, OstMethod method, OstSolverOptions *options);
 
 #endif

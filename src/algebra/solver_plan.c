@@ -53,7 +53,7 @@ static double allowed_memory(const OstSolverOptions *options, const OstSolverFac
 static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const OstGlobal fewer = facts->unknowns / 4;
-    plan->first = OST_RECIPE_METRIC;
+    plan->first = OST_METHOD_METRIC;
     if (!(plan->options.given & OST_GIVEN_COARSEST) && plan->options.coarsest_unknowns > fewer)
         plan->options.coarsest_unknowns = fewer > 0 ? (int)fewer : 1;
     say(plan, "%lld unknowns are few, but a factorisation would not fit into the %.3g MiB %s: multigrid",
@@ -64,16 +64,16 @@ static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     const long long unknowns = (long long)facts->unknowns;
-    if (plan->options.recipe != OST_RECIPE_AUTO) {
-        plan->first = plan->options.recipe;
+    if (plan->options.method != OST_METHOD_AUTO) {
+        plan->first = plan->options.method;
         say(plan, "the case asks for it");
     } else if (facts->unknowns < direct_below && !fits) {
         plan_around_memory(facts, plan);
     } else if (facts->unknowns < direct_below) {
-        plan->first = OST_RECIPE_DIRECT;
+        plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
     } else {
-        plan->first = OST_RECIPE_METRIC;
+        plan->first = OST_METHOD_METRIC;
         say(plan, "%lld unknowns: multigrid on aggregates that are round in the material metric", unknowns);
     }
 }
@@ -81,11 +81,11 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
 static void plan_aggregates(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     for (int k = 0; k < 2; k++) {
-        if (!(facts->poisson > smaller_above[k].poisson) || plan->first == OST_RECIPE_DIRECT)
+        if (!(facts->poisson > smaller_above[k].poisson) || plan->first == OST_METHOD_DIRECT)
             continue;
         if (!(plan->options.given & OST_GIVEN_DEGREE))
             plan->options.smoother_degree += smaller_above[k].more_degree;
-        if (plan->options.given & OST_GIVEN_AGGREGATE || plan->first == OST_RECIPE_TWO_LEVEL)
+        if (plan->options.given & OST_GIVEN_AGGREGATE || plan->first == OST_METHOD_TWO_LEVEL)
             return;
         plan->options.aggregate_nodes = smaller_above[k].aggregate_nodes;
         say(plan, "Poisson's ratio of %.6g is above %g: aggregates of %g nodes, which keep the volume better",
@@ -97,7 +97,7 @@ static void plan_aggregates(const OstSolverFacts *facts, OstSolverPlan *plan)
 /* Names what makes the system hard to solve. It changes nothing: no other first strategy was found to be better. */
 static void plan_trouble(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
-    if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT)
+    if (plan->options.method != OST_METHOD_AUTO || plan->first == OST_METHOD_DIRECT)
         return;
     if (facts->anisotropy > 1.0)
         say(plan, "moduli differ by a factor of %.3g at one place: the material metric accounts for it",
@@ -117,9 +117,9 @@ static void plan_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const double wanted = ost_solver_factor_bytes(facts->unknowns);
     const double allowed = allowed_memory(&plan->options, facts);
-    if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT || !(allowed > 0.0))
+    if (plan->options.method != OST_METHOD_AUTO || plan->first == OST_METHOD_DIRECT || !(allowed > 0.0))
         return;
-    say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the last rung is %s reach",
+    say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the method direct is %s reach",
         wanted / 1073741824.0, allowed / 1073741824.0, plan->options.factor_memory > 0.0 ? "allowed" : "free",
         wanted <= allowed ? "in" : "out of");
 }
@@ -136,8 +136,8 @@ static void make_plan(const OstSolverOptions *options, const OstSolverFacts *fac
 
 int ost_solver_may_be_multigrid(const OstSolverPlan *plan)
 {
-    const int is_multigrid = plan->first != OST_RECIPE_PLAIN && plan->first != OST_RECIPE_DIRECT;
-    return is_multigrid || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+    const int is_multigrid = plan->first != OST_METHOD_PLAIN && plan->first != OST_METHOD_DIRECT;
+    return is_multigrid || (plan->options.method == OST_METHOD_AUTO && plan->options.factor_memory > 0.0);
 }
 
 void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)

@@ -13,7 +13,7 @@ typedef struct OstStrategy OstStrategy;
 OstStatus ost_strategy_prepare(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                                const OstSolverOptions *options, OstStrategy **strategy);
 void ost_strategy_destroy(OstStrategy **strategy);
-OstRecipe ost_strategy_recipe(const OstStrategy *strategy);
+OstMethod ost_strategy_method(const OstStrategy *strategy);
 
 /* Collective. Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
 OstStatus ost_strategy_improve(OstStrategy *strategy, const double *f, double *u, OstGoal *goal,

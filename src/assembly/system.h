@@ -55,7 +55,7 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
                              double *magnitude);
 
-/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
+/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, method R of Li-Barbič
  * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes about the
  * middle of all rows, projected on P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,

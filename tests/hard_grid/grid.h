@@ -66,7 +66,7 @@ typedef struct HardReading {
     OstStatus status;
     char reason[512]; /* of a refusal, or of the verdict */
     OstGlobal unknowns;
-    OstRecipe recipe;
+    OstMethod method;
     int iterations, steps; /* in all, by so many solver strategies */
     double residual;       /* true, relative */
     int rounding_limited;  /* did rounding keep the residual above 1e-8? */

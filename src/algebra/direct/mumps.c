@@ -94,7 +94,7 @@ static OstStatus check(OstMumps *mumps, const char *phase)
     case ERROR_INTEGER_WORKSPACE:
     case ERROR_ALLOCATION:
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
-                         "MUMPS ran out of memory in its %s (codes %d, %d); use more machines, or an iterative recipe",
+                         "MUMPS ran out of memory in its %s (codes %d, %d); use more machines, or an iterative method",
                          phase, code, mumps->id.INFOG(2));
     default:
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "MUMPS failed in its %s with codes %d, %d", phase, code,
@@ -130,7 +130,7 @@ static OstStatus number_unknowns(OstMumps *mumps, const OstDoubleMatrix *matrix)
     mumps->first = end - mine;
     if (mumps->all > INT_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "%lld unknowns are more than MUMPS can number (2^31 - 1); use an iterative recipe",
+                         "%lld unknowns are more than MUMPS can number (2^31 - 1); use an iterative method",
                          (long long)mumps->all);
     return OST_SUCCESS;
 }
@@ -186,7 +186,7 @@ static OstStatus check_memory(OstMumps *mumps)
         return OST_SUCCESS;
     return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
                      "factoring %lld unknowns would take %.0f MiB, but %s %.0f MiB; use more or larger machines, or an "
-                     "iterative recipe",
+                     "iterative method",
                      (long long)mumps->all, wanted / mebibyte,
                      mumps->memory > 0.0 ? "solver.factor_memory allows" : "there are", allowed / mebibyte);
 }
