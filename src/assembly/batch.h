@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ASSEMBLY_BATCH_H
 
 #include "element/element.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* OST_SIMD_WIDTH tets side by side, with what the kernels read of them. If only `count` tets are left, the last one
  * fills the other slots; only the first `count` results mean something. */

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_ASSEMBLY_FIELD_LOADS_H
 #define ORTHOSTAT_ASSEMBLY_FIELD_LOADS_H
 
-#include "orthostat/exact.h"
-#include "orthostat/mesh.h"
+#include "assembly/exact.h"
+#include "mesh/mesh_data.h"
 
 /* Consistent nodal forces of loads that vary in space, by quadrature of degree 5. As in assembly/loads.h they are added
  * to `force`, and complete on owned nodes. */

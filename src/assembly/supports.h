@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 #define ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 
-#include "orthostat/effect.h"
-#include "orthostat/mesh.h"
+#include "effect/effect.h"
+#include "mesh/mesh_data.h"
 
 /* Each node's constraints: u = P v + g, with P the orthogonal projector on its free directions and g the prescribed
  * part of its displacement (in the range of I - P). Constrained components, prescribed displacements and slides on

@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/block_matrix.h"
 #include "assembly/supports.h"
-#include "orthostat/field.h"
-#include "orthostat/mesh.h"
+#include "material/field_data.h"
+#include "mesh/mesh_data.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Fully
  * constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */

@@ -12,9 +12,6 @@ OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory
  * is unchanged. */
 OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory);
 
-/* Local. NULL is allowed. */
-void ost_free_memory(void *memory);
-
 /* Local. Returns to the system the freed memory that ost_keep_freed_memory makes malloc keep. */
 void ost_return_freed_memory(void);
 

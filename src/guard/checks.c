@@ -190,7 +190,7 @@ static double error_of_strain(const OstResult *result, const Body *body, const d
     const double error = result->checks.displacement_error;
     if (!body->moved)
         return error;
-    if (result->solve.recipe == OST_RECIPE_DIRECT || !result->checks.linear) /* of the displacement itself */
+    if (result->solve.method == OST_METHOD_DIRECT || !result->checks.linear) /* of the displacement itself */
         return error * common_share(sums);
     return result->solve.energy_error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);
 }

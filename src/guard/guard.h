@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_GUARD_GUARD_H
 #define ORTHOSTAT_GUARD_GUARD_H
 
-#include "orthostat/result.h"
 #include "problem/problem.h"
+#include "problem/result_data.h"
 
 /* What speaks against solving a problem, and against an answer. All checks add to one verdict; a check returns a
  * failure of its own only where it could not be made. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COINCIDENT_H
 #define ORTHOSTAT_MESH_COINCIDENT_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* This rank's points: their global numbers start at `first`, contiguous over ranks. */
 typedef struct OstPoints {

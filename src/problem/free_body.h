@@ -3,7 +3,7 @@
 #define ORTHOSTAT_PROBLEM_FREE_BODY_H
 
 #include "assembly/supports.h"
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* A body that nothing holds, under loads that balance each other: it is held at six components of three vertices, just
  * enough (so that they carry nothing), and its rigid motion is taken out of the answer. OST_EFFECT_FREE_BODY. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_GRADIENT_AXES_H
 #define ORTHOSTAT_PROBLEM_GRADIENT_AXES_H
 
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* Collective. Axes from two harmonic potentials: each is 0 on its boundary `from`, 1 on its boundary `to`, and has no
  * flux elsewhere; e1 follows the gradient of the first, e2 what of the second's is orthogonal to it. Both are solved at

@@ -2,14 +2,15 @@
 #ifndef ORTHOSTAT_PROBLEM_SCENE_MESH_H
 #define ORTHOSTAT_PROBLEM_SCENE_MESH_H
 
-#include "orthostat/case.h"
+#include "case/case_data.h"
 #include "problem/scene_materials.h"
 
 /* Collective. This rank's piece of the case's mesh: read or made, given the axes that the case has in tables, cut and
  * distributed, refined as often as the case says, and in tets of the case's order (new nodes of shapes lie on the true
  * surface). `from_file` are the materials that came with the file, or NULL, and `materials` one for each region, along
  * whose stiff directions the mesh is not cut if that can be had; both the caller's to free. */
-OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file, OstSceneMaterials *materials);
+OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file,
+                              OstSceneMaterials *materials);
 
 /* Collective. The second half of it: a chunk, which is consumed, cut, distributed, refined and in the case's order. */
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,

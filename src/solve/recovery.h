@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_RECOVERY_H
 #define ORTHOSTAT_SOLVE_RECOVERY_H
 
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* Collective. Strain, stress and strain energy density of the owned tets (means over each), and stress at the nodes, as
  * far as the bits of `fields` (OstOutputFieldBit) ask. Stress at a node is the average over the tets around it,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_text.h"
-#include "orthostat/verify.h"
+#include "case/verify.h"
 
 /* How the verify section of a case, and the word exact, are read and refused. */
 
@@ -57,11 +57,10 @@ static void a_quantitys_vertex_list_is_read_with_the_case(void **state)
 {
     (void)state;
     char whole[2048];
-    section(
-        "  ladder: [{order: 1, refinements: [1]}]\n"
-        "  quantities:\n"
-        "    tip: {displacement: [0, 0, 2], on: {vertices: nowhere.bou}, expected: 1, error: [1], rate: [1]}\n",
-        whole, sizeof whole);
+    section("  ladder: [{order: 1, refinements: [1]}]\n"
+            "  quantities:\n"
+            "    tip: {displacement: [0, 0, 2], on: {vertices: nowhere.bou}, expected: 1, error: [1], rate: [1]}\n",
+            whole, sizeof whole);
     assert_failure(read_text(whole, &c), OST_FILE_FAILED, "nowhere.bou");
     assert_null(c);
 }

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_FORMATS_VTKHDF_POINTS_H
 
 #include "formats/vtkhdf/hdf5.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Pieces of a file each hold the points they use, so a node on the border of pieces is there several times. The first
  * of its points in the file becomes the node; nodes are numbered in the order of their points. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_CHECK_CHECK_H
 #define ORTHOSTAT_MESH_CHECK_CHECK_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Checks what a rank can see before the mesh is distributed: counts and ranges fit together, coordinates
  * are finite, node and region numbers in range, and no tet uses a node twice. Sets first_node and first_tet of empty

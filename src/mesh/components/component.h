@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
 #define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* A connected component: tets joined through faces. Components that touch only at an edge or a vertex are hinged there.
  */

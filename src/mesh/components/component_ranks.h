@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_RANKS_H
 #define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_RANKS_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Joins the ranks' sets of tets into those of the whole body: two sets are one if they have a tet in
  * common, which is owned on one rank and a ghost on the other. On entry set[t] is one of this rank's `set_count`

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_MESH_DISTRIBUTION_SLAB_H
 
 #include "core/parallel/halo.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* A rank's piece of a chunk, before the partition: its nodes, all tets that touch one of them, its other tets and
  * boundary items, and as ghosts all other nodes of these. */

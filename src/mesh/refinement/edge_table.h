@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_REFINEMENT_EDGE_TABLE_H
 #define ORTHOSTAT_MESH_REFINEMENT_EDGE_TABLE_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* The edges between vertices of this rank's tets, ghosts included. An edge is listed at its low end, the vertex with
  * the lower global number; the owner of that vertex owns the edge, and has all tets around it. Owned edges come first.
