@@ -67,12 +67,14 @@ static void write_face(const OstLocal *tet, int opposite, int nodes_per_face, Os
 /* A quadratic face may touch an owned node at a mid-edge node only. */
 static int touches_owned(const OstMesh *mesh, const OstLocal *tet, int opposite)
 {
-    const int count = mesh->nodes_per_tet == 10 ? 6 : 3;
-    OstLocal nodes[6];
-    write_face(tet, opposite, count, nodes);
-    for (int i = 0; i < count; i++)
-        if (nodes[i] < mesh->owned_nodes)
+    const int *corner = ost_tet_face[opposite];
+    for (int i = 0; i < 3; i++) {
+        const int next = corner[(i + 1) % 3];
+        if (tet[corner[i]] < mesh->owned_nodes)
             return 1;
+        if (mesh->nodes_per_tet == 10 && tet[ost_tet_mid_node(corner[i], next)] < mesh->owned_nodes)
+            return 1;
+    }
     return 0;
 }
 
@@ -82,7 +84,7 @@ static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
 }
 
 /* Lists the faces that touch an owned node: this rank has the tets on both sides of these. */
-static OstStatus list_all_faces(const OstMesh *mesh, FaceTable *table)
+static OstStatus list_faces(const OstMesh *mesh, FaceTable *table)
 {
     table->rows = mesh->node_count;
     OST_TRY(OST_NEW(mesh->ctx, &table->start, (size_t)table->rows + 2));
@@ -168,7 +170,7 @@ OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface)
     FaceTable table = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(mesh->ctx, surface, 1));
-    OST_TRY_DONE(list_all_faces(mesh, &table));
+    OST_TRY_DONE(list_faces(mesh, &table));
     OST_TRY_DONE(match_faces(mesh, &table));
     OST_TRY_DONE(keep_surface_faces(mesh, &table, *surface));
 done:

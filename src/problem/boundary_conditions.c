@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/boundary_conditions.h"
 
-#include "assembly/field_loads.h"
+#include "assembly/closed_form_loads.h"
 #include "assembly/loads.h"
 #include "case/select.h"
 #include "core/error.h"
@@ -121,7 +121,7 @@ static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, doubl
     OST_TRY(find_load_region(scene, load, &region));
     if (load->exact) {
         OST_TRY(check_exact(scene));
-        return ost_load_exact_body_force(scene->mesh, region, scene->exact, force);
+        return ost_load_closed_form_body_force(scene->mesh, region, scene->exact, force);
     }
     if (load->kind == OST_LOAD_BODY_FORCE)
         return ost_load_body_force(scene->mesh, region, load->vector, force);
@@ -149,7 +149,8 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
     const OstMesh *mesh = scene->mesh;
     if (load->exact) {
         OST_TRY(check_exact(scene));
-        return ost_agree(scene->ctx, ost_load_exact_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
+        return ost_agree(scene->ctx,
+                         ost_load_closed_form_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
     }
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));

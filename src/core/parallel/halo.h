@@ -31,7 +31,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
 void ost_halo_destroy(OstHalo **halo);
 
 /* Collective. The halo of the entries with renumber[i] >= 0 (i over owned entries, then ghosts), their new numbers.
- * They must keep their order; a ghost must be in exactly if its owner's entry is. */
+ * They must keep their order; a ghost must be in if and only if its owner's entry is. */
 OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo **subset);
 
 /* Collective over neighbours. Copies owners' values into the ghosts; `size` is the bytes of an entry. */

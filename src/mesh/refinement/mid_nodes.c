@@ -135,7 +135,7 @@ done:
 /* The highest label of a vertex. Raises an error if six labels for each tet do not fit in 64 bits after it. */
 static OstStatus find_highest_label(const OstMesh *mesh, OstGlobal *highest)
 {
-    OstGlobal most[3] = {0, 0, -1}; /* vertex label, tet label, minus the lowest tet label */
+    OstGlobal most[3] = {0, 0, -1}; /* vertex label, tet label, and 0 if a tet label is not positive */
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         most[0] = mesh->node_label[n] > most[0] ? mesh->node_label[n] : most[0];
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/field_loads.h"
+#include "assembly/closed_form_loads.h"
 
 #include "core/error.h"
 #include "core/small.h"
@@ -16,7 +16,8 @@ static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const d
             force[3 * (size_t)nodes[a] + (size_t)i] += values[a] * at_point[i];
 }
 
-static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstExactField *exact, double *force)
+static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstClosedForm *solution,
+                           double *force)
 {
     double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
     ost_gather3(n, nodes, mesh->coordinates, x);
@@ -26,7 +27,7 @@ static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, co
         ost_shape_values(n, point->at, values);
         ost_shape_place(n, values, x, place);
         ost_shape_area_vector(n, point->at, x, area);
-        OST_TRY(exact->stress(exact->data, place, s));
+        OST_TRY(solution->stress(solution->data, place, s));
         const double weight = 0.5 * point->weight;
         const double traction[3] = {weight * (s[0] * area[0] + s[3] * area[1] + s[5] * area[2]),
                                     weight * (s[3] * area[0] + s[1] * area[1] + s[4] * area[2]),
@@ -36,18 +37,18 @@ static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, co
     return OST_SUCCESS;
 }
 
-OstStatus ost_load_exact_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
-                                  const OstExactField *exact, double *force)
+OstStatus ost_load_closed_form_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces,
+                                        int nodes_per_face, const OstClosedForm *solution, double *force)
 {
     OstStatus status = OST_SUCCESS;
     ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
     for (OstLocal f = 0; f < face_count && status == OST_SUCCESS; f++)
-        status = load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, exact, force);
+        status = load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, solution, force);
     ost_ledger_leave(mesh->ctx);
     return status;
 }
 
-static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField *exact, double *force)
+static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstClosedForm *solution, double *force)
 {
     const int n = mesh->nodes_per_tet;
     const OstLocal *nodes = mesh->tet_nodes + (size_t)n * (size_t)tet;
@@ -59,7 +60,7 @@ static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField
         ost_shape_values(n, point->at, values);
         ost_shape_place(n, values, x, place);
         const double volume = ost_shape_gradients(n, point->at, x, gradients) / 6.0;
-        OST_TRY(exact->body_force(exact->data, place, density));
+        OST_TRY(solution->body_force(solution->data, place, density));
         for (int i = 0; i < 3; i++)
             density[i] *= point->weight * volume;
         share(mesh, n, nodes, values, density, force);
@@ -67,13 +68,13 @@ static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField
     return OST_SUCCESS;
 }
 
-OstStatus ost_load_exact_body_force(const OstMesh *mesh, int region, const OstExactField *exact, double *force)
+OstStatus ost_load_closed_form_body_force(const OstMesh *mesh, int region, const OstClosedForm *solution, double *force)
 {
     OstStatus status = OST_SUCCESS;
     ost_ledger_enter(mesh->ctx, OST_EFFECT_BODY_FORCE);
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         if (region < 0 || mesh->tet_region[tet] == region)
-            status = load_tet(mesh, tet, exact, force);
+            status = load_tet(mesh, tet, solution, force);
     ost_ledger_leave(mesh->ctx);
     return status;
 }
