@@ -10,7 +10,7 @@
 typedef struct Face {
     OstLocal middle, high; /* its other vertices */
     OstLocal next;
-    OstLocal side[2]; /* the tet from outside which its vertices ascend counter-clockwise, and the other tet */
+    OstLocal side[2]; /* tets seen from outside of which its vertices ascend counter-clockwise, and clockwise */
 } Face;
 
 typedef struct FaceChains {
