@@ -161,7 +161,7 @@ OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *
     return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
 }
 
-/* What is wrong with the supports is told with the place of the first. */
+/* A failure names the line of the first constraint. */
 static OstStatus make_pattern(OstProblem *problem)
 {
     const OstCase *c = problem->c;
@@ -173,7 +173,7 @@ static OstStatus make_pattern(OstProblem *problem)
 
 OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
 {
-    (void)u; /* every element there is has one stiffness for all u */
+    (void)u; /* all elements so far are linear: their stiffness does not depend on u */
     const int may_fill = problem->system && problem->system->block_of_tet;
     if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
         ost_problem_release_stiffness(problem);

@@ -57,11 +57,10 @@ static void a_quantitys_vertex_list_is_read_with_the_case(void **state)
 {
     (void)state;
     char whole[2048];
-    section(
-        "  ladder: [{order: 1, refinements: [1]}]\n"
-        "  quantities:\n"
-        "    tip: {displacement: [0, 0, 2], on: {vertices: nowhere.bou}, expected: 1, error: [1], rate: [1]}\n",
-        whole, sizeof whole);
+    section("  ladder: [{order: 1, refinements: [1]}]\n"
+            "  quantities:\n"
+            "    tip: {displacement: [0, 0, 2], on: {vertices: nowhere.bou}, expected: 1, error: [1], rate: [1]}\n",
+            whole, sizeof whole);
     assert_failure(read_text(whole, &c), OST_FILE_FAILED, "nowhere.bou");
     assert_null(c);
 }
@@ -110,7 +109,7 @@ static void mistakes_are_named(void **state)
            "8:8: 'energy' needs 'expected': a value of the formula by name, or a number");
     refuse("  ladder: [{order: 1, refinements: [0]}]\n  quantities:\n    a: {field: energy, expected: 1, error: [1], "
            "rate: [1]}\n",
-           "8:8: 'field' is measured against the formula's, and has no 'expected' or 'scale'");
+           "8:8: 'field' is compared with the formula's field, and has no 'expected' or 'scale'");
 }
 
 static const struct CMUnitTest tests[] = {

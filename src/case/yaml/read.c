@@ -18,7 +18,7 @@ static const char *scalar_text(const OstYaml *yaml, const OstYamlNode *node)
     return yaml->text + ost_yaml_follow(yaml, node)->value;
 }
 
-/* Nothing after the colon, or a word YAML has for it. */
+/* No value: nothing after the colon, ~ or null. */
 static int is_empty(const OstYaml *yaml, const OstYamlNode *node)
 {
     if (!ost_yaml_is(yaml, node, OST_YAML_SCALAR) || ost_yaml_follow(yaml, node)->quoted)
@@ -29,7 +29,6 @@ static int is_empty(const OstYaml *yaml, const OstYamlNode *node)
 
 enum { MOST_KEYS = 32 };
 
-/* The keys' names, for messages. */
 static const char *list_keys(const OstYamlKey *keys, int count, char *list, size_t size)
 {
     const char *names[MOST_KEYS] = {NULL};
@@ -67,7 +66,7 @@ static OstStatus take_pair(const OstYaml *yaml, const OstYamlNode *mapping, cons
     if (found == count)
         return raise_unknown_key(yaml, mapping, key, keys, count);
     if (keys[found].value)
-        return ost_yaml_raise(yaml, key, "key '%s' stands twice in %s, the first time in line %d; keep one", name,
+        return ost_yaml_raise(yaml, key, "key '%s' occurs twice in %s, the first time in line %d; keep one", name,
                               ost_yaml_place(yaml, mapping, place, sizeof place), ost_yaml_line(keys[found].value));
     if (is_empty(yaml, value))
         return ost_yaml_raise(yaml, key, "key '%s' in %s has no value; give it one, or leave the key out", name,
@@ -167,7 +166,8 @@ OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *
     if (end == text || strspn(text, "0123456789+-.eE") < (size_t)(end - text))
         return ost_yaml_raise_type(yaml, node, "a number", "");
     if (*end != 0)
-        return ost_yaml_raise_type(yaml, node, "a number with nothing after it", " (units are yours, and not written)");
+        return ost_yaml_raise_type(yaml, node, "a number with nothing after it",
+                                   " (write no units; use consistent ones)");
     if (!isfinite(*number))
         return ost_yaml_raise_type(yaml, node, "a finite number", " (below 1.8e308)");
     return OST_SUCCESS;
