@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
+#include "problem/scene_data.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,13 +3,14 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
+#include "problem/scene_data.h"
 #include "process_cost.h"
 #include "system_matrix.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Solves a system of bench_write_system by Orthostat's own metric recipe, in a process that holds what a peer's holds:
+/* Solves a system of bench_write_system by Orthostat's own metric method, in a process that holds what a peer's holds:
  * the matrix, the right-hand side, the modes. Arguments: folder, name of the solution, tolerance (1e-8). Prints a line
  * of JSON. */
 
@@ -44,7 +45,7 @@ static OstStatus solve(OstContext *ctx, const OstBlockMatrix *matrix, const Syst
     OstSolverOptions options = ost_solver_default_options();
     OstSolver *solver = NULL;
     OstStatus status = OST_SUCCESS;
-    options.recipe = OST_RECIPE_METRIC;
+    options.method = OST_METHOD_METRIC;
     options.relative_residual = tolerance;
     restart_peak_resident();
     run->memory[0] = resident_bytes();

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_BENCH_SYSTEM_MATRIX_H
 
 #include "algebra/matrix/block_matrix.h"
-#include "orthostat/case.h"
+#include "case/case_data.h"
 #include "system_file.h"
 
 /* Collective. Reads a case, assembles its system as `orthostat solve` does, and writes each rank's rows into FOLDER. */

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
 #include "problem/problem.h"
+#include "problem/scene_data.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/orthostat.h"
+#include "problem/scene_data.h"
 #include "system_matrix.h"
 
 #include <stdio.h>

@@ -5,6 +5,8 @@
 #include "orthostat/problem.h"
 #include "orthostat/result.h"
 
+OST_API_BEGIN
+
 /* A static analysis: a problem, a solver, and the strategy that suits the problem. What does not depend on the load
  * (checked supports, stiffness, the solver's hierarchy or factors) is made once and serves every solve. */
 typedef struct OstAnalysis OstAnalysis;
@@ -27,5 +29,7 @@ OstStatus ost_problem_solve(OstProblem *problem, const OstSolverOptions *options
 /* Collective. A dry run: everything that is checked before a solver is built, and nothing solved. What is refused here
  * is refused by ost_problem_solve in the same words. */
 OstStatus ost_problem_dry_run(OstProblem *problem, const OstSolverOptions *options);
+
+OST_API_END
 
 #endif

@@ -2,146 +2,13 @@
 #ifndef ORTHOSTAT_CASE_H
 #define ORTHOSTAT_CASE_H
 
-#include "orthostat/axes.h"
-#include "orthostat/material.h"
-#include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
 OST_API_BEGIN
 
-/* A scene as its YAML file states it: physics only. Plain data; every pointer is owned by the case.
- * Files that a case reads (mesh, axes, .bou lists) are named relative to the case file's folder; the file it writes,
- * relative to the directory the program is called in. */
-
-/* Where a word stands in the case file, from 1, for messages; zeros: nowhere. */
-typedef struct OstPlace {
-    int line, column;
-} OstPlace;
-
-typedef enum {
-    OST_SELECT_ALL,
-    OST_SELECT_BOUNDARY, /* named groups of points, curves or faces */
-    OST_SELECT_PLANE,    /* |(x - point)·normal| <= tolerance */
-    OST_SELECT_BOX,
-    OST_SELECT_SPHERE,
-    OST_SELECT_CYLINDER, /* an endless cylinder's inside, or its shell between inner and outer radius */
-    OST_SELECT_VERTICES, /* labels, or a .bou file */
-    OST_SELECT_NEAREST   /* the one vertex nearest to a point */
-} OstSelectionKind;
-
-typedef struct OstSelection {
-    OstSelectionKind kind;
-    OstPlace place;
-    OstNames boundaries; /* BOUNDARY */
-    double point[3];     /* PLANE, SPHERE centre, CYLINDER origin, NEAREST; BOX minimum */
-    double direction[3]; /* PLANE normal, CYLINDER axis; BOX maximum */
-    double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
-    double
-        tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
-    OstGlobal range_count; /* VERTICES: labels, ranges ascending and apart; of vertices_file where that is named */
-    OstLabelRange *ranges;
-    char *vertices_file; /* resolved path, or NULL */
-} OstSelection;
-
-typedef enum { OST_CONSTRAIN_DISPLACEMENT, OST_CONSTRAIN_SLIDE } OstConstraintKind;
-
-typedef struct OstConstraint {
-    OstConstraintKind kind;
-    int line;
-    OstSelection on;
-    int held[3];            /* DISPLACEMENT: is the component held? (false: the word free) */
-    int exact[3];           /* DISPLACEMENT: held to the formula's (the word exact), see orthostat/exact.h */
-    double displacement[3]; /* DISPLACEMENT */
-    double normal[3];       /* SLIDE: the plane's normal */
-} OstConstraint;
-
-typedef enum {
-    OST_LOAD_TOTAL_FORCE, /* over the selection */
-    OST_LOAD_POINT_FORCE, /* on each selected vertex */
-    OST_LOAD_TRACTION,
-    OST_LOAD_PRESSURE,
-    OST_LOAD_GRAVITY,
-    OST_LOAD_BODY_FORCE
-} OstLoadKind;
-
-typedef enum { OST_SHARE_AUTO, OST_SHARE_FACES, OST_SHARE_VERTICES } OstShare;
-
-typedef struct OstLoad {
-    OstLoadKind kind;
-    int line;
-    OstSelection on; /* not used by GRAVITY and BODY_FORCE */
-    char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
-    OstPlace region_place;
-    double vector[3];
-    double pressure;
-    int exact;      /* TRACTION, BODY_FORCE: the formula's (the word exact) */
-    OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
-                       (never for VERTICES and NEAREST, which are read as share: vertices) */
-} OstLoad;
-
-typedef struct OstCaseMaterial {
-    char *region; /* "all" or a region's name */
-    OstPlace region_place, axes_place;
-    int line;
-    OstMaterial material;
-    OstAxesSpec axes;
-} OstCaseMaterial;
-
-/* A number that a person wants of the answer; `orthostat cost` prices its error. */
-typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
-
-enum {
-    OST_WATCH_LENGTH = 3, /* instead of a component */
-    OST_MOST_WATCHES = 20
-};
-
-typedef struct OstWatch {
-    char *name;
-    OstWatchKind kind;
-    int line;
-    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
-    int component;   /* 0 to 2, or OST_WATCH_LENGTH */
-    double expected; /* by a formula; NaN: not known */
-    char *source;    /* of that formula; or NULL */
-} OstWatch;
-
-typedef enum {
-    OST_MESH_TUBE,
-    OST_MESH_BLOCK,
-    OST_MESH_SECTOR,
-    OST_MESH_OCTANT,
-    OST_MESH_FILE,
-    OST_MESH_FROM_PROGRAM /* the word from_program: whoever creates the scene brings the mesh */
-} OstMeshKind;
-
-typedef struct OstCase {
-    OstContext *ctx;
-    char *path; /* of the case file, as given */
-    char *title;
-    OstMeshKind mesh_kind;
-    OstTubeShape tube;
-    OstBlockShape block;
-    OstSectorShape sector;
-    OstOctantShape octant;
-    char *mesh_file; /* resolved path */
-    OstPlace mesh_place;
-    double merge;   /* FILE: vertices no farther apart than this are joined; 0: none are */
-    int refinement; /* uniform refinements of the mesh as given: each cuts a tet in eight */
-    int order;      /* of the elements: 1 or 2; 0: as the mesh has it */
-    int material_count;
-    OstCaseMaterial *materials;
-    int free_body; /* the word free_body instead of constraints: loads balance each other, and nothing is held */
-    int constraint_count;
-    OstConstraint *constraints;
-    int load_count;
-    OstLoad *loads;
-    int watch_count;
-    OstWatch *watches;
-    struct OstVerify *verify; /* orthostat/verify.h; NULL: the case has no such section */
-    OstSolverOptions solver;  /* accuracy and solver sections over the defaults */
-    char *output_file;        /* as written: relative to the caller's directory; or NULL */
-    unsigned output_fields;   /* bits of OstOutputField */
-} OstCase;
+/* A case as its YAML states it: physics only. Files that a case reads (mesh, axes, .bou lists) are named relative to
+ * the case file's folder; the file it writes, relative to the directory the program is called in. */
+typedef struct OstCase OstCase;
 
 /* Columns: name, its word in the case file. */
 #define OST_OUTPUT_FIELD_TABLE(X)                \
@@ -167,21 +34,14 @@ OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
  * stands in messages, and files that the case names are relative to its folder; there need be no such file. */
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **out);
 
-/* Local. Puts the place in front of a failure raised further down, as "path:line:column: text"; passes success. */
-OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
 void ost_case_destroy(OstCase **c);
 
-/* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from
- * the context, the caller's to free. Raises OST_INVALID_INPUT with the case's line if a name does not exist (naming
- * those that do), a label is not in the mesh, or nothing at all is selected. */
-OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
-                           OstLocal **nodes);
-
-/* Collective. The selected faces, outward: items of 2-D boundaries, or faces of the body's surface all of whose nodes
- * are selected. `faces` has `count` × *nodes_per_face local node numbers. A count of 0 on all ranks is no error here.
- */
-OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
-                           int *nodes_per_face, OstLocal **faces);
+/* Local. What stands in the case; texts live as long as it does. */
+const char *ost_case_path(const OstCase *c);
+const char *ost_case_title(const OstCase *c);
+const char *ost_case_output_file(const OstCase *c); /* NULL: the case names none */
+unsigned ost_case_output_fields(const OstCase *c);  /* bits of OstOutputFieldBit: 1 << OST_FIELD_STRESS */
+const OstSolverOptions *ost_case_solver_options(const OstCase *c);
 
 OST_API_END
 

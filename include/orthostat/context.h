@@ -24,6 +24,7 @@ typedef enum { OST_LOG_QUIET, OST_LOG_NORMAL, OST_LOG_VERBOSE } OstLogLevel;
 OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx);
 void ost_context_destroy(OstContext **ctx);
 
+/* Local. The communicator, this process's rank in it, and the number of ranks. */
 MPI_Comm ost_comm(const OstContext *ctx);
 int ost_rank(const OstContext *ctx);
 int ost_size(const OstContext *ctx);
@@ -49,12 +50,15 @@ void ost_progress(OstContext *ctx, const char *what, double fraction);
 /* Local. Hands every warning of rank 0 to `hear` too, quiet or not; NULL ends it. */
 void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener);
 
+/* Local. Frees an array that a function handed out as the caller's to free. NULL is allowed. */
+void ost_free_memory(void *memory);
+
 /* Local. Asks the C library to keep what is freed for what is allocated next, where it would give large blocks back to
  * the system and have them cleared page by page when they are asked for again: a third of the time of a large setup.
  * For a program that is Orthostat's own, before it starts MPI. Does nothing where the C library is not GNU's. */
 void ost_keep_freed_memory(void);
 
-/* Seconds on a clock that only moves forward. */
+/* Local. Seconds on a clock that only moves forward. */
 double ost_seconds(void);
 
 OST_API_END

@@ -9,7 +9,7 @@
 OST_API_BEGIN
 
 /* The ledger books every second and every byte of a run to an account: a phase of the work, or an effect of the scene
- * (orthostat/effect.h). Seconds are exclusive: entering an account stops the clock of the one around it, so the
+ * (effect/effect.h). Seconds are exclusive: entering an account stops the clock of the one around it, so the
  * accounts add up to the whole run. Bytes are booked to the account that is open when they are allocated. What is done
  * for an effect is booked to the effect, whatever phases it goes through. Columns: name, label. */
 #define OST_LEDGER_TABLE(X)                    \

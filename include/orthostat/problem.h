@@ -5,6 +5,8 @@
 #include "orthostat/field.h"
 #include "orthostat/mesh.h"
 
+OST_API_BEGIN
+
 /* The discrete problem: mesh, materials, supports and loads as functions of the displacement u and the load factor t.
  * At rest, force(u) = load(t) in every direction that the supports leave free, and u is the prescribed displacement,
  * times t, in the others. How that is solved is no concern of the problem (orthostat/analysis.h).
@@ -83,5 +85,7 @@ void ost_problem_release_scatter(OstProblem *problem);
 
 /* Local. Drops matrix, pattern and map. Solvers made of the matrix must be gone. */
 void ost_problem_release_stiffness(OstProblem *problem);
+
+OST_API_END
 
 #endif

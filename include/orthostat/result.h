@@ -2,8 +2,6 @@
 #ifndef ORTHOSTAT_RESULT_H
 #define ORTHOSTAT_RESULT_H
 
-#include "orthostat/field.h"
-#include "orthostat/mesh.h"
 #include "orthostat/solver.h"
 
 OST_API_BEGIN
@@ -30,54 +28,42 @@ typedef struct OstChecks {
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
 } OstChecks;
 
-/* What linear theory is off by, about, because strains and rotations are not small. A part turned by an angle comes out
- * longer by half its square (a cantilever whose end turns by 0.5 bends 10 % too far: Mattiasson, Int. J. Numer. Meth.
- * Eng. 17, 1981, has 0.30172 of the length where linear theory has 1/3), and what small strain takes for e is e + e²/2
- * by Green's measure. */
-static inline double ost_linear_error(const OstChecks *checks)
-{
-    const double turned = 0.5 * checks->largest_rotation * checks->largest_rotation;
-    const double strained = 0.5 * checks->largest_strain;
-    return turned > strained ? turned : strained;
-}
+/* One rank's piece of the answer, on one piece of a mesh; the mesh outlives it. */
+typedef struct OstResult OstResult;
 
-/* What speaks against solving a problem, or against an answer, in words. One objection may be all that a solver tried.
- */
-enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = OST_ERROR_TEXT_SIZE };
+/* Local. "accepted"; "unfinished" where the solver stopped early; "refused" where a check failed. */
+const char *ost_result_status(const OstResult *result);
 
-typedef struct OstVerdict {
-    int count;        /* 0: nothing does; the same on all ranks */
-    OstStatus status; /* to fail with, of the first objection */
-    char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
-} OstVerdict;
+/* Local. What speaks against the answer, in words: how many objections (none: it is accepted), and one of them. */
+int ost_result_objection_count(const OstResult *result);
+const char *ost_result_objection(const OstResult *result, int number);
 
-/* One rank's piece of the answer. */
-typedef struct OstResult {
-    OstContext *ctx;
-    const OstMesh *mesh;
-    const OstMaterialField *field;
-    double *displacement;          /* 3 × node_count */
-    double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
-    double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
-    double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
-    double *strain_energy_density; /* owned_tets, or NULL */
-    double *node_stress;           /* 6 × node_count, or NULL */
-    OstGlobal unknowns;
-    double largest_displacement;
-    double largest_at[3];
-    OstSolveReport solve;
-    OstChecks checks;
-    int reached;        /* is there a displacement to speak of? Not so if no solver came to work */
-    int unfinished;     /* did the solver stop short of the requested residual? */
-    OstVerdict verdict; /* no objections: the result is an answer */
-} OstResult;
+/* Local. The fields, which live as long as the result; NULL where a field was not asked for, or not reached. Units are
+ * the user's. Symmetric tensors are 11 22 33 12 23 31 in world axes; strains carry 2 e12 and so on. */
+const double *ost_result_displacement(const OstResult *result); /* node_count × 3, ghosts included */
+const double *ost_result_reaction(const OstResult *result);     /* node_count × 3, 0 where nothing constrains */
+const double *ost_result_load(const OstResult *result);         /* owned_nodes × 3: the forces on the nodes */
+const double *ost_result_stress(const OstResult *result);       /* owned_tets × 6: mean over the tet */
+const double *ost_result_strain(const OstResult *result);       /* owned_tets × 6: mean over the tet */
+const double *ost_result_strain_energy_density(const OstResult *result); /* owned_tets */
+const double *ost_result_node_stress(const OstResult *result);           /* node_count × 6 */
 
-/* A quantity that the case watches, as the answer has it. */
-typedef struct OstWatchedValue {
-    const char *name;
-    double value;
-    double expected; /* not a number where it is not known */
-} OstWatchedValue;
+/* Local. Over the whole body: the largest displacement and, unless NULL, the place of its node; the unknowns. */
+double ost_result_largest_displacement(const OstResult *result, double at[3]);
+OstGlobal ost_result_unknowns(const OstResult *result);
+
+/* Local. What was found out about the solve and about the answer; both live as long as the result. Later versions may
+ * add to the ends of these structs, which only the library makes. */
+const OstSolveReport *ost_result_solve_report(const OstResult *result);
+const OstChecks *ost_result_checks(const OstResult *result);
+
+/* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result
+ * has. A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it), field data
+ * `refused`, the reasons in /Orthostat/Objections. Raises OST_FILE_FAILED. */
+OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path);
+
+/* Local. Frees the result; the pointer is nulled. */
+void ost_result_destroy(OstResult **result);
 
 OST_API_END
 

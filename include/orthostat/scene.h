@@ -3,23 +3,13 @@
 #define ORTHOSTAT_SCENE_H
 
 #include "orthostat/case.h"
-#include "orthostat/exact.h"
-#include "orthostat/plan.h"
 #include "orthostat/problem.h"
 #include "orthostat/result.h"
 
 OST_API_BEGIN
 
 /* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
-typedef struct OstScene {
-    OstContext *ctx;
-    const OstCase *c;
-    OstPlan plan;           /* its effects are what the work goes by */
-    OstEffect *load_effect; /* of each load of the case */
-    OstMesh *mesh;
-    OstMaterialField *field;
-    const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
-} OstScene;
+typedef struct OstScene OstScene;
 
 /* Collective. Reads or makes the mesh, distributes it, and sets up materials and axes. The case outlives the scene. */
 OstStatus ost_scene_create(const OstCase *c, OstScene **scene);
@@ -30,6 +20,10 @@ OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene *
 
 void ost_scene_destroy(OstScene **scene);
 
+/* Local. The scene's own; they live as long as it does. */
+const OstMesh *ost_scene_mesh(const OstScene *scene);
+const OstMaterialField *ost_scene_field(const OstScene *scene);
+
 /* Collective. The scene's problem: its mesh and field (which outlive it) with the supports and loads of the case.
  * Raises OST_INVALID_INPUT with the case's line where constraints contradict each other, or if nothing is constrained.
  */
@@ -39,15 +33,6 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem);
  * fields that the case asks for. The scene outlives the result. */
 OstStatus ost_scene_dry_run(const OstScene *scene);
 OstStatus ost_scene_solve(const OstScene *scene, OstResult **result);
-void ost_result_destroy(OstResult **result);
-
-/* Local. "accepted"; "unfinished" where the solver stopped early; "refused" where a check failed. */
-const char *ost_result_status(const OstResult *result);
-
-/* Collective. Writes the VTKHDF file of a result: the fields asked for by the case. A result with objections is marked:
- * attribute Status of /VTKHDF (as ost_result_status gives it), field data `refused`, the reasons in
- * /Orthostat/Objections. */
-OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path);
 
 OST_API_END
 

@@ -6,19 +6,20 @@
 
 OST_API_BEGIN
 
-/* How the linear system is solved: the rungs of a ladder, from cheap to safe. */
+/* How the linear system is solved, from the cheapest method to the safest. */
 typedef enum {
-    OST_RECIPE_AUTO,      /* starts where the plan says, and climbs for as long as a rung is too slow or fails */
-    OST_RECIPE_PLAIN,     /* AztecOO's CG, ML's smoothed aggregation with its own aggregates; never planned */
-    OST_RECIPE_METRIC,    /* flexible CG, smoothed aggregation on aggregates round in the material's metric, block
-                             smoother, K-cycle */
-    OST_RECIPE_STRONG,    /* the same hierarchy with a smoother of higher degree over a wider interval */
-    OST_RECIPE_TWO_LEVEL, /* strong smoothing over aggregates whose matrix is factored; quadratic tets: over the linear
+    OST_METHOD_AUTO,   /* starts with the method that the plan names, and goes on to the next where one is too slow or
+                          fails */
+    OST_METHOD_PLAIN,  /* AztecOO's CG, ML's smoothed aggregation with its own aggregates; never planned */
+    OST_METHOD_METRIC, /* AztecOO's CG, ML's cycle over aggregates that are round in the material's metric, block
+                          smoothers */
+    OST_METHOD_STRONG, /* the same hierarchy with a smoother of higher degree over a wider interval */
+    OST_METHOD_TWO_LEVEL, /* strong smoothing over aggregates whose matrix is factored; quadratic tets: over the linear
                              ones, factored */
-    OST_RECIPE_DIRECT     /* MUMPS, refined by CG to the requested residual */
-} OstRecipe;
+    OST_METHOD_DIRECT     /* MUMPS, refined by CG to the requested residual */
+} OstMethod;
 
-/* Parameters that the user has given: plan and ladder leave them alone. */
+/* Parameters that the user has given: neither the plan nor a later strategy changes them. */
 enum {
     OST_GIVEN_AGGREGATE = 1,
     OST_GIVEN_COARSE_AGGREGATE = 2,
@@ -29,13 +30,13 @@ enum {
 };
 
 typedef struct OstSolverOptions {
-    OstRecipe recipe;
+    OstMethod method;
     double relative_residual;      /* of the true, unscaled residual */
     int accept_attainable;         /* take what double precision holds where that is less */
-    int max_iterations;            /* over all rungs */
-    int patience;                  /* AUTO leaves a rung that needs more iterations than this, as far as it can tell */
+    int max_iterations;            /* over all strategies */
+    int patience;                  /* AUTO leaves a strategy that would need more further iterations than this */
     double aggregate_nodes;        /* METRIC to TWO_LEVEL: nodes per aggregate on the finest level; fewer, down to 10,
-                                      where Young's moduli differ by more than 1000 (metric_levels.c) */
+                                      where Young's moduli differ by more than 1000 (algebra/multigrid/levels.c) */
     double coarse_aggregate_nodes; /* on the levels below */
     double smoother_block_nodes;   /* nodes per smoother block; more, up to 10, there */
     int smoother_degree;           /* Chebyshev degree */
@@ -58,19 +59,19 @@ typedef struct OstSolverFacts {
 
 enum { OST_PLAN_REASONS = 8 };
 
-/* Where the ladder starts, with which parameters, and why. */
+/* The first strategy, with which parameters, and why. */
 typedef struct OstSolverPlan {
-    OstRecipe first;
-    OstSolverOptions options; /* those of the first rung */
+    OstMethod first;
+    OstSolverOptions options; /* those of the first strategy */
     int reasons;
-    char reason[OST_PLAN_REASONS][160]; /* the first is that of the rung */
+    char reason[OST_PLAN_REASONS][160]; /* the first is that of the method */
 } OstSolverPlan;
 
 enum { OST_MAX_LEVELS = 12, OST_MAX_STEPS = 6, OST_LONGEST_OUTCOME = 480 };
 
-/* A rung of the ladder that was tried. */
+/* A strategy that was tried. */
 typedef struct OstSolveStep {
-    OstRecipe rung;
+    OstMethod method;
     int iterations;
     double factor;            /* by which the residual fell in an iteration, geometric mean; 0 if there was none */
     double relative_residual; /* true, at its end */
@@ -79,9 +80,9 @@ typedef struct OstSolveStep {
 } OstSolveStep;
 
 typedef struct OstSolveReport {
-    OstRecipe recipe;         /* the last strategy's */
+    OstMethod method;         /* the last strategy's */
     char engine[64];          /* which libraries did its work, in words */
-    int iterations;           /* over all rungs */
+    int iterations;           /* over all strategies */
     double relative_residual; /* true, recomputed */
     double
         attainable_residual; /* about what rounding allows, or what was reached if that is less; 0 where nobody asked */
@@ -96,18 +97,22 @@ typedef struct OstSolveReport {
                                known, INFINITY if there is no bound */
     double energy_error;    /* in the norm of the energy, as error_estimate (which it is where factors are at hand) */
     double rounding_error;  /* what of it rounding of K explains; 0 where six digits are left, and nobody asked */
-    double rounding_spread; /* standard error of that, over it, where it is a mean over roundings thrown at random */
+    double rounding_spread; /* standard error of that, over it, where it is a mean over random samples of rounding
+                               errors */
     OstSolverPlan plan;
-    int steps; /* one more than times climbed */
+    int steps; /* strategies tried */
     OstSolveStep step[OST_MAX_STEPS];
 } OstSolveReport;
 
-/* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, patience 150, recipe R's 40 / 8 / 7 nodes, degree 3,
+/* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, patience 150, 40 / 8 / 7 nodes, degree 3,
  * ratio 20, coarsest 1000. */
 OstSolverOptions ost_solver_default_options(void);
-const char *ost_recipe_name(OstRecipe recipe);
+const char *ost_method_name(OstMethod method);
 
-/* Local. The plan for a system of which these facts are known; a recipe other than AUTO is planned as asked. */
+/* Local. Which libraries do a method's work, in words ("AztecOO CG, ML cycle"). */
+const char *ost_method_engine(OstMethod method);
+
+/* Local. The plan for a system of which these facts are known; a method other than AUTO is planned as asked. */
 void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
 
 OST_API_END

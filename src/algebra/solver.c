@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/matrix/compensated_residual.h"
+#include "algebra/matrix/residual.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
@@ -17,61 +17,63 @@ struct OstSolver {
     OstContext *ctx;
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
-    OstSolverOptions options; /* as they were given */
+    OstSolverOptions options; /* the user's */
     OstSolverPlan plan;
-    OstStrategy *strategy; /* at work; NULL if there are no unknowns */
+    OstStrategy *strategy; /* the current one; NULL if there are no unknowns */
     OstEpetraMap *map;
-    double setup_seconds;    /* of all strategies so far */
-    double strategy_seconds; /* setup of the one at work, until it has been booked to a step */
-    int steps;               /* strategies that could not be built before the one at work */
+    double setup_seconds;    /* for all strategies so far */
+    double strategy_seconds; /* setup of the current one, until it is added to a step */
+    int steps;               /* strategies that could not be built before the current one */
     OstSolveStep step[OST_MAX_STEPS];
 };
 
-/* May the solver go on to another strategy? A method that the user has picked is kept. */
+/* May the solver take another strategy? Not if the user has chosen the method. */
 static int may_change(const OstSolver *solver)
 {
-    return solver->plan.options.recipe == OST_RECIPE_AUTO;
+    return solver->plan.options.method == OST_METHOD_AUTO;
 }
 
-/* Notes how a strategy ended; the last place is kept for the one that reaches the goal. */
-static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstRecipe method, const char *outcome)
+/* Records how a strategy ended. If there are too many, the last place is overwritten, so that the final one is there.
+ */
+static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstMethod method, const char *outcome)
 {
     OstSolveStep *noted = &step[*steps < OST_MAX_STEPS ? (*steps)++ : OST_MAX_STEPS - 1];
     memset(noted, 0, sizeof *noted);
-    noted->rung = method;
+    noted->method = method;
     snprintf(noted->outcome, sizeof noted->outcome, "%s", outcome);
     return noted;
 }
 
-/* Could another strategy do better? It cannot where the input is wrong or MPI fails. */
+/* Could another strategy succeed? Not if the input is wrong or MPI fails. */
 static int is_mendable(OstStatus status)
 {
     return status == OST_NOT_CONVERGED || status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
 }
 
-/* Builds the strategy `recipe`, or, where that fails and the solver may change it, the next one that can be built. */
-static OstStatus build(OstSolver *solver, OstRecipe recipe, OstSolveStep *step, int *steps)
+/* Builds the strategy for `method`. If that fails and the solver may change it, builds the next one that can be built.
+ */
+static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, int *steps)
 {
     OstSolverOptions options;
-    for (;; recipe++) {
+    for (;; method++) {
         const double start = ost_seconds();
-        ost_solver_rung_options(&solver->plan.options, recipe, &options);
+        ost_solver_strategy_options(&solver->plan.options, method, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = ost_strategy_prepare(solver->matrix, &solver->geometry, &options, &solver->strategy);
         ost_ledger_leave(solver->ctx);
         solver->strategy_seconds = ost_seconds() - start;
         solver->setup_seconds += solver->strategy_seconds;
-        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_recipe_name(recipe),
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
         if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
             return status;
-        note_step(step, steps, recipe, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
-        if (recipe == OST_RECIPE_DIRECT)
+        note_step(step, steps, method, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
+        if (method == OST_METHOD_DIRECT)
             return status;
     }
 }
 
-/* All that was tried, where that was more than one strategy; `status` and its text are those of the last. */
+/* Raises all that was tried, if that was more than one strategy; `status` and its text are those of the last. */
 static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
     enum { LONGEST_NAME = 64 }; /* of a strategy with its iterations */
@@ -83,7 +85,7 @@ static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps,
     snprintf(last, sizeof last, "%s", ost_error_text(ctx));
     for (int s = 0; s < steps && length < sizeof tried; s++)
         length += (size_t)snprintf(tried + length, sizeof tried - length, "%s%s (%d iterations): %s", s ? "; " : "",
-                                   ost_recipe_name(step[s].rung), step[s].iterations, step[s].outcome);
+                                   ost_method_name(step[s].method), step[s].iterations, step[s].outcome);
     return OST_RAISE(ctx, OST_NOT_CONVERGED, "%s. Tried: %s", last, tried);
 }
 
@@ -99,16 +101,17 @@ static OstSolverFacts facts_of(const OstSolver *solver)
 static void tell_plan(const OstSolver *solver)
 {
     for (int r = 0; r < solver->plan.reasons; r++)
-        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_recipe_name(solver->plan.first) : "",
+        ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s%s%s", r == 0 ? ost_method_name(solver->plan.first) : "",
                 r == 0 ? " first: " : "", solver->plan.reason[r]);
 }
 
-/* The plan's rule of thumb lets a small body be factored that the analysis then finds not to fit. */
+/* Builds the first strategy. If the plan chose to factor, but the analysis finds that the factors do not fit into
+ * memory, plans again without them. */
 static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstStatus status = build(solver, solver->plan.first, solver->step, &solver->steps);
     const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
-    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_RECIPE_DIRECT)
+    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_METHOD_DIRECT)
         return status;
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan_without_factors(options, &facts, &solver->plan);
@@ -116,7 +119,6 @@ static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
     return build(solver, solver->plan.first, solver->step, &solver->steps);
 }
 
-/* Plans, and builds the first strategy of the plan. */
 static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstSolverFacts facts = facts_of(solver);
@@ -153,9 +155,9 @@ done:
 
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
-    const OstRecipe at_work = solver->strategy ? ost_strategy_recipe(solver->strategy) : OST_RECIPE_AUTO;
-    /* PLAIN smooths with the new matrix by bounds of the old one's spectrum, and may not be definite then. */
-    const int may_stay = at_work >= OST_RECIPE_METRIC && at_work <= OST_RECIPE_TWO_LEVEL;
+    const OstMethod current = solver->strategy ? ost_strategy_method(solver->strategy) : OST_METHOD_AUTO;
+    /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
+    const int may_stay = current >= OST_METHOD_METRIC && current <= OST_METHOD_TWO_LEVEL;
     if (how == OST_UPDATE_KEEP && may_stay)
         return OST_SUCCESS;
     ost_strategy_destroy(&solver->strategy);
@@ -171,18 +173,7 @@ void ost_solver_destroy(OstSolver **solver)
     OST_FREE(*solver);
 }
 
-static OstStatus find_residual(const OstBlockMatrix *matrix, const double *f, double *u, int compensated,
-                               double *residual)
-{
-    if (compensated)
-        return ost_compensated_residual(matrix, f, u, residual);
-    OST_TRY(ost_block_matrix_apply(matrix, u, residual));
-    for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
-        residual[i] = f[i] - residual[i];
-    return OST_SUCCESS;
-}
-
-/* ||f - A u|| / ||f||, by Epetra's norms: nothing but the product is shared with what the strategies stop by. */
+/* ||f - A u|| / ||f|| by Epetra's norms: shares only the residual with what the strategies stop by. */
 static OstStatus measure_residual(const OstSolver *solver, const double *f, const double *u, int compensated,
                                   double *relative)
 {
@@ -197,7 +188,7 @@ static OstStatus measure_residual(const OstSolver *solver, const double *f, cons
         status = OST_NEW(ctx, &residual, n);
     OST_TRY_DONE(ost_agree(ctx, status));
     memcpy(vector, u, n * sizeof *u);
-    OST_TRY_DONE(find_residual(solver->matrix, f, vector, compensated, residual));
+    OST_TRY_DONE(ost_residual(solver->matrix, f, vector, compensated, residual));
     OST_TRY_DONE(ost_epetra_norm(solver->map, residual, &norm));
     OST_TRY_DONE(ost_epetra_norm(solver->map, f, &f_norm));
     *relative = f_norm > 0.0 ? norm / f_norm : norm;
@@ -207,59 +198,59 @@ done:
     return status;
 }
 
-/* Goes on with the strategy at work, from the u that there is. */
+/* Improves u by the current strategy. */
 static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     const double start = ost_seconds();
     const int before = goal->iterations;
     const OstStatus status = ost_strategy_improve(solver->strategy, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
-                          : goal->end == OST_END_REACHED ? "reached the residual asked for"
+                          : goal->end == OST_END_REACHED ? "reached the requested residual"
                                                          : goal->words;
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_recipe(solver->strategy), outcome);
+    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_method(solver->strategy), outcome);
     step->iterations = goal->iterations - before;
-    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->pace) : 0.0;
+    step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
     step->seconds = ost_seconds() - start + solver->strategy_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
-            ost_recipe_name(step->rung), report->engine, step->iterations, ost_seconds() - start,
+            ost_method_name(step->method), report->engine, step->iterations, ost_seconds() - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
     return status;
 }
 
-/* Is there a next strategy that could do better? */
+/* Is there a next strategy that could succeed? */
 static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int mendable =
         goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return may_change(solver) && mendable && ost_strategy_recipe(solver->strategy) < OST_RECIPE_DIRECT;
+    return may_change(solver) && mendable && ost_strategy_method(solver->strategy) < OST_METHOD_DIRECT;
 }
 
-/* The strategy that converged fastest, to be gone on with where the next ones need more memory than there is; AUTO if
- * none converged at all. */
-static OstRecipe fastest(const OstSolveReport *report)
+/* The method that converged fastest, AUTO if none did. */
+static OstMethod fastest(const OstSolveReport *report)
 {
-    OstRecipe found = OST_RECIPE_AUTO;
+    OstMethod found = OST_METHOD_AUTO;
     double least = 0.9999;
     for (int s = 0; s < report->steps; s++)
         if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
-            found = report->step[s].rung;
+            found = report->step[s].method;
             least = report->step[s].factor;
         }
     return found;
 }
 
+/* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstRecipe from = ost_strategy_recipe(solver->strategy);
-    const OstStatus status = build(solver, (OstRecipe)(from + 1), report->step, &report->steps);
+    const OstMethod from = ost_strategy_method(solver->strategy);
+    const OstStatus status = build(solver, (OstMethod)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
-    const OstRecipe best = fastest(report);
-    if (best == OST_RECIPE_AUTO)
+    const OstMethod best = fastest(report);
+    if (best == OST_METHOD_AUTO)
         return status;
-    goal->patience = 0; /* there is no other */
+    goal->patience = 0; /* there is no other to change to */
     return build(solver, best, report->step, &report->steps);
 }
 
@@ -276,7 +267,7 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
 
 static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
 {
-    report->recipe = solver->strategy ? ost_strategy_recipe(solver->strategy) : solver->plan.first;
+    report->method = solver->strategy ? ost_strategy_method(solver->strategy) : solver->plan.first;
     report->iterations = goal->iterations;
     if (goal->start > 0.0) {
         report->relative_residual = goal->norm / goal->start;
@@ -285,13 +276,14 @@ static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveRe
     }
 }
 
-/* f and u of order 1 or so, whatever the units. */
+/* Solves with f scaled to order 1. */
 static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     OstGoal goal;
     if (!solver->strategy && solver->matrix->global_rows > 0)
-        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED,
-                         "no strategy of this solver is left: an earlier solve tried all");
+        return OST_RAISE(
+            solver->ctx, OST_NOT_CONVERGED,
+            "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
     OstStatus status = OST_SUCCESS;
     if (solver->strategy)

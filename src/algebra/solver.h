@@ -11,31 +11,32 @@ typedef struct OstSolver OstSolver;
  * next one that can be built. The matrix stays the caller's, unchanged, and is used until the solver is destroyed, as
  * is what the geometry points to. Raises OST_INVALID_INPUT naming an option out of range or a row whose diagonal block
  * is not positive definite, OST_NOT_CONVERGED if a factorisation finds the matrix singular or indefinite,
- * OST_OUT_OF_MEMORY if one does not fit, OST_LIMIT_EXCEEDED if it is more than the libraries below can number. */
+ * OST_OUT_OF_MEMORY if the factors do not fit, OST_LIMIT_EXCEEDED if a library cannot number the unknowns. */
 OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstSolver **solver);
 void ost_solver_destroy(OstSolver **solver);
 
-/* Collective. To be called when the matrix has got new values on the same pattern. With OST_UPDATE_REBUILD the strategy
- * is built anew, as ost_solver_create does, beginning at the plan's first. With OST_UPDATE_KEEP a multigrid hierarchy
- * stays as the preconditioner of the new matrix, which pays for values that have changed little: the solution is that
- * of the new matrix all the same. PLAIN's hierarchy and factors are always made anew. Raises what ost_solver_create
- * does; the solver is then without a strategy, to be destroyed or updated again. */
+/* Collective. To be called after the values of the matrix have changed on the same pattern. OST_UPDATE_REBUILD plans
+ * and builds the first strategy again, as ost_solver_create. OST_UPDATE_KEEP keeps a multigrid hierarchy as
+ * preconditioner of the new matrix, which pays if the values have changed little; the solution is that of the new
+ * matrix either way. PLAIN's hierarchy and factors are always rebuilt. Raises what ost_solver_create raises; the solver
+ * is then without a strategy and can only be destroyed or updated again. */
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 
-/* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm,
- * recomputed from A, u, f at the end (and iterated on if the recursive residual had drifted). f and u have 3 × rows
- * numbers of any unit (account OST_LEDGER_SOLVE). May be called for any number of right-hand sides.
+/* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm.
+ * The residual is recomputed from A, u and f; if the recursive one has drifted from it, the iteration continues. f and
+ * u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any number of right-hand sides.
  *
- * With AUTO the solver leaves a strategy that would need more than options.patience further iterations, whose
- * preconditioner is not positive definite (r·z <= 0), or that gains nothing more. The next one goes on from the u there
- * is; where that one does not fit into memory, the fastest so far goes on to the last iteration. The next right-hand
- * side starts with the strategy reached. A method that is asked for by name is never left.
+ * With AUTO the solver gives up a strategy that would need more than options.patience further iterations, whose
+ * preconditioner is not positive definite (r·z <= 0), or that gains nothing more. The next one continues from the
+ * current u; if it does not fit into memory, the fastest so far continues up to max_iterations. The next right-hand
+ * side starts with the strategy reached. A method that the user has chosen is never changed.
  *
  * Returns OST_NOT_CONVERGED with the residual reached and all that was tried: after the last strategy; after
- * max_iterations; as soon as p·Ap < 0 shows an indefinite matrix; or when rounding in double precision allows no more
- * (report.attainable_residual), where another strategy would be in vain. u and the report are filled either way. */
+ * max_iterations; as soon as p·Ap < 0 shows an indefinite matrix; or when rounding in double precision allows no
+ * smaller residual (report.attainable_residual), where another strategy cannot help. u and the report are filled either
+ * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
 
 #endif

@@ -7,7 +7,7 @@
 /* Local. OST_INVALID_INPUT naming the option that is out of range. */
 OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *options);
 
-/* Local. What a rung makes of the planned options. */
-void ost_solver_rung_options(const OstSolverOptions *planned, OstRecipe rung, OstSolverOptions *options);
+/* Local. The options of the strategy for `method`, from the planned ones. */
+void ost_solver_strategy_options(const OstSolverOptions *planned, OstMethod method, OstSolverOptions *options);
 
 #endif

@@ -6,22 +6,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Factoring so few unknowns takes less than building a hierarchy. */
+/* Factoring fewer unknowns takes less time than building a hierarchy. */
 static const OstGlobal direct_below = 3000;
 
-/* Above: measured at 0.4999, where METRIC took 288 iterations for 14, and no other multigrid rung less time. */
+/* Poisson's ratio; at 0.4999 METRIC took 288 iterations instead of 14, and no other multigrid method less time. */
 static const double nearly_incompressible = 0.49;
-/* Beyond these values of Poisson's ratio rigid aggregates are poor at showing fields that keep their volume: what they
- * miss at their borders costs 1 / (1 - 2 nu) times what it should, and falls with their size. Measured on the paper's
- * tube (isotropic, stiff along, around, through the wall), iterations at 40, 15 and 10 nodes: nu 0.49: 34 47 72 53, 25
- * 37 46 50, 23 38 33 43; nu 0.499: 101 135 165 158, 76 106 116 158, 70 110 69 129, and 60 97 67 124 with one more
- * degree of smoothing. */
+
+/* Above these values of Poisson's ratio aggregates must be smaller. Aggregates of rigid modes represent
+ * volume-preserving fields badly: their error at the aggregates' borders changes the volume, so its energy is 1 / (1 -
+ * 2 nu) times too large; smaller aggregates reduce it. Iterations on the paper's tube (isotropic, stiff along, around,
+ * through the wall) with aggregates of 40, 15 and 10 nodes: nu 0.49: 34 47 72 53, 25 37 46 50, 23 38 33 43; nu 0.499:
+ * 101 135 165 158, 76 106 116 158, 70 110 69 129, and 60 97 67 124 with one more degree of smoothing. */
 static const struct {
     double poisson, aggregate_nodes;
     int more_degree;
-} softer_than[2] = {{0.495, 10.0, 1}, {0.45, 15.0, 0}};
+} smaller_above[2] = {{0.495, 10.0, 1}, {0.45, 15.0, 0}};
 
-static const double uneven = 1e3, sliver = 1e-2;
+static const double uneven = 1e3, sliver = 1e-2; /* ratio of moduli; quality of a tet */
 
 static void say(OstSolverPlan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -42,17 +43,17 @@ double ost_solver_factor_bytes(OstGlobal unknowns)
     return 505e6 * pow((double)unknowns / 74340.0, 1.29);
 }
 
-/* What a factorisation may take; 0 where it is not known. */
+/* Bytes a factorisation may take; 0 if unknown. */
 static double allowed_memory(const OstSolverOptions *options, const OstSolverFacts *facts)
 {
     return options->factor_memory > 0.0 ? options->factor_memory : facts->free_memory;
 }
 
-/* Multigrid, which would factor so few unknowns as its coarsest level if it were not told otherwise. */
+/* Multigrid for few unknowns whose factors do not fit into memory; its coarsest level must be smaller than they are. */
 static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const OstGlobal fewer = facts->unknowns / 4;
-    plan->first = OST_RECIPE_METRIC;
+    plan->first = OST_METHOD_METRIC;
     if (!(plan->options.given & OST_GIVEN_COARSEST) && plan->options.coarsest_unknowns > fewer)
         plan->options.coarsest_unknowns = fewer > 0 ? (int)fewer : 1;
     say(plan, "%lld unknowns are few, but a factorisation would not fit into the %.3g MiB %s: multigrid",
@@ -60,63 +61,65 @@ static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
         plan->options.factor_memory > 0.0 ? "allowed" : "free");
 }
 
-static void plan_rung(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
+static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     const long long unknowns = (long long)facts->unknowns;
-    if (plan->options.recipe != OST_RECIPE_AUTO) {
-        plan->first = plan->options.recipe;
+    if (plan->options.method != OST_METHOD_AUTO) {
+        plan->first = plan->options.method;
         say(plan, "the case asks for it");
     } else if (facts->unknowns < direct_below && !fits) {
         plan_around_memory(facts, plan);
     } else if (facts->unknowns < direct_below) {
-        plan->first = OST_RECIPE_DIRECT;
-        say(plan, "%lld unknowns are fewer than %lld: a factorisation is at hand at once", unknowns,
-            (long long)direct_below);
+        plan->first = OST_METHOD_DIRECT;
+        say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
     } else {
-        plan->first = OST_RECIPE_METRIC;
-        say(plan, "%lld unknowns: multigrid on aggregates that are round in the material's metric", unknowns);
+        plan->first = OST_METHOD_METRIC;
+        say(plan, "%lld unknowns: multigrid on aggregates that are round in the material metric", unknowns);
     }
 }
 
 static void plan_aggregates(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     for (int k = 0; k < 2; k++) {
-        if (!(facts->poisson > softer_than[k].poisson) || plan->first == OST_RECIPE_DIRECT)
+        if (!(facts->poisson > smaller_above[k].poisson) || plan->first == OST_METHOD_DIRECT)
             continue;
         if (!(plan->options.given & OST_GIVEN_DEGREE))
-            plan->options.smoother_degree += softer_than[k].more_degree;
-        if (plan->options.given & OST_GIVEN_AGGREGATE || plan->first == OST_RECIPE_TWO_LEVEL)
+            plan->options.smoother_degree += smaller_above[k].more_degree;
+        if (plan->options.given & OST_GIVEN_AGGREGATE || plan->first == OST_METHOD_TWO_LEVEL)
             return;
-        plan->options.aggregate_nodes = softer_than[k].aggregate_nodes;
-        say(plan, "Poisson's ratio of %.6g is above %g: aggregates of %g nodes, which lose less volume", facts->poisson,
-            softer_than[k].poisson, softer_than[k].aggregate_nodes);
+        plan->options.aggregate_nodes = smaller_above[k].aggregate_nodes;
+        say(plan, "Poisson's ratio of %.6g is above %g: aggregates of %g nodes, which keep the volume better",
+            facts->poisson, smaller_above[k].poisson, smaller_above[k].aggregate_nodes);
         return;
     }
 }
 
-/* What makes the work harder, so that a climb comes as no surprise: no other first rung was found to be better. */
+/* Names what makes the system hard to solve. It changes nothing: no other first strategy was found to be better. */
 static void plan_trouble(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
-    if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT)
+    if (plan->options.method != OST_METHOD_AUTO || plan->first == OST_METHOD_DIRECT)
         return;
     if (facts->anisotropy > 1.0)
-        say(plan, "moduli differ by a factor of %.3g at one place, which the metric takes care of", facts->anisotropy);
+        say(plan, "moduli differ by a factor of %.3g at one place: the material metric accounts for it",
+            facts->anisotropy);
     if (facts->poisson > nearly_incompressible)
-        say(plan, "Poisson's ratio of %.6g is close to 1/2: slow, and likely to climb", facts->poisson);
+        say(plan, "Poisson's ratio of %.6g is close to 1/2: slow, and likely to need the next strategy",
+            facts->poisson);
     if (facts->contrast > uneven && facts->contrast > facts->anisotropy)
         say(plan, "moduli of different places differ by a factor of %.3g: each node is scaled by its own stiffness",
             facts->contrast);
     if (facts->quality > 0.0 && facts->quality < sliver)
-        say(plan, "the worst tet has a quality of %.2g (1: regular): may be slow, and may climb", facts->quality);
+        say(plan, "the worst tet has a quality of %.2g (1: regular): may be slow, and may need the next strategy",
+            facts->quality);
 }
 
 static void plan_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
 {
     const double wanted = ost_solver_factor_bytes(facts->unknowns);
     const double allowed = allowed_memory(&plan->options, facts);
-    if (plan->options.recipe != OST_RECIPE_AUTO || plan->first == OST_RECIPE_DIRECT || !(allowed > 0.0))
+    if (plan->options.method != OST_METHOD_AUTO || plan->first == OST_METHOD_DIRECT || !(allowed > 0.0))
         return;
-    say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the last rung is %s reach",
+    say(plan, "a factorisation would take about %.2g GiB of the %.2g GiB %s: the method direct is %s reach",
         wanted / 1073741824.0, allowed / 1073741824.0, plan->options.factor_memory > 0.0 ? "allowed" : "free",
         wanted <= allowed ? "in" : "out of");
 }
@@ -125,7 +128,7 @@ static void make_plan(const OstSolverOptions *options, const OstSolverFacts *fac
 {
     memset(plan, 0, sizeof *plan);
     plan->options = *options;
-    plan_rung(facts, fits, plan);
+    plan_first(facts, fits, plan);
     plan_aggregates(facts, plan);
     plan_trouble(facts, plan);
     plan_memory(facts, plan);
@@ -133,8 +136,8 @@ static void make_plan(const OstSolverOptions *options, const OstSolverFacts *fac
 
 int ost_solver_may_be_multigrid(const OstSolverPlan *plan)
 {
-    const int is_multigrid = plan->first != OST_RECIPE_PLAIN && plan->first != OST_RECIPE_DIRECT;
-    return is_multigrid || (plan->options.recipe == OST_RECIPE_AUTO && plan->options.factor_memory > 0.0);
+    const int is_multigrid = plan->first != OST_METHOD_PLAIN && plan->first != OST_METHOD_DIRECT;
+    return is_multigrid || (plan->options.method == OST_METHOD_AUTO && plan->options.factor_memory > 0.0);
 }
 
 void ost_solver_plan(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan)

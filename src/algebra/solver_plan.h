@@ -4,14 +4,13 @@
 
 #include "orthostat/solver.h"
 
-/* Local. Memory that factoring a body's stiffness takes, as a rule of thumb; MUMPS's analysis knows better. */
+/* Local. Rule of thumb for the bytes that factoring a stiffness takes; MUMPS's analysis is more accurate. */
 double ost_solver_factor_bytes(OstGlobal unknowns);
 
-/* Local. As ost_solver_plan, where the analysis has found that a factorisation does not fit. */
+/* Local. As ost_solver_plan, after the analysis has found that a factorisation does not fit into memory. */
 void ost_solver_plan_without_factors(const OstSolverOptions *options, const OstSolverFacts *facts, OstSolverPlan *plan);
 
-/* Local. May multigrid be what solves? A factorisation that is bounded may turn out not to fit, and then it takes its
- * place. */
+/* Local. Is the solver planned to start with multigrid, or to fall back on it if the factors exceed factor_memory? */
 int ost_solver_may_be_multigrid(const OstSolverPlan *plan);
 
 #endif

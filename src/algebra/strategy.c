@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 struct OstStrategy {
-    OstRecipe recipe;
+    OstMethod method;
     const OstBlockMatrix *matrix;
     OstSmoothedAggregation *plain; /* one of these three */
     OstMetric *metric;
@@ -28,18 +28,18 @@ void ost_strategy_destroy(OstStrategy **strategy)
     OST_FREE(*strategy);
 }
 
-OstRecipe ost_strategy_recipe(const OstStrategy *strategy)
+OstMethod ost_strategy_method(const OstStrategy *strategy)
 {
-    return strategy->recipe;
+    return strategy->method;
 }
 
 static OstStatus build(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, const OstSolverOptions *options,
                        OstStrategy *strategy)
 {
-    switch (options->recipe) {
-    case OST_RECIPE_PLAIN:
+    switch (options->method) {
+    case OST_METHOD_PLAIN:
         return ost_smoothed_aggregation_create(matrix, geometry, options, &strategy->plain);
-    case OST_RECIPE_DIRECT:
+    case OST_METHOD_DIRECT:
         return ost_direct_create(matrix, options->factor_memory, &strategy->direct);
     default:
         return ost_metric_create(matrix->ctx, matrix, geometry, options, &strategy->metric);
@@ -50,15 +50,15 @@ OstStatus ost_strategy_prepare(const OstBlockMatrix *matrix, const OstSolverGeom
                                const OstSolverOptions *options, OstStrategy **strategy)
 {
     OstContext *ctx = matrix->ctx;
-    if (*strategy && (*strategy)->recipe == OST_RECIPE_METRIC && options->recipe == OST_RECIPE_STRONG) {
+    if (*strategy && (*strategy)->method == OST_METHOD_METRIC && options->method == OST_METHOD_STRONG) {
         ost_metric_strengthen((*strategy)->metric, options);
-        (*strategy)->recipe = OST_RECIPE_STRONG;
+        (*strategy)->method = OST_METHOD_STRONG;
         return OST_SUCCESS;
     }
     ost_strategy_destroy(strategy);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, strategy, 1));
     if (status == OST_SUCCESS) {
-        (*strategy)->recipe = options->recipe;
+        (*strategy)->method = options->method;
         (*strategy)->matrix = matrix;
         status = build(matrix, geometry, options, *strategy);
     }

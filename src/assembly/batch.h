@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ASSEMBLY_BATCH_H
 
 #include "element/element.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* As many tets as there are lanes, with what the kernels read of them. Where fewer are left, the last one fills the
  * other lanes, and only the first `count` lanes may be used. */

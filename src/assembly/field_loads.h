@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_ASSEMBLY_FIELD_LOADS_H
 #define ORTHOSTAT_ASSEMBLY_FIELD_LOADS_H
 
-#include "orthostat/exact.h"
-#include "orthostat/mesh.h"
+#include "assembly/exact.h"
+#include "mesh/mesh_data.h"
 
 /* Consistent nodal forces of loads that vary from point to point, by quadrature of degree 5; as in assembly/loads.h
  * they are added to `force` and complete on owned nodes. */

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_ASSEMBLY_LOADS_H
 #define ORTHOSTAT_ASSEMBLY_LOADS_H
 
-#include "orthostat/field.h"
-#include "orthostat/mesh.h"
+#include "material/field_data.h"
+#include "mesh/mesh_data.h"
 
 /* Every function adds to `force`, 3 numbers for each local node, complete on owned nodes (values on ghosts mean
  * nothing). Faces are given by their local nodes, outward: 3 vertices (and 3 mid-edges); a rank passes every selected

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 #define ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 
-#include "orthostat/effect.h"
-#include "orthostat/mesh.h"
+#include "effect/effect.h"
+#include "mesh/mesh_data.h"
 
 /* What each node is free to do: u = P v + g, P the orthogonal projector on its free directions, g the given part of its
  * displacement (in the range of I - P). Held components, given displacements and slides on planes of any orientation

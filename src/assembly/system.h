@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/block_matrix.h"
 #include "assembly/supports.h"
-#include "orthostat/field.h"
-#include "orthostat/mesh.h"
+#include "material/field_data.h"
+#include "mesh/mesh_data.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), by 3×3 blocks. Fully held
  * nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
@@ -55,7 +55,7 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
                              double *magnitude);
 
-/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, recipe R of Li-Barbič
+/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, method R of Li-Barbič
  * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes about the
  * middle of all rows, projected on P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,

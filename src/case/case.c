@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/case.h"
+#include "case/case_data.h"
 
 #include "case/file_bytes.h"
 #include "case/sections.h"
+#include "case/verify.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/mesh_file.h"
-#include "orthostat/verify.h"
+#include "formats/serial/formats.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -219,4 +219,29 @@ void ost_case_destroy(OstCase **c)
     OST_FREE((*c)->mesh_file);
     OST_FREE((*c)->output_file);
     OST_FREE(*c);
+}
+
+const char *ost_case_path(const OstCase *c)
+{
+    return c->path;
+}
+
+const char *ost_case_title(const OstCase *c)
+{
+    return c->title;
+}
+
+const char *ost_case_output_file(const OstCase *c)
+{
+    return c->output_file;
+}
+
+unsigned ost_case_output_fields(const OstCase *c)
+{
+    return c->output_fields;
+}
+
+const OstSolverOptions *ost_case_solver_options(const OstCase *c)
+{
+    return &c->solver;
 }

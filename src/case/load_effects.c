@@ -23,8 +23,8 @@ OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
         return load->share == OST_SHARE_FACES ? OST_EFFECT_SURFACE_LOAD : OST_EFFECT_POINT_FORCE;
     if (load->on.kind == OST_SELECT_VERTICES || load->on.kind == OST_SELECT_NEAREST)
         return OST_EFFECT_POINT_FORCE;
-    return load->on.kind == OST_SELECT_BOUNDARY && c->mesh_kind != OST_MESH_FILE ? OST_EFFECT_SURFACE_LOAD
-                                                                                 : OST_EFFECT_END;
+    return load->on.kind == OST_SELECT_BOUNDARY && c->mesh_kind < OST_MESH_FILE ? OST_EFFECT_SURFACE_LOAD
+                                                                                : OST_EFFECT_END;
 }
 
 int ost_loads_need_mesh(const OstCase *c)

@@ -2,7 +2,7 @@
 #include "case/plan_parts.h"
 
 #include "case/regions.h"
-#include "orthostat/field.h"
+#include "material/field_data.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -44,9 +44,9 @@ static double solver_bytes(const OstPlan *plan, int quadratic, double matrix_byt
 {
     const double vector_bytes = vectors * 24.0 * (double)plan->nodes;
     switch (plan->solver.first) {
-    case OST_RECIPE_DIRECT:
+    case OST_METHOD_DIRECT:
         return vector_bytes + ost_solver_factor_bytes(plan->unknowns);
-    case OST_RECIPE_PLAIN:
+    case OST_METHOD_PLAIN:
         return vector_bytes + plain_copies * matrix_bytes;
     default:
         return vector_bytes + (quadratic ? quadratic_copies : multigrid_copies) * matrix_bytes;

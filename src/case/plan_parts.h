@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_PLAN_PARTS_H
 #define ORTHOSTAT_CASE_PLAN_PARTS_H
 
-#include "orthostat/plan.h"
+#include "case/plan.h"
 
 /* Local. Fills the facts of the materials in use that effects and solver depend on. */
 void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver);

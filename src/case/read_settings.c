@@ -69,21 +69,21 @@ static OstStatus read_count(const OstYaml *yaml, const OstYamlKey *key, int64_t 
     return OST_SUCCESS;
 }
 
-static OstStatus read_recipe(const OstYaml *yaml, const OstYamlKey *key, OstRecipe *recipe)
+static OstStatus read_method(const OstYaml *yaml, const OstYamlKey *key, OstMethod *method)
 {
     static const char *const words[] = {
-        [OST_RECIPE_AUTO] = "auto",     [OST_RECIPE_PLAIN] = "plain",         [OST_RECIPE_METRIC] = "metric",
-        [OST_RECIPE_STRONG] = "strong", [OST_RECIPE_TWO_LEVEL] = "two_level", [OST_RECIPE_DIRECT] = "direct",
+        [OST_METHOD_AUTO] = "auto",     [OST_METHOD_PLAIN] = "plain",         [OST_METHOD_METRIC] = "metric",
+        [OST_METHOD_STRONG] = "strong", [OST_METHOD_TWO_LEVEL] = "two_level", [OST_METHOD_DIRECT] = "direct",
     };
     int which;
     if (!key->value)
         return OST_SUCCESS;
-    OST_TRY(ost_yaml_word(yaml, key->value, "recipe", words, OST_COUNT_OF(words), &which));
-    *recipe = (OstRecipe)which;
+    OST_TRY(ost_yaml_word(yaml, key->value, "method", words, OST_COUNT_OF(words), &which));
+    *method = (OstMethod)which;
     return OST_SUCCESS;
 }
 
-enum { RECIPE, ITERATIONS, PATIENCE, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST, LEVELS, MEMORY, SOLVER_KEYS };
+enum { METHOD, ITERATIONS, PATIENCE, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST, LEVELS, MEMORY, SOLVER_KEYS };
 
 static OstStatus read_ratio(const OstYaml *yaml, const OstYamlKey *key, double *ratio)
 {
@@ -118,7 +118,7 @@ static unsigned fixed_settings(const OstYamlKey *keys)
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstYamlKey keys[SOLVER_KEYS] = {
-        [RECIPE] = {"recipe", OST_OPTIONAL, NULL},
+        [METHOD] = {"method", OST_OPTIONAL, NULL},
         [ITERATIONS] = {"max_iterations", OST_OPTIONAL, NULL},
         [PATIENCE] = {"patience", OST_OPTIONAL, NULL},
         [AGGREGATE] = {"aggregate_nodes", OST_OPTIONAL, NULL},
@@ -132,7 +132,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     };
     OstSolverOptions *solver = &c->solver;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, SOLVER_KEYS));
-    OST_TRY(read_recipe(yaml, &keys[RECIPE], &solver->recipe));
+    OST_TRY(read_method(yaml, &keys[METHOD], &solver->method));
     OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
     OST_TRY(read_count(yaml, &keys[PATIENCE], 1000000, &solver->patience));
     OST_TRY(read_aggregate(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/verify.h"
+#include "case/verify.h"
 
 #include "case/sections.h"
 #include "case/yaml/message.h"

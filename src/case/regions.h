@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_REGIONS_H
 #define ORTHOSTAT_CASE_REGIONS_H
 
-#include "orthostat/case.h"
+#include "case/case_data.h"
 
 /* Materials by region: "all" stands for every region, and later entries override earlier ones. Local. */
 

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_CASE_SECTIONS_H
 #define ORTHOSTAT_CASE_SECTIONS_H
 
+#include "case/case_data.h"
 #include "case/yaml/read.h"
-#include "orthostat/case.h"
 
 /* The sections of a case file, each read from its node into the case. All are local. What they allocate belongs to the
  * case at once, so a failure leaks nothing. */

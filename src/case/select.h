@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_SELECT_H
 #define ORTHOSTAT_CASE_SELECT_H
 
-#include "orthostat/case.h"
+#include "case/case_data.h"
 
 /* Collective. One flag for each local node, equal on owners and ghosts; memory from the context. Raises as
  * ost_select_nodes does, except that a selection may be empty. */

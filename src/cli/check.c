@@ -7,7 +7,7 @@
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <stdio.h>

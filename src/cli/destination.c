@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 #include <errno.h>
 #include <limits.h>

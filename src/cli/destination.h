@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CLI_DESTINATION_H
 #define ORTHOSTAT_CLI_DESTINATION_H
 
-#include "orthostat/case.h"
+#include "case/case_data.h"
 
 enum { OST_LONGEST_PATH = 4096 };
 

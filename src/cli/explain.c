@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/case_data.h"
+#include "case/plan.h"
 #include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
-#include "orthostat/case.h"
-#include "orthostat/plan.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
 #include "problem/scene_mesh.h"
@@ -26,7 +26,7 @@ static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &load, (size_t)c->load_count));
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_scene_mesh(c, &mesh, &from_file, &materials));
+    OST_TRY_DONE(ost_scene_make_mesh(c, &mesh, &from_file, &materials));
     OST_TRY_DONE(ost_load_effects(c, mesh, load));
     const OstPlanMesh facts = {.nodes = mesh->global_nodes,
                                .tets = mesh->global_tets,
@@ -104,10 +104,11 @@ static void print_bytes(const char *label, double bytes)
 
 static void print_solver(const OstSolverPlan *plan)
 {
-    printf("\nSolver\n  %-20s %s%s: %s\n", "recipe", ost_recipe_name(plan->first),
-           plan->options.recipe == OST_RECIPE_AUTO ? " first" : "", plan->reason[0]);
+    printf("\nSolver\n  %-20s %s%s: %s\n", "method", ost_method_name(plan->first),
+           plan->options.method == OST_METHOD_AUTO ? " first" : "", plan->reason[0]);
     for (int r = 1; r < plan->reasons; r++)
         printf("  %-20s %s\n", "", plan->reason[r]);
+    printf("  %-20s %s\n", "engine", ost_method_engine(plan->first));
 }
 
 static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
@@ -138,15 +139,15 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
-    json_t *root =
-        json_pack("{s:s, s:s, s:o, s:{s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f}}",
-                  "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "solver", "recipe",
-                  ost_recipe_name(plan->solver.first), "reasons", ost_solver_reasons_json(&plan->solver),
-                  "relative_residual", c->solver.relative_residual, "vertices", (json_int_t)plan->nodes, "tets",
-                  (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns, "ranks", ranks,
-                  "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
-                  plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects, "in_all",
-                  total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
+    json_t *root = json_pack(
+        "{s:s, s:s, s:o, s:{s:s, s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f}}",
+        "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "solver", "method",
+        ost_method_name(plan->solver.first), "engine", ost_method_engine(plan->solver.first), "reasons",
+        ost_solver_reasons_json(&plan->solver), "relative_residual", c->solver.relative_residual, "vertices",
+        (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns,
+        "ranks", ranks, "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
+        plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects, "in_all", total_bytes(plan),
+        "free", plan->facts.free_memory, "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

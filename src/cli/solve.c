@@ -4,8 +4,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include "orthostat/scene.h"
 #include "output/summary.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <argp.h>
@@ -93,7 +93,7 @@ static OstStatus write_result(const OstScene *scene, const OstResult *result, co
 {
     OstStatus status = OST_SUCCESS;
     if (result->checks.finite)
-        status = ost_result_write(result, scene->c, file);
+        status = ost_result_write(result, scene->c->output_fields, file);
     return status == OST_SUCCESS ? report(scene, result, arguments, result->checks.finite ? file : NULL) : status;
 }
 

@@ -12,9 +12,6 @@ OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory
  * array stays as it was. */
 OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory);
 
-/* Local. NULL is allowed. */
-void ost_free_memory(void *memory);
-
 /* Local. Gives back to the system what ost_keep_freed_memory has kept. */
 void ost_return_freed_memory(void);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/effect.h"
+#include "effect/effect.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_ELEMENT_ELASTICITY_H
 
 #include "element/lanes.h"
-#include "orthostat/field.h"
+#include "material/field_data.h"
 
 /* Points of a tet at which C may differ: quadrature points, or nodes. */
 enum { OST_MAX_POINTS = 10, OST_ELASTICITY_COUNT = 21 };

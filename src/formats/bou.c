@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/formats.h"
 #include "formats/serial/line_reader.h"
 #include "mesh/label_ranges.h"
-#include "orthostat/mesh_file.h"
 
 #include <inttypes.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -91,5 +91,13 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
         ost_chunk_destroy(chunk);
         ost_file_materials_destroy(materials);
     }
+    return status;
+}
+
+OstStatus ost_chunk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    OstFileMaterials *materials = NULL;
+    const OstStatus status = ost_mesh_file_read(ctx, path, chunk, &materials);
+    ost_file_materials_destroy(&materials);
     return status;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/formats.h"
 #include "formats/serial/line_reader.h"
-#include "orthostat/mesh_file.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -178,7 +178,7 @@ static double strain_error(const OstResult *result, const Body *body, const doub
     const double error = result->checks.displacement_error;
     if (!body->moved)
         return error;
-    if (result->solve.recipe == OST_RECIPE_DIRECT || !result->checks.linear) /* the estimate is of the displacement */
+    if (result->solve.method == OST_METHOD_DIRECT || !result->checks.linear) /* the estimate is of the displacement */
         return error * ratio_to_deformation(sums);
     return result->solve.energy_error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);
 }

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_GUARD_GUARD_H
 #define ORTHOSTAT_GUARD_GUARD_H
 
-#include "orthostat/result.h"
 #include "problem/problem.h"
+#include "problem/result_data.h"
 
 /* Checks before and after a solve. What they find wrong is added to one verdict; a check fails itself only if it could
  * not be made. */

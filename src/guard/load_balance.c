@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/small.h"
-#include "orthostat/effect.h"
+#include "effect/effect.h"
 
 /* Loads may be out of balance by this share of their sizes: they are typed, and summed, with rounding. */
 static const double balance = 1e-8;

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_GUARD_LOAD_BALANCE_H
 #define ORTHOSTAT_GUARD_LOAD_BALANCE_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Raises OST_INVALID_INPUT with the numbers unless the loads (3 × owned nodes) balance each other in force
  * and moment, as they must on an unconstrained body. OST_EFFECT_FREE_BODY. */

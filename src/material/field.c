@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/field.h"
+#include "material/field_data.h"
 
 #include "core/error.h"
 #include "core/memory.h"

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COINCIDENT_H
 #define ORTHOSTAT_MESH_COINCIDENT_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Points of all ranks, each rank's numbered from `first` on, contiguously over ranks. */
 typedef struct OstPoints {

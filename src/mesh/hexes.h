@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_HEXES_H
 #define ORTHOSTAT_MESH_HEXES_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 enum { HEX_TETS = 6, HEX_CORNERS = 8 };
 

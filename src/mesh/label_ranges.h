@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_LABEL_RANGES_H
 #define ORTHOSTAT_MESH_LABEL_RANGES_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Local. In the order of their first labels. */
 void ost_ranges_sort(OstGlobal count, OstLabelRange *ranges);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -53,4 +53,97 @@ OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3])
         high[d] = outer[3 + d];
     }
     return OST_SUCCESS;
+}
+
+int ost_mesh_nodes_per_tet(const OstMesh *mesh)
+{
+    return mesh->nodes_per_tet;
+}
+
+OstGlobal ost_mesh_global_nodes(const OstMesh *mesh)
+{
+    return mesh->global_nodes;
+}
+
+OstGlobal ost_mesh_global_tets(const OstMesh *mesh)
+{
+    return mesh->global_tets;
+}
+
+OstLocal ost_mesh_node_count(const OstMesh *mesh)
+{
+    return mesh->node_count;
+}
+
+OstLocal ost_mesh_owned_nodes(const OstMesh *mesh)
+{
+    return mesh->owned_nodes;
+}
+
+OstLocal ost_mesh_tet_count(const OstMesh *mesh)
+{
+    return mesh->tet_count;
+}
+
+OstLocal ost_mesh_owned_tets(const OstMesh *mesh)
+{
+    return mesh->owned_tets;
+}
+
+const double *ost_mesh_coordinates(const OstMesh *mesh)
+{
+    return mesh->coordinates;
+}
+
+const OstGlobal *ost_mesh_node_labels(const OstMesh *mesh)
+{
+    return mesh->node_label;
+}
+
+const OstLocal *ost_mesh_tet_nodes(const OstMesh *mesh)
+{
+    return mesh->tet_nodes;
+}
+
+const OstGlobal *ost_mesh_tet_labels(const OstMesh *mesh)
+{
+    return mesh->tet_label;
+}
+
+const int32_t *ost_mesh_tet_regions(const OstMesh *mesh)
+{
+    return mesh->tet_region;
+}
+
+const double *ost_mesh_tet_axes(const OstMesh *mesh)
+{
+    return mesh->tet_axes;
+}
+
+int ost_mesh_region_count(const OstMesh *mesh)
+{
+    return mesh->regions.count;
+}
+
+int ost_mesh_boundary_count(const OstMesh *mesh)
+{
+    return mesh->boundary_count;
+}
+
+const char *ost_mesh_region_name(const OstMesh *mesh, int region)
+{
+    return mesh->regions.name[region];
+}
+
+const char *ost_mesh_boundary_name(const OstMesh *mesh, int boundary)
+{
+    return mesh->boundaries[boundary].name;
+}
+
+OstLocal ost_mesh_boundary_items(const OstMesh *mesh, int boundary, int *nodes_per_item, const OstGlobal **nodes)
+{
+    const OstBoundary *found = &mesh->boundaries[boundary];
+    *nodes_per_item = found->nodes_per_item;
+    *nodes = found->nodes;
+    return found->count;
 }

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_NAMES_H
 #define ORTHOSTAT_MESH_NAMES_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);

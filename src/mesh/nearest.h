@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_NEAREST_H
 #define ORTHOSTAT_MESH_NEAREST_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* The vertex nearest to a place, on all ranks. */
 typedef struct OstNearest {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "mesh/mesh_data.h"
 #include "mesh/tet.h"
-#include "orthostat/mesh.h"
 
 void ost_surface_destroy(OstSurface **surface)
 {

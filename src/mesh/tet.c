@@ -2,7 +2,7 @@
 #include "mesh/tet.h"
 
 #include "core/small.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 const int ost_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int ost_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};

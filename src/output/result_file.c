@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/vtkhdf/vtkhdf.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 static const char *const field_word[OST_FIELD_COUNT] = {
 #define OST_FIELD_WORD(name, word) word,
@@ -75,11 +75,25 @@ static OstStatus describe_field(const OstResult *result, OstOutputFieldBit field
     }
 }
 
-static int has_field(const OstResult *result, const OstCase *c, OstOutputFieldBit field)
+/* Is there such a field? Some are only recovered on request, and not every body has material axes. */
+static int has_field(const OstResult *result, OstOutputFieldBit field)
 {
-    if ((c->output_fields >> field & 1U) == 0)
-        return 0;
-    return field != OST_FIELD_AXES || result->field->region_axes != NULL || result->field->tet_axes != NULL;
+    switch (field) {
+    case OST_FIELD_REACTION:
+        return result->reaction != NULL;
+    case OST_FIELD_STRESS:
+        return result->stress != NULL;
+    case OST_FIELD_NODE_STRESS:
+        return result->node_stress != NULL;
+    case OST_FIELD_STRAIN:
+        return result->strain != NULL;
+    case OST_FIELD_ENERGY:
+        return result->strain_energy_density != NULL;
+    case OST_FIELD_AXES:
+        return result->field->region_axes != NULL || result->field->tet_axes != NULL;
+    default:
+        return 1;
+    }
 }
 
 const char *ost_result_status(const OstResult *result)
@@ -87,7 +101,7 @@ const char *ost_result_status(const OstResult *result)
     return result->verdict.count == 0 ? "accepted" : result->unfinished ? "unfinished" : "refused";
 }
 
-OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char *path)
+OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path)
 {
     OstContext *ctx = result->ctx;
     OstOutputArray arrays[OST_FIELD_COUNT];
@@ -101,7 +115,7 @@ OstStatus ost_result_write(const OstResult *result, const OstCase *c, const char
     for (int i = 0; i < objections->count; i++)
         reasons[i] = (char *)objections->text[i];
     for (int field = 0; field < OST_FIELD_COUNT && status == OST_SUCCESS; field++)
-        if (has_field(result, c, (OstOutputFieldBit)field))
+        if ((fields >> field & 1U) != 0 && has_field(result, (OstOutputFieldBit)field))
             status = describe_field(result, (OstOutputFieldBit)field, &derived, &arrays[count++]);
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)

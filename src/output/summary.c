@@ -26,14 +26,14 @@ static void print_strategies(const OstSolveReport *report)
         printf("  %-16s %s\n", r == 0 ? "plan" : "", report->plan.reason[r]);
     for (int s = 0; report->steps > 1 && s < report->steps; s++)
         printf("  %-16s %s, %d iteration%s in %.3f s: %s\n", s == 0 ? "strategies" : "",
-               ost_recipe_name(report->step[s].rung), report->step[s].iterations, plural(report->step[s].iterations),
+               ost_method_name(report->step[s].method), report->step[s].iterations, plural(report->step[s].iterations),
                report->step[s].seconds, report->step[s].outcome);
 }
 
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
-    printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_recipe_name(report->recipe),
+    printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     printf("  engine           %s\n", report->engine);
     print_strategies(report);

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_OUTPUT_SUMMARY_H
 #define ORTHOSTAT_OUTPUT_SUMMARY_H
 
-#include "orthostat/result.h"
-#include "orthostat/scene.h"
+#include "problem/result_data.h"
+#include "problem/scene_data.h"
 
 /* The ledger over all ranks: seconds of the slowest rank, sums of bytes. */
 typedef struct OstLedgerSummary {

@@ -32,7 +32,7 @@ static json_t *steps_json(const OstSolveReport *report)
     for (int s = 0; s < report->steps; s++) {
         const OstSolveStep *step = &report->step[s];
         json_array_append_new(steps,
-                              json_pack("{s:s, s:i, s:f, s:f, s:f, s:s}", "rung", ost_recipe_name(step->rung),
+                              json_pack("{s:s, s:i, s:f, s:f, s:f, s:s}", "strategy", ost_method_name(step->method),
                                         "iterations", step->iterations, "factor", step->factor, "relative_residual",
                                         step->relative_residual, "seconds", step->seconds, "outcome", step->outcome));
     }
@@ -50,15 +50,15 @@ static json_t *solver_json(const OstSolveReport *report)
     json_t *levels = json_array();
     for (int l = 0; l < report->levels; l++)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
-    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "recipe",
-                     ost_recipe_name(report->recipe), "engine", report->engine, "iterations", report->iterations,
+    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "method",
+                     ost_method_name(report->method), "engine", report->engine, "iterations", report->iterations,
                      "relative_residual", number_json(report->relative_residual), "attainable_residual",
                      estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
                      "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
                      levels, "operator_complexity", report->operator_complexity, "condition_estimate",
                      number_json(report->condition_estimate), "error_estimate", number_json(report->error_estimate),
                      "rounding_error", number_json(report->rounding_error), "rounding_spread", report->rounding_spread,
-                     "plan", ost_solver_reasons_json(&report->plan), "steps", steps_json(report));
+                     "plan", ost_solver_reasons_json(&report->plan), "strategies", steps_json(report));
 }
 
 static json_t *checks_json(const OstChecks *checks)

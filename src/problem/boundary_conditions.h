@@ -3,7 +3,7 @@
 #define ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
 
 #include "assembly/supports.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* Collective. The supports that the case's constraints make. Raises OST_INVALID_INPUT with the case's line where
  * constraints contradict each other, or if nothing is constrained. */

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_PROBLEM_FREE_BODY_H
 
 #include "assembly/supports.h"
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* An unconstrained body under loads that balance each other. Six components at three vertices are constrained, which is
  * just enough, so their reactions are zero; then rigid motion is taken out of the answer. OST_EFFECT_FREE_BODY. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_GRADIENT_AXES_H
 #define ORTHOSTAT_PROBLEM_GRADIENT_AXES_H
 
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* Collective. Axes from two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, and has no
  * flux elsewhere. e1 is the gradient of the first; e2 is the part of the second's orthogonal to e1. Both are solved at

@@ -4,7 +4,7 @@
 
 #include "assembly/system.h"
 #include "orthostat/problem.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 struct OstProblem {
     OstContext *ctx;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 #include "case/regions.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
 #include "problem/gradient_axes.h"
@@ -195,7 +195,7 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     made->ctx = ctx;
     made->c = c;
     OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
-                       : ost_scene_mesh(c, &made->mesh, &from_file, &materials));
+                       : ost_scene_make_mesh(c, &made->mesh, &from_file, &materials));
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
     OST_TRY_DONE(make_plan(made, from_file));
@@ -231,4 +231,14 @@ void ost_scene_destroy(OstScene **scene)
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);
     OST_FREE(*scene);
+}
+
+const OstMesh *ost_scene_mesh(const OstScene *scene)
+{
+    return scene->mesh;
+}
+
+const OstMaterialField *ost_scene_field(const OstScene *scene)
+{
+    return scene->field;
 }

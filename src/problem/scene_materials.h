@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_PROBLEM_SCENE_MATERIALS_H
 #define ORTHOSTAT_PROBLEM_SCENE_MATERIALS_H
 
-#include "orthostat/case.h"
-#include "orthostat/mesh_file.h"
+#include "case/case_data.h"
+#include "formats/serial/formats.h"
 
 /* One material and one specification of axes for every region of the mesh. The specifications borrow their arrays from
  * the case. */

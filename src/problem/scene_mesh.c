@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/scene_mesh.h"
 
+#include "case/plan.h"
 #include "core/error.h"
 #include "core/parallel/free_memory.h"
 #include "mesh/distribution/merge.h"
-#include "orthostat/plan.h"
 #include "orthostat/refine.h"
 #include "problem/scene_partition.h"
 
@@ -129,7 +129,8 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     return status;
 }
 
-OstStatus ost_scene_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file, OstSceneMaterials *materials)
+OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file,
+                              OstSceneMaterials *materials)
 {
     OstMeshChunk *chunk = NULL;
     *mesh = NULL;

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/field.h"
+#include "material/field_data.h"
 
 /* Are these axes known before the mesh is partitioned? */
 static int known_early(const OstMeshChunk *chunk, const OstAxesSpec *axes)

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_NODE_STRESS_H
 #define ORTHOSTAT_SOLVE_NODE_STRESS_H
 
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* Collective. Makes result->node_stress, ghosts included (see recovery.h). */
 OstStatus ost_result_recover_node_stress(OstResult *result);

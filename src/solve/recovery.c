@@ -2,9 +2,9 @@
 #include "solve/recovery.h"
 
 #include "assembly/means.h"
+#include "case/case_data.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "orthostat/case.h"
 #include "solve/node_stress.h"
 
 static int asks(unsigned fields, OstOutputFieldBit field)

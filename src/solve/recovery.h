@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_RECOVERY_H
 #define ORTHOSTAT_SOLVE_RECOVERY_H
 
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* Collective. Computes what the bits of `fields` (OstOutputFieldBit) ask for: strain, stress and strain energy density
  * of the owned tets (means over each), and stress at the nodes. Stress at a node is that of the tets around it at this

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 #include <string.h>
 
@@ -73,4 +73,71 @@ OstStatus ost_result_find_largest(OstResult *result)
     result->largest_displacement = largest.value;
     memcpy(result->largest_at, at, sizeof at);
     return OST_SUCCESS;
+}
+
+const double *ost_result_displacement(const OstResult *result)
+{
+    return result->displacement;
+}
+
+const double *ost_result_reaction(const OstResult *result)
+{
+    return result->reaction;
+}
+
+const double *ost_result_load(const OstResult *result)
+{
+    return result->force;
+}
+
+const double *ost_result_stress(const OstResult *result)
+{
+    return result->stress;
+}
+
+const double *ost_result_strain(const OstResult *result)
+{
+    return result->strain;
+}
+
+const double *ost_result_strain_energy_density(const OstResult *result)
+{
+    return result->strain_energy_density;
+}
+
+const double *ost_result_node_stress(const OstResult *result)
+{
+    return result->node_stress;
+}
+
+const OstSolveReport *ost_result_solve_report(const OstResult *result)
+{
+    return &result->solve;
+}
+
+const OstChecks *ost_result_checks(const OstResult *result)
+{
+    return &result->checks;
+}
+
+OstGlobal ost_result_unknowns(const OstResult *result)
+{
+    return result->unknowns;
+}
+
+double ost_result_largest_displacement(const OstResult *result, double at[3])
+{
+    if (at)
+        memcpy(at, result->largest_at, sizeof result->largest_at);
+    return result->largest_displacement;
+}
+
+int ost_result_objection_count(const OstResult *result)
+{
+    return result->verdict.count;
+}
+
+const char *ost_result_objection(const OstResult *result, int number)
+{
+    return result->verdict.text[number];
 }

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_SOLVE_RESULT_H
 
 #include "orthostat/problem.h"
-#include "orthostat/result.h"
+#include "problem/result_data.h"
 
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);

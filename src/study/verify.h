@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_STUDY_VERIFY_H
 #define ORTHOSTAT_STUDY_VERIFY_H
 
-#include "orthostat/scene.h"
-#include "orthostat/verify.h"
+#include "case/verify.h"
+#include "problem/scene_data.h"
 #include "study/formula/formula.h"
 
 /* Solves a case on the meshes of its verify section and compares what is measured with its formula. */

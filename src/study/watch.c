@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/watch.h"
 
+#include "case/verify.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "mesh/nearest.h"
-#include "orthostat/verify.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_WATCH_H
 #define ORTHOSTAT_STUDY_WATCH_H
 
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* A quantity of interest (the case's `watch`): its value in one answer, and the scale of its kind (the largest
  * displacement, the whole reaction). A value that is nearly zero has no relative error of its own; the scale serves. */

@@ -182,8 +182,7 @@ static void factors_go_on_where_rounding_hides_the_energy(void **state)
     assert_true(report.rounding_spread >= 1.0 / sqrt(2.0 * 64.0) && report.rounding_spread <= 0.25);
 }
 
-/* A drift was watched, not thrown at random: where it is the larger, no allowance is made for what throws might miss.
- */
+/* A drift is measured, not sampled: where it is the larger error, the spread is 0. */
 static void a_drift_beyond_rounding_is_the_error_and_has_no_spread(void **state)
 {
     (void)state;

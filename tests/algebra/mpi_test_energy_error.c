@@ -15,7 +15,7 @@ static const ElasticBlock column = {
 static const ElasticBlock pile = {
     .bricks = {1, 1, 2}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3, .contrast = 1e12, .held = 1};
 
-enum { CLOSE_LOOK = 3 }; /* applications where less than six digits are left, and not by rounding */
+enum { CLOSE_LOOK = 3 }; /* applications where the error is above 1e-6 and rounding is not its cause */
 
 /* A problem with a known solution, and its factors: M = A. */
 typedef struct Known {
@@ -291,15 +291,15 @@ static void what_rounding_does_is_told_by_factors_that_miss_a_soft_mode(void **s
         destroy_missed(&missed);
     }
     assert_true(error[0].rounding > 0.01 && error[0].rounding < 0.05);
-    assert_true(error[0].spread > 0.2); /* some eight throws told that */
+    assert_true(error[0].spread > 0.2); /* from about eight samples */
     for (int k = 1; k < 3; k++) {
         assert_close(error[k].rounding, error[0].rounding, 1e-3 * error[0].rounding);
         assert_close(error[k].whole, error[0].whole, 1e-3 * error[0].whole);
     }
 }
 
-/* The same pair, and nothing else that moves, loses nearly a digit: whether it does, eight throws cannot tell. */
-static void near_the_least_digit_more_samples_are_made(void **state)
+/* The pair alone has an error close to 0.1: eight samples cannot decide on which side. */
+static void near_the_largest_accepted_error_more_samples_are_taken(void **state)
 {
     (void)state;
     Missed missed = make_missed(1.0);
@@ -312,7 +312,7 @@ static void near_the_least_digit_more_samples_are_made(void **state)
 }
 
 /* The factors are of a matrix that is definite, as rounding leaves them of one that is not: nothing is known then. */
-static void a_matrix_that_rounding_left_indefinite_holds_no_digit(void **state)
+static void a_matrix_that_rounding_makes_indefinite_has_no_bound(void **state)
 {
     (void)state;
     Missed missed = make_missed(1.0);
@@ -394,7 +394,7 @@ static void a_displacement_where_little_of_the_energy_is_is_told_and_said_to_be_
     error = estimate_diagonal(uneven, 1e-3, 0.25); /* a step may be a quarter of the way */
     assert_close(error.whole, 4e-3, 4e-5);
     assert_true(error.hidden);
-    error = estimate_diagonal(uneven, 1e-8, 1.0); /* six digits are enough */
+    error = estimate_diagonal(uneven, 1e-8, 1.0); /* small enough */
     assert_close(error.whole, 1e-8, 1e-10);
     assert_false(error.hidden);
     error = estimate_diagonal(even, 1e-3, 1.0);
@@ -425,8 +425,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(with_factors_it_is_the_error_of_the_displacement_itself),
     cmocka_unit_test(rounding_is_what_other_roundings_of_the_matrix_do),
     cmocka_unit_test(what_rounding_does_is_told_by_factors_that_miss_a_soft_mode),
-    cmocka_unit_test(near_the_least_digit_more_samples_are_made),
-    cmocka_unit_test(a_matrix_that_rounding_left_indefinite_holds_no_digit),
+    cmocka_unit_test(near_the_largest_accepted_error_more_samples_are_taken),
+    cmocka_unit_test(a_matrix_that_rounding_makes_indefinite_has_no_bound),
     cmocka_unit_test(a_negative_energy_that_no_rounding_reaches_is_found_by_the_residual),
     cmocka_unit_test(a_displacement_where_little_of_the_energy_is_is_told_and_said_to_be_hidden),
     cmocka_unit_test(what_cannot_be_measured_is_no_number),

@@ -12,7 +12,7 @@
 typedef struct Coarse {
     ElasticProblem problem;
     OstScaling *scaling;
-    OstDoubleMatrix *exact;
+    OstDoubleMatrix *matrix;
     OstLevelMatrix *level;
     OstTentative *tentative;
     OstProlongator *prolongator;
@@ -49,17 +49,17 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     assert_success(elastic_create(ctx, block, &c->problem));
     if (!given)
         assert_success(ost_scaling_create(c->problem.matrix, &c->scaling));
-    assert_success(ost_double_matrix_borrow(c->problem.matrix, c->scaling, &c->exact));
-    assert_success(ost_level_matrix_create(c->exact, &c->level));
+    assert_success(ost_double_matrix_borrow(c->problem.matrix, c->scaling, &c->matrix));
+    assert_success(ost_level_matrix_create(c->matrix, &c->level));
     assert_success(ost_metric_graph_create(c->problem.matrix, &c->problem.geometry, &graph));
     if (!given)
         assert_success(ost_aggregates_create(graph, &shape, &aggregates));
     assert_success(
-        ost_tentative_create(c->exact, given ? given : aggregates, c->problem.geometry.modes, &c->tentative));
+        ost_tentative_create(c->matrix, given ? given : aggregates, c->problem.geometry.modes, &c->tentative));
     assert_success(ost_smoother_create(c->level, graph, &options, &smoother));
-    assert_success(ost_tentative_smooth(c->tentative, c->exact, smoother, &c->prolongator));
+    assert_success(ost_tentative_smooth(c->tentative, c->matrix, smoother, &c->prolongator));
     assert_success(
-        ost_galerkin_create(c->exact, smoother->blocks, c->prolongator, c->tentative->first_coarse, &c->coarse));
+        ost_galerkin_create(c->matrix, smoother->blocks, c->prolongator, c->tentative->first_coarse, &c->coarse));
     check_columns(smoother->blocks, c->prolongator);
     ost_smoother_destroy(&smoother);
     ost_aggregates_destroy(&aggregates);
@@ -72,7 +72,7 @@ static void destroy_coarse(Coarse *c)
     ost_prolongator_destroy(&c->prolongator);
     ost_tentative_destroy(&c->tentative);
     ost_level_matrix_destroy(&c->level);
-    ost_double_matrix_destroy(&c->exact);
+    ost_double_matrix_destroy(&c->matrix);
     ost_scaling_destroy(&c->scaling);
     elastic_destroy(&c->problem);
 }
@@ -127,7 +127,7 @@ static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
     double *px = vector(), *apx = vector(), *expected = vector();
     assert_int_equal(c.coarse->rows, c.tentative->coarse_nodes);
     assert_success(ost_prolongator_add(c.prolongator, x, px));
-    apply(c.exact, px, apx);
+    apply(c.matrix, px, apx);
     assert_success(ost_prolongator_restrict(c.prolongator, apx, expected));
     apply(c.coarse, x, cx);
     const double size = sqrt(global_dot(n, expected, expected));

@@ -9,11 +9,11 @@ static const ElasticBlock block = {
 
 static OstLevelMatrix *level_matrix(const OstBlockMatrix *matrix)
 {
-    OstDoubleMatrix *exact = NULL;
+    OstDoubleMatrix *source = NULL;
     OstLevelMatrix *level = NULL;
-    assert_success(ost_double_matrix_borrow(matrix, NULL, &exact));
-    assert_success(ost_level_matrix_create(exact, &level));
-    ost_double_matrix_destroy(&exact);
+    assert_success(ost_double_matrix_borrow(matrix, NULL, &source));
+    assert_success(ost_level_matrix_create(source, &level));
+    ost_double_matrix_destroy(&source);
     return level;
 }
 

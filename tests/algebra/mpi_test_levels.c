@@ -11,7 +11,7 @@ typedef struct Setup {
     OstScaling *scaling;
     double *modes; /* in scaled unknowns */
     OstSolverOptions options;
-    OstMetricLevels levels;
+    OstLevels levels;
 } Setup;
 
 static void set_up(const ElasticBlock *block, Setup *s)
@@ -30,14 +30,14 @@ static void set_up(const ElasticBlock *block, Setup *s)
     assert_success(ost_metric_graph_create(s->problem.matrix, &s->problem.geometry, &graph));
     assert_success(OST_NEW(ctx, &taken, 6 * n));
     memcpy(taken, s->modes, 6 * n * sizeof *taken);
-    assert_success(ost_metric_levels_create(s->problem.matrix, s->scaling, &taken, &graph, &s->options, &s->levels));
+    assert_success(ost_levels_create(s->problem.matrix, s->scaling, &taken, &graph, &s->options, &s->levels));
     assert_null(taken);
     assert_true(s->levels.count >= 3);
 }
 
 static void tear_down(Setup *s)
 {
-    ost_metric_levels_clear(&s->levels);
+    ost_levels_clear(&s->levels);
     ost_scaling_destroy(&s->scaling);
     OST_FREE(s->modes);
     elastic_destroy(&s->problem);

@@ -49,7 +49,7 @@ static void the_residual_asked_for_is_enough_where_nothing_else_is(void **state)
     assert_true(goal.drift == 0.0);
 }
 
-static void u_is_refined_until_it_stands(void **state)
+static void u_is_refined_until_it_has_settled(void **state)
 {
     (void)state;
     OstGoal goal;
@@ -78,8 +78,8 @@ static OstStatus miss_the_soft_mode(void *data, const double *r, double *u, OstG
     return OST_SUCCESS;
 }
 
-/* Repeated by themselves their steps grow by 1.75 each; and the residual shows u's rounding alone. */
-static void factors_that_miss_a_soft_mode_are_led_to_it(void **state)
+/* Refinement by such factors alone diverges by 1.75 a step, and the residual shows only the rounding of u. */
+static void cg_finds_the_soft_mode_that_factors_miss(void **state)
 {
     (void)state;
     ElasticProblem problem = bar_with_pair();
@@ -109,8 +109,8 @@ static OstStatus miss_many_modes(void *data, const double *r, double *u, OstGoal
     return OST_SUCCESS;
 }
 
-/* Conjugate gradients take nine steps for them; three in a row that gain nothing are among those. */
-static void factors_that_miss_many_modes_are_led_to_all(void **state)
+/* CG takes nine steps, of which three in a row gain nothing. */
+static void cg_finds_the_many_modes_that_factors_miss(void **state)
 {
     (void)state;
     ElasticProblem problem = bar_with_pair();
@@ -132,10 +132,10 @@ static void factors_that_miss_many_modes_are_led_to_all(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_residual_asked_for_is_enough_where_nothing_else_is),
-    cmocka_unit_test(u_is_refined_until_it_stands),
+    cmocka_unit_test(u_is_refined_until_it_has_settled),
     cmocka_unit_test(what_does_not_settle_is_told_by_its_drift),
-    cmocka_unit_test(factors_that_miss_a_soft_mode_are_led_to_it),
-    cmocka_unit_test(factors_that_miss_many_modes_are_led_to_all),
+    cmocka_unit_test(cg_finds_the_soft_mode_that_factors_miss),
+    cmocka_unit_test(cg_finds_the_many_modes_that_factors_miss),
 };
 
 OST_TEST_MAIN(tests)

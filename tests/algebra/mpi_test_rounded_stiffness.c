@@ -90,7 +90,7 @@ static void throw_at_unknown(Rounded *rounded, OstGlobal node, int component, in
     ost_rounded_stiffness_force(matrix, rounded->u, which, rounded->force);
 }
 
-/* The signs that each row's entries in a node's columns are thrown with; 0 where K has none. */
+/* The random signs of each row's entries in a node's columns; 0 where K has no entry. */
 typedef signed char Signs[3][3];
 
 static void find_signs(Rounded *rounded, OstGlobal node, int which, Signs *signs)
@@ -127,7 +127,7 @@ static void add_signs(Signs block, int is_diagonal, double sum[2], double count[
         }
 }
 
-/* The sums stay within five standard errors of none, those of so many throws, both signs of a pair being one. */
+/* The sums stay within five standard errors of 0; the two signs of a pair are one. */
 static void every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down(void **state)
 {
     (void)state;
@@ -215,29 +215,29 @@ static void signs_do_not_depend_on_ranks(void **state)
 static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
 {
     (void)state;
-    OstSamples throws = {0, 0.0};
-    ost_samples_add(&throws, 3.0);
-    ost_samples_add(&throws, 4.0);
-    assert_close(ost_samples_size(&throws), sqrt(12.5), 1e-15);
-    assert_close(ost_samples_spread(&throws), 0.5, 1e-15); /* of chi squared with 2 degrees of freedom: 1/sqrt(2·2) */
+    OstSamples samples = {0, 0.0};
+    ost_samples_add(&samples, 3.0);
+    ost_samples_add(&samples, 4.0);
+    assert_close(ost_samples_size(&samples), sqrt(12.5), 1e-15);
+    assert_close(ost_samples_spread(&samples), 0.5, 1e-15); /* of chi squared with 2 degrees of freedom: 1/sqrt(2·2) */
 }
 
-/* Eight throws tell a size but for 75 % (three times 1/sqrt(2·8)), 32 but for 37.5 %. */
+/* Three standard errors are 75 % of the size with 8 samples (3/sqrt(2·8)), 37.5 % with 32. */
 static void more_samples_are_called_for_near_the_limit(void **state)
 {
     (void)state;
-    OstSamples throws = {7, 7 * 100.0};
-    assert_true(ost_samples_undecided(&throws, 1.0, 8, 32)); /* too few, whatever they say */
+    OstSamples samples = {7, 7 * 100.0};
+    assert_true(ost_samples_undecided(&samples, 1.0, 8, 32)); /* too few, whatever they say */
     const double decided[] = {0.24, 1.76, (double)NAN, (double)INFINITY}, undecided[] = {0.26, 1.0, 1.74};
     for (int i = 0; i < 4; i++) {
-        throws = (OstSamples){8, 8 * decided[i] * decided[i]};
-        assert_false(ost_samples_undecided(&throws, 1.0, 8, 32));
+        samples = (OstSamples){8, 8 * decided[i] * decided[i]};
+        assert_false(ost_samples_undecided(&samples, 1.0, 8, 32));
     }
     for (int i = 0; i < 3; i++) {
-        throws = (OstSamples){8, 8 * undecided[i] * undecided[i]};
-        assert_true(ost_samples_undecided(&throws, 1.0, 8, 32));
-        throws = (OstSamples){32, 32 * undecided[i] * undecided[i]};
-        assert_false(ost_samples_undecided(&throws, 1.0, 8, 32)); /* as many as there may be */
+        samples = (OstSamples){8, 8 * undecided[i] * undecided[i]};
+        assert_true(ost_samples_undecided(&samples, 1.0, 8, 32));
+        samples = (OstSamples){32, 32 * undecided[i] * undecided[i]};
+        assert_false(ost_samples_undecided(&samples, 1.0, 8, 32)); /* as many as there may be */
     }
 }
 

@@ -11,14 +11,14 @@ static const ElasticBlock slab = {
     .bricks = {4, 3, 2}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3, .held = 1};
 static const ElasticBlock afloat = {.bricks = {3, 3, 4}, .size = {1.0, 1.0, 1.0}, .modulus = 1.0, .poisson = 0.3};
 
-static const OstRecipe recipes[] = {OST_RECIPE_PLAIN,     OST_RECIPE_METRIC, OST_RECIPE_STRONG,
-                                    OST_RECIPE_TWO_LEVEL, OST_RECIPE_DIRECT, OST_RECIPE_AUTO};
-enum { RECIPES = 6 };
+static const OstMethod methods[] = {OST_METHOD_PLAIN,     OST_METHOD_METRIC, OST_METHOD_STRONG,
+                                    OST_METHOD_TWO_LEVEL, OST_METHOD_DIRECT, OST_METHOD_AUTO};
+enum { METHODS = 6 };
 
-static OstSolverOptions options_for(OstRecipe recipe, double relative_residual)
+static OstSolverOptions options_for(OstMethod method, double relative_residual)
 {
     OstSolverOptions options = ost_solver_default_options();
-    options.recipe = recipe;
+    options.method = method;
     options.relative_residual = relative_residual;
     options.coarsest_unknowns = 150; /* several levels, small as the problems are */
     return options;
@@ -35,7 +35,7 @@ static double *solve(OstContext *context, const ElasticProblem *problem, const O
     if (status == OST_SUCCESS)
         status = ost_solver_solve(solver, problem->force, u, report);
     if (status != OST_SUCCESS)
-        fail_msg("%s: %s", ost_recipe_name(options->recipe), ost_error_text(context));
+        fail_msg("%s: %s", ost_method_name(options->method), ost_error_text(context));
     ost_solver_destroy(&solver);
     assert_null(solver);
     return u;
@@ -68,13 +68,13 @@ static double true_residual(const ElasticProblem *problem, const double *u)
     return residual;
 }
 
-static void every_recipe_reaches_the_requested_true_residual(void **state)
+static void every_method_reaches_the_requested_true_residual(void **state)
 {
     (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-10);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-10);
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
         const double residual = true_residual(&problem, u);
@@ -118,7 +118,7 @@ static void solve_dense(OstContext *alone, const ElasticProblem *problem, double
 }
 
 /* Also with more ranks than layers of nodes, so that a rank has no rows. */
-static void every_recipe_agrees_with_dense_cholesky_on_any_number_of_ranks(void **state)
+static void every_method_agrees_with_dense_cholesky_on_any_number_of_ranks(void **state)
 {
     (void)state;
     OstContext *alone = NULL;
@@ -133,8 +133,8 @@ static void every_recipe_agrees_with_dense_cholesky_on_any_number_of_ranks(void 
     double largest = 0.0;
     for (OstLocal i = 0; i < 3 * whole.matrix->rows; i++)
         largest = fmax(largest, fabs(expected[i]));
-    for (int k = 0; k < RECIPES; k++) {
-        OstSolverOptions options = options_for(recipes[k], 1e-12);
+    for (int k = 0; k < METHODS; k++) {
+        OstSolverOptions options = options_for(methods[k], 1e-12);
         options.coarsest_unknowns = 30;
         OstSolveReport report;
         double *u = solve(ctx, &shared, &options, &report);
@@ -158,7 +158,7 @@ static void six_modes_take_fewer_iterations_than_three_translations(void **state
     (void)state;
     ElasticProblem problem;
     OstSolveReport report[2];
-    const OstSolverOptions options = options_for(OST_RECIPE_PLAIN, 1e-10);
+    const OstSolverOptions options = options_for(OST_METHOD_PLAIN, 1e-10);
     assert_success(elastic_create(ctx, &column, &problem));
     for (int k = 0; k < 2; k++) {
         double *u = solve(ctx, &problem, &options, &report[k]);
@@ -177,21 +177,21 @@ static void the_report_tells_what_was_done(void **state)
     assert_success(elastic_create(ctx, &column, &problem));
     const OstGlobal unknowns = 3 * problem.matrix->global_rows;
     const double hierarchy = ost_ledger_entry(ctx, OST_LEDGER_HIERARCHY).seconds;
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-8);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-8);
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
-        const OstRecipe used = recipes[k] == OST_RECIPE_AUTO ? OST_RECIPE_DIRECT : recipes[k];
-        assert_int_equal(report.recipe, used);
+        const OstMethod used = methods[k] == OST_METHOD_AUTO ? OST_METHOD_DIRECT : methods[k];
+        assert_int_equal(report.method, used);
         assert_int_equal(report.steps, 1);
-        assert_int_equal(report.step[0].rung, used);
+        assert_int_equal(report.step[0].method, used);
         assert_int_equal(report.step[0].iterations, report.iterations);
         assert_true(report.step[0].factor > 0.0 && report.step[0].factor < 0.9);
-        assert_string_equal(report.step[0].outcome, "reached the residual asked for");
-        assert_true(used != OST_RECIPE_TWO_LEVEL || report.levels == 2);
-        assert_true(report.iterations >= 1 && report.iterations <= (used == OST_RECIPE_DIRECT ? 2 : 60));
+        assert_string_equal(report.step[0].outcome, "reached the requested residual");
+        assert_true(used != OST_METHOD_TWO_LEVEL || report.levels == 2);
+        assert_true(report.iterations >= 1 && report.iterations <= (used == OST_METHOD_DIRECT ? 2 : 60));
         assert_int_equal(report.level_unknowns[0], unknowns);
-        assert_true(used == OST_RECIPE_DIRECT ? report.levels == 1 : report.levels >= 2);
+        assert_true(used == OST_METHOD_DIRECT ? report.levels == 1 : report.levels >= 2);
         for (int level = 1; level < report.levels; level++)
             assert_true(report.level_unknowns[level] > 0 &&
                         report.level_unknowns[level] < report.level_unknowns[level - 1]);
@@ -212,7 +212,7 @@ static void a_coarsest_level_of_thousands_is_solved_directly(void **state)
     ElasticProblem problem;
     large.bricks[2] = 40;
     assert_success(elastic_create(ctx, &large, &problem));
-    OstSolverOptions options = options_for(OST_RECIPE_PLAIN, 1e-8);
+    OstSolverOptions options = options_for(OST_METHOD_PLAIN, 1e-8);
     options.coarsest_unknowns = 100000; /* one level, beyond what KLU is used for */
     OstSolveReport report;
     double *u = solve(ctx, &problem, &options, &report);
@@ -241,8 +241,8 @@ static void one_row_is_enough(void **state)
 {
     (void)state;
     ElasticProblem problem = single_row();
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-12);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-12);
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
         for (OstLocal i = 0; i < problem.matrix->rows; i++) {
@@ -266,8 +266,8 @@ static void nothing_to_solve_is_solved(void **state)
     nothing.bricks[2] = 0;
     assert_success(elastic_create(ctx, &nothing, &problem));
     assert_int_equal(problem.matrix->global_rows, 0);
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-8);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-8);
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
         assert_int_equal(report.iterations, 0);
@@ -283,8 +283,8 @@ static void no_force_gives_no_displacement(void **state)
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     memset(problem.force, 0, 3 * (size_t)problem.matrix->rows * sizeof *problem.force);
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-8);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-8);
         OstSolveReport report;
         double *u = solve(ctx, &problem, &options, &report);
         assert_int_equal(report.iterations, 0);
@@ -303,8 +303,8 @@ static void one_solver_solves_for_many_forces(void **state)
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *u = NULL;
     assert_success(OST_NEW(ctx, &u, n));
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-9);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-9);
         OstSolver *solver = NULL;
         OstSolveReport report;
         assert_success(ost_solver_create(ctx, problem.matrix, &problem.geometry, &options, &solver));
@@ -321,9 +321,9 @@ static void one_solver_solves_for_many_forces(void **state)
 }
 
 /* Raises status OST_NOT_CONVERGED, be it in create or in solve. */
-static void assert_not_converged(const ElasticProblem *problem, OstRecipe recipe, const char *words)
+static void assert_not_converged(const ElasticProblem *problem, OstMethod method, const char *words)
 {
-    const OstSolverOptions options = options_for(recipe, 1e-8);
+    const OstSolverOptions options = options_for(method, 1e-8);
     OstSolver *solver = NULL;
     OstSolveReport report;
     double *u = NULL;
@@ -344,8 +344,8 @@ static void a_body_afloat_is_refused(void **state)
     (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
-    assert_not_converged(&problem, OST_RECIPE_DIRECT, "can move freely");
-    assert_not_converged(&problem, OST_RECIPE_PLAIN, "not positive definite");
+    assert_not_converged(&problem, OST_METHOD_DIRECT, "can move freely");
+    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite");
     elastic_destroy(&problem);
 }
 
@@ -359,8 +359,8 @@ static void an_indefinite_matrix_is_refused(void **state)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
             for (size_t c = 0; c < 9 && k != matrix->diagonal[i]; c++)
                 matrix->value[9 * (size_t)k + c] *= 3.0;
-    assert_not_converged(&problem, OST_RECIPE_PLAIN, "not positive definite");
-    assert_not_converged(&problem, OST_RECIPE_DIRECT, "not positive definite");
+    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite");
+    assert_not_converged(&problem, OST_METHOD_DIRECT, "not positive definite");
     elastic_destroy(&problem);
 }
 
@@ -370,8 +370,8 @@ static void a_row_without_stiffness_is_refused_by_its_number(void **state)
     ElasticProblem problem = single_row();
     for (OstLocal i = 0; i < problem.matrix->rows; i++)
         problem.matrix->value[8] = 0.0;
-    for (int k = 0; k < RECIPES; k++) {
-        const OstSolverOptions options = options_for(recipes[k], 1e-8);
+    for (int k = 0; k < METHODS; k++) {
+        const OstSolverOptions options = options_for(methods[k], 1e-8);
         OstSolver *solver = NULL;
         assert_failure(ost_solver_create(ctx, problem.matrix, &problem.geometry, &options, &solver), OST_INVALID_INPUT,
                        "row 0 ");
@@ -406,11 +406,11 @@ static void options_out_of_range_are_refused_by_name(void **state)
 static void new_values_are_solved_with(void **state)
 {
     (void)state;
-    for (size_t k = 0; k < sizeof recipes / sizeof *recipes; k++)
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
         for (OstSolverUpdate how = OST_UPDATE_REBUILD; how <= OST_UPDATE_KEEP; how++) {
             ElasticProblem problem;
             assert_success(elastic_create(ctx, &column, &problem));
-            const OstSolverOptions options = options_for(recipes[k], 1e-9);
+            const OstSolverOptions options = options_for(methods[k], 1e-9);
             const size_t n = 3 * (size_t)problem.matrix->rows;
             OstSolver *solver = NULL;
             OstSolveReport report;
@@ -434,8 +434,8 @@ static void new_values_are_solved_with(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_recipe_reaches_the_requested_true_residual),
-    cmocka_unit_test(every_recipe_agrees_with_dense_cholesky_on_any_number_of_ranks),
+    cmocka_unit_test(every_method_reaches_the_requested_true_residual),
+    cmocka_unit_test(every_method_agrees_with_dense_cholesky_on_any_number_of_ranks),
     cmocka_unit_test(six_modes_take_fewer_iterations_than_three_translations),
     cmocka_unit_test(the_report_tells_what_was_done),
     cmocka_unit_test(a_coarsest_level_of_thousands_is_solved_directly),

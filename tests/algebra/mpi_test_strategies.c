@@ -7,10 +7,10 @@
 static const ElasticBlock hard = {
     .bricks = {7, 7, 16}, .size = {1.0, 1.0, 1.0}, .modulus = 1e3, .poisson = 0.3, .contrast = 100.0, .held = 1};
 
-static OstSolverOptions options_of(OstRecipe recipe)
+static OstSolverOptions options_of(OstMethod method)
 {
     OstSolverOptions options = ost_solver_default_options();
-    options.recipe = recipe;
+    options.method = method;
     options.coarsest_unknowns = 100;
     return options;
 }
@@ -37,7 +37,7 @@ static void destroy_misled(ElasticProblem *problem, double **metric)
 
 static OstSolverOptions slow_options(void)
 {
-    OstSolverOptions options = options_of(OST_RECIPE_AUTO);
+    OstSolverOptions options = options_of(OST_METHOD_AUTO);
     options.aggregate_nodes = 100.0;
     options.smoother_degree = 1;
     options.smoother_block_nodes = 1.0;
@@ -77,10 +77,10 @@ static double difference(const ElasticProblem *problem, const double *a, const d
     return largest[0] / largest[1];
 }
 
-/* The direct recipe's answer. */
+/* The direct method's answer. */
 static double *reference(const ElasticProblem *problem)
 {
-    OstSolverOptions options = options_of(OST_RECIPE_DIRECT);
+    OstSolverOptions options = options_of(OST_METHOD_DIRECT);
     OstSolveReport report;
     double *u = new_vector(problem);
     options.relative_residual = 1e-12;
@@ -88,7 +88,7 @@ static double *reference(const ElasticProblem *problem)
     return u;
 }
 
-static void a_slow_rung_is_left_for_a_stronger_one(void **state)
+static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -99,16 +99,16 @@ static void a_slow_rung_is_left_for_a_stronger_one(void **state)
     const OstSolverOptions options = slow_options();
     assert_success(create_and_solve(&problem, &options, u, &report));
     assert_in_range(report.steps, 2, 4);
-    assert_int_equal(report.step[0].rung, OST_RECIPE_METRIC);
+    assert_int_equal(report.step[0].method, OST_METHOD_METRIC);
     assert_non_null(strstr(report.step[0].outcome, "too slow"));
     int iterations = 0;
     for (int s = 0; s < report.steps; s++) {
-        assert_int_equal(report.step[s].rung, OST_RECIPE_METRIC + s);
+        assert_int_equal(report.step[s].method, OST_METHOD_METRIC + s);
         assert_true(s == 0 || report.step[s].relative_residual < 10.0 * report.step[s - 1].relative_residual);
         iterations += report.step[s].iterations;
     }
     assert_int_equal(report.iterations, iterations);
-    assert_int_equal(report.recipe, report.step[report.steps - 1].rung);
+    assert_int_equal(report.method, report.step[report.steps - 1].method);
     assert_true(report.relative_residual <= 1e-10);
     assert_true(difference(&problem, u, expected) < 1e-6);
     OST_FREE(u);
@@ -116,7 +116,7 @@ static void a_slow_rung_is_left_for_a_stronger_one(void **state)
     destroy_misled(&problem, &metric);
 }
 
-/* With the smoother given, no rung but a factorisation helps; both are reached. */
+/* With the smoother given, only a factorisation helps; the solver gets there. */
 static void given_parameters_are_left_alone_up_to_the_top(void **state)
 {
     (void)state;
@@ -131,8 +131,8 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     options.patience = 1;
     assert_success(create_and_solve(&problem, &options, u, &report));
     assert_int_equal(report.steps, 4);
-    assert_int_equal(report.recipe, OST_RECIPE_DIRECT);
-    assert_int_equal(report.step[3].rung, OST_RECIPE_DIRECT);
+    assert_int_equal(report.method, OST_METHOD_DIRECT);
+    assert_int_equal(report.step[3].method, OST_METHOD_DIRECT);
     assert_in_range(report.step[3].iterations, 1, 3);
     assert_true(difference(&problem, u, expected) < 1e-6);
     OST_FREE(u);
@@ -140,27 +140,27 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     destroy_misled(&problem, &metric);
 }
 
-static void a_pinned_rung_does_not_climb(void **state)
+static void a_chosen_method_is_never_changed(void **state)
 {
     (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
     double *u = new_vector(&problem);
-    for (OstRecipe recipe = OST_RECIPE_PLAIN; recipe <= OST_RECIPE_TWO_LEVEL; recipe++) {
-        OstSolverOptions options = options_of(recipe);
+    for (OstMethod method = OST_METHOD_PLAIN; method <= OST_METHOD_TWO_LEVEL; method++) {
+        OstSolverOptions options = options_of(method);
         options.max_iterations = 3;
         options.patience = 1;
         assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED,
                        "after 3 iterations, the most allowed");
         assert_int_equal(report.steps, 1);
-        assert_int_equal(report.recipe, recipe);
+        assert_int_equal(report.method, method);
     }
     OST_FREE(u);
     elastic_destroy(&problem);
 }
 
-static void what_was_reached_is_kept_for_the_next_rung(void **state)
+static void the_next_strategy_starts_from_what_was_reached(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -172,13 +172,13 @@ static void what_was_reached_is_kept_for_the_next_rung(void **state)
     const OstSolverOptions options = slow_options();
     assert_success(ost_solver_create(ctx, problem.matrix, &problem.geometry, &options, &solver));
     assert_success(ost_solver_solve(solver, problem.force, u, &report));
-    const OstRecipe reached = report.recipe;
-    assert_true(reached > OST_RECIPE_METRIC);
-    /* and so is the rung for the next right-hand side */
+    const OstMethod reached = report.method;
+    assert_true(reached > OST_METHOD_METRIC);
+    /* the next right-hand side starts with the strategy reached */
     for (OstLocal i = 0; i < 3 * problem.matrix->rows; i++)
         problem.force[i] = 1.0 + i % 5;
     assert_success(ost_solver_solve(solver, problem.force, u, &report));
-    assert_int_equal(report.step[0].rung, reached);
+    assert_int_equal(report.step[0].method, reached);
     assert_true(report.relative_residual <= 1e-10);
     ost_solver_destroy(&solver);
     OST_FREE(u);
@@ -192,15 +192,15 @@ static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void *
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
     double *u = new_vector(&problem);
-    OstSolverOptions options = options_of(OST_RECIPE_DIRECT);
+    OstSolverOptions options = options_of(OST_METHOD_DIRECT);
     options.factor_memory = 1e6;
     assert_failure(create_and_solve(&problem, &options, u, &report), OST_OUT_OF_MEMORY, "factor_memory allows 1 MiB");
     OST_FREE(u);
     elastic_destroy(&problem);
 }
 
-/* Where the top is out of reach the fastest rung below goes on without a look at the clock. */
-static void without_memory_for_the_top_the_fastest_rung_goes_on(void **state)
+/* If memory does not allow factors, the fastest strategy goes on, without patience. */
+static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state)
 {
     (void)state;
     ElasticProblem problem;
@@ -215,10 +215,10 @@ static void without_memory_for_the_top_the_fastest_rung_goes_on(void **state)
     options.factor_memory = 1e6;
     assert_success(create_and_solve(&problem, &options, u, &report));
     assert_int_equal(report.steps, 5);
-    assert_int_equal(report.step[3].rung, OST_RECIPE_DIRECT);
+    assert_int_equal(report.step[3].method, OST_METHOD_DIRECT);
     assert_int_equal(report.step[3].iterations, 0);
     assert_non_null(strstr(report.step[3].outcome, "MiB"));
-    assert_true(report.recipe < OST_RECIPE_DIRECT);
+    assert_true(report.method < OST_METHOD_DIRECT);
     assert_true(difference(&problem, u, expected) < 1e-6);
     options.max_iterations = 130; /* and if that is not enough, all that was tried is told */
     assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED, "Tried: metric (4");
@@ -228,14 +228,14 @@ static void without_memory_for_the_top_the_fastest_rung_goes_on(void **state)
     destroy_misled(&problem, &metric);
 }
 
-static void rounding_is_told_apart_and_nothing_is_climbed_for(void **state)
+static void no_other_strategy_is_tried_against_rounding(void **state)
 {
     (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
     double *u = new_vector(&problem);
-    OstSolverOptions options = options_of(OST_RECIPE_AUTO);
+    OstSolverOptions options = options_of(OST_METHOD_AUTO);
     options.relative_residual = 1e-17;
     assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED, "double precision allows");
     assert_int_equal(report.steps, 1);
@@ -264,8 +264,8 @@ static void an_indefinite_matrix_never_passes(void **state)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
             for (size_t c = 0; c < 9 && k != matrix->diagonal[i]; c++)
                 matrix->value[9 * (size_t)k + c] *= 1.3;
-    for (OstRecipe recipe = OST_RECIPE_AUTO; recipe <= OST_RECIPE_DIRECT; recipe++) {
-        const OstSolverOptions options = options_of(recipe);
+    for (OstMethod method = OST_METHOD_AUTO; method <= OST_METHOD_DIRECT; method++) {
+        const OstSolverOptions options = options_of(method);
         assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED, "definite");
     }
     OST_FREE(u);
@@ -281,8 +281,8 @@ static void units_make_no_difference(void **state)
     const OstBlockMatrix *matrix = problem.matrix;
     const size_t values = 9 * (size_t)matrix->row_start[matrix->rows], n = 3 * (size_t)matrix->rows;
     double *u[2] = {new_vector(&problem), new_vector(&problem)};
-    for (OstRecipe recipe = OST_RECIPE_METRIC; recipe <= OST_RECIPE_DIRECT; recipe += 3) {
-        const OstSolverOptions options = options_of(recipe);
+    for (OstMethod method = OST_METHOD_METRIC; method <= OST_METHOD_DIRECT; method += 3) {
+        const OstSolverOptions options = options_of(method);
         OstSolveReport report[2];
         assert_success(create_and_solve(&problem, &options, u[0], &report[0]));
         for (int sign = -1; sign <= 1; sign += 2) {
@@ -318,7 +318,7 @@ static void a_large_coarse_level_is_factored(void **state)
     large.bricks[2] = 32;
     assert_success(elastic_create(ctx, &large, &problem));
     double *u = new_vector(&problem), *expected = reference(&problem);
-    OstSolverOptions options = options_of(OST_RECIPE_TWO_LEVEL);
+    OstSolverOptions options = options_of(OST_METHOD_TWO_LEVEL);
     options.aggregate_nodes = 3.0;
     options.given = OST_GIVEN_AGGREGATE;
     options.relative_residual = 1e-10;
@@ -332,13 +332,13 @@ static void a_large_coarse_level_is_factored(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_slow_rung_is_left_for_a_stronger_one),
+    cmocka_unit_test(a_slow_strategy_is_left_for_a_stronger_one),
     cmocka_unit_test(given_parameters_are_left_alone_up_to_the_top),
-    cmocka_unit_test(a_pinned_rung_does_not_climb),
-    cmocka_unit_test(what_was_reached_is_kept_for_the_next_rung),
+    cmocka_unit_test(a_chosen_method_is_never_changed),
+    cmocka_unit_test(the_next_strategy_starts_from_what_was_reached),
     cmocka_unit_test(a_factorisation_that_does_not_fit_is_refused_before_it_begins),
-    cmocka_unit_test(without_memory_for_the_top_the_fastest_rung_goes_on),
-    cmocka_unit_test(rounding_is_told_apart_and_nothing_is_climbed_for),
+    cmocka_unit_test(without_memory_for_factors_the_fastest_strategy_goes_on),
+    cmocka_unit_test(no_other_strategy_is_tried_against_rounding),
     cmocka_unit_test(an_indefinite_matrix_never_passes),
     cmocka_unit_test(units_make_no_difference),
     cmocka_unit_test(a_large_coarse_level_is_factored),

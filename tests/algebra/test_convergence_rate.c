@@ -6,54 +6,54 @@
 static void a_steady_fall_is_projected(void **state)
 {
     (void)state;
-    OstConvergence pace;
-    ost_convergence_start(&pace, 1.0);
+    OstConvergence convergence;
+    ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 50; k++)
-        ost_convergence_add(&pace, pow(0.9, k), pow(0.9, 2 * k));
-    assert_close(ost_convergence_factor(&pace), 0.9, 1e-12);
-    assert_close(ost_convergence_whole_factor(&pace), 0.9, 1e-12);
-    assert_close(ost_convergence_remaining(&pace, pow(0.9, 80)), 30.0, 1e-9);
-    assert_close(ost_convergence_remaining(&pace, pow(0.9, 40)), 0.0, 0.0); /* reached */
+        ost_convergence_add(&convergence, pow(0.9, k), pow(0.9, 2 * k));
+    assert_close(ost_convergence_factor(&convergence), 0.9, 1e-12);
+    assert_close(ost_convergence_whole_factor(&convergence), 0.9, 1e-12);
+    assert_close(ost_convergence_remaining(&convergence, pow(0.9, 80)), 30.0, 1e-9);
+    assert_close(ost_convergence_remaining(&convergence, pow(0.9, 40)), 0.0, 0.0); /* reached */
 }
 
 static void two_windows_are_waited_for(void **state)
 {
     (void)state;
-    OstConvergence pace;
-    ost_convergence_start(&pace, 1.0);
+    OstConvergence convergence;
+    ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k < 2 * OST_CONVERGENCE_WINDOW; k++) {
-        ost_convergence_add(&pace, 1.0, 1.0);
-        assert_close(ost_convergence_remaining(&pace, 1e-8), 0.0, 0.0);
+        ost_convergence_add(&convergence, 1.0, 1.0);
+        assert_close(ost_convergence_remaining(&convergence, 1e-8), 0.0, 0.0);
     }
-    ost_convergence_add(&pace, 1.0, 1.0);
-    assert_true(isinf(ost_convergence_remaining(&pace, 1e-8)));
+    ost_convergence_add(&convergence, 1.0, 1.0);
+    assert_true(isinf(ost_convergence_remaining(&convergence, 1e-8)));
 }
 
 /* Thin bodies: the residual rises by orders before it falls, while the energy falls all along. */
 static void a_rising_residual_is_forgiven_while_the_energy_falls(void **state)
 {
     (void)state;
-    OstConvergence pace;
-    ost_convergence_start(&pace, 1.0);
+    OstConvergence convergence;
+    ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 60; k++)
-        ost_convergence_add(&pace, 1.0 + 10.0 * k, pow(0.8, 2 * k));
-    assert_close(ost_convergence_factor(&pace), 0.8, 1e-12);
-    assert_close(ost_convergence_remaining(&pace, pow(0.8, 30)), 30.0, 1e-9);
+        ost_convergence_add(&convergence, 1.0 + 10.0 * k, pow(0.8, 2 * k));
+    assert_close(ost_convergence_factor(&convergence), 0.8, 1e-12);
+    assert_close(ost_convergence_remaining(&convergence, pow(0.8, 30)), 30.0, 1e-9);
 }
 
 /* Only the last window counts: what was fast once may stand still now. */
 static void a_standstill_after_a_fast_start_is_seen(void **state)
 {
     (void)state;
-    OstConvergence pace;
-    ost_convergence_start(&pace, 1.0);
+    OstConvergence convergence;
+    ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 60; k++) {
         const double norm = k <= 35 ? pow(0.5, k) : pow(0.5, 35) * (1.0 + k % 3);
-        ost_convergence_add(&pace, norm, norm * norm);
+        ost_convergence_add(&convergence, norm, norm * norm);
     }
-    assert_close(ost_convergence_factor(&pace), 1.0, 0.0);
-    assert_true(isinf(ost_convergence_remaining(&pace, 1e-12)));
-    assert_true(ost_convergence_whole_factor(&pace) < 0.7);
+    assert_close(ost_convergence_factor(&convergence), 1.0, 0.0);
+    assert_true(isinf(ost_convergence_remaining(&convergence, 1e-12)));
+    assert_true(ost_convergence_whole_factor(&convergence) < 0.7);
 }
 
 static const struct CMUnitTest tests[] = {

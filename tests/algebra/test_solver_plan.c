@@ -3,11 +3,11 @@
 
 #include "orthostat/solver.h"
 
-static OstSolverPlan plan_of(OstRecipe recipe, const OstSolverFacts *facts)
+static OstSolverPlan plan_of(OstMethod method, const OstSolverFacts *facts)
 {
     OstSolverOptions options = ost_solver_default_options();
     OstSolverPlan plan;
-    options.recipe = recipe;
+    options.method = method;
     ost_solver_plan(&options, facts, &plan);
     return plan;
 }
@@ -24,8 +24,8 @@ static void few_unknowns_are_factored(void **state)
 {
     (void)state;
     const OstSolverFacts facts = {.unknowns = 2999, .anisotropy = 1e6};
-    const OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &facts);
-    assert_int_equal(plan.first, OST_RECIPE_DIRECT);
+    const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &facts);
+    assert_int_equal(plan.first, OST_METHOD_DIRECT);
     assert_int_equal(plan.reasons, 1);
     assert_true(has_reason(&plan, "2999 unknowns are fewer"));
 }
@@ -38,18 +38,18 @@ static void a_factorisation_that_does_not_fit_is_not_begun_with(void **state)
     OstSolverPlan plan;
     options.factor_memory = 1048576.0;
     ost_solver_plan(&options, &facts, &plan);
-    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    assert_int_equal(plan.first, OST_METHOD_METRIC);
     assert_true(has_reason(&plan, "882 unknowns are few, but a factorisation would not fit into the 1 MiB allowed"));
     assert_true(plan.options.coarsest_unknowns < 441); /* or multigrid is a factorisation by another name */
     options.given = OST_GIVEN_COARSEST;
     ost_solver_plan(&options, &facts, &plan);
     assert_int_equal(plan.options.coarsest_unknowns, options.coarsest_unknowns);
-    options.recipe = OST_RECIPE_DIRECT;
+    options.method = OST_METHOD_DIRECT;
     ost_solver_plan(&options, &facts, &plan);
-    assert_int_equal(plan.first, OST_RECIPE_DIRECT);
+    assert_int_equal(plan.first, OST_METHOD_DIRECT);
     const OstSolverFacts no_room = {.unknowns = 2999, .free_memory = 1e6};
-    plan = plan_of(OST_RECIPE_AUTO, &no_room);
-    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    plan = plan_of(OST_METHOD_AUTO, &no_room);
+    assert_int_equal(plan.first, OST_METHOD_METRIC);
     assert_true(has_reason(&plan, "MiB free"));
 }
 
@@ -57,12 +57,12 @@ static void the_metric_comes_first_whatever_the_ratio(void **state)
 {
     (void)state;
     OstSolverFacts facts = {.unknowns = 74340, .anisotropy = 1e3};
-    OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &facts);
-    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &facts);
+    assert_int_equal(plan.first, OST_METHOD_METRIC);
     assert_true(has_reason(&plan, "factor of 1e+03 at one place"));
     facts.anisotropy = 1e6;
-    plan = plan_of(OST_RECIPE_AUTO, &facts);
-    assert_int_equal(plan.first, OST_RECIPE_METRIC);
+    plan = plan_of(OST_METHOD_AUTO, &facts);
+    assert_int_equal(plan.first, OST_METHOD_METRIC);
     assert_true(has_reason(&plan, "factor of 1e+06"));
 }
 
@@ -70,9 +70,9 @@ static void what_the_case_asks_for_is_planned(void **state)
 {
     (void)state;
     const OstSolverFacts facts = {.unknowns = 100, .anisotropy = 1e6};
-    for (OstRecipe recipe = OST_RECIPE_PLAIN; recipe <= OST_RECIPE_DIRECT; recipe++) {
-        const OstSolverPlan plan = plan_of(recipe, &facts);
-        assert_int_equal(plan.first, recipe);
+    for (OstMethod method = OST_METHOD_PLAIN; method <= OST_METHOD_DIRECT; method++) {
+        const OstSolverPlan plan = plan_of(method, &facts);
+        assert_int_equal(plan.first, method);
         assert_string_equal(plan.reason[0], "the case asks for it");
     }
 }
@@ -81,18 +81,18 @@ static void trouble_is_foretold(void **state)
 {
     (void)state;
     const OstSolverFacts easy = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.3, .contrast = 1.0, .quality = 0.5};
-    assert_int_equal(plan_of(OST_RECIPE_AUTO, &easy).reasons, 1);
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &easy).reasons, 1);
     const OstSolverFacts hard = {
         .unknowns = 10000, .anisotropy = 1.0, .poisson = 0.499, .contrast = 1e9, .quality = 1e-3, .free_memory = 1e9};
-    const OstSolverPlan plan = plan_of(OST_RECIPE_AUTO, &hard);
+    const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &hard);
     assert_true(has_reason(&plan, "ratio of 0.499 is close"));
     assert_true(has_reason(&plan, "different places differ by a factor of 1e+09"));
     assert_true(has_reason(&plan, "quality of 0.001"));
-    assert_true(has_reason(&plan, "the last rung is in reach"));
+    assert_true(has_reason(&plan, "the method direct is in reach"));
     OstSolverFacts large = easy;
     large.unknowns = 1000000;
     large.free_memory = 1e9;
-    const OstSolverPlan short_of_memory = plan_of(OST_RECIPE_AUTO, &large);
+    const OstSolverPlan short_of_memory = plan_of(OST_METHOD_AUTO, &large);
     assert_true(has_reason(&short_of_memory, "out of reach"));
 }
 
@@ -101,16 +101,16 @@ static void near_incompressibility_asks_for_small_aggregates_unless_the_case_say
     (void)state;
     const OstSolverOptions usual = ost_solver_default_options();
     OstSolverFacts facts = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.45};
-    OstSolverPlan plan = plan_of(OST_RECIPE_METRIC, &facts);
+    OstSolverPlan plan = plan_of(OST_METHOD_METRIC, &facts);
     assert_close(plan.options.aggregate_nodes, usual.aggregate_nodes, 0.0);
     facts.poisson = 0.49;
-    plan = plan_of(OST_RECIPE_METRIC, &facts);
+    plan = plan_of(OST_METHOD_METRIC, &facts);
     const double small = plan.options.aggregate_nodes;
     assert_true(small < 0.5 * usual.aggregate_nodes);
     assert_int_equal(plan.options.smoother_degree, usual.smoother_degree);
     assert_true(has_reason(&plan, "0.49 is above 0.45"));
     facts.poisson = 0.499;
-    plan = plan_of(OST_RECIPE_METRIC, &facts);
+    plan = plan_of(OST_METHOD_METRIC, &facts);
     assert_true(plan.options.aggregate_nodes < small);
     assert_true(plan.options.smoother_degree > usual.smoother_degree);
     OstSolverOptions pinned = usual;

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_TESTS_ASSEMBLY_BODY_H
 #define ORTHOSTAT_TESTS_ASSEMBLY_BODY_H
 
+#include "problem/scene_data.h"
 #include "support.h"
 
 #include "assembly/loads.h"

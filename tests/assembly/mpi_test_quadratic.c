@@ -70,7 +70,7 @@ static void solve_directly(const OstBlockMatrix *matrix, const double *rhs, doub
     OstSolverOptions options = ost_solver_default_options();
     OstSolver *solver = NULL;
     OstSolveReport report;
-    options.recipe = OST_RECIPE_DIRECT;
+    options.method = OST_METHOD_DIRECT;
     options.relative_residual = 1e-12;
     assert_success(ost_solver_create(ctx, matrix, &nothing, &options, &solver));
     assert_success(ost_solver_solve(solver, rhs, v, &report));

@@ -102,7 +102,7 @@ static void solve(const SystemFile *system, double **u)
     OstSolver *solver = NULL;
     OstSolverOptions options = ost_solver_default_options();
     OstSolveReport report;
-    options.recipe = OST_RECIPE_DIRECT;
+    options.method = OST_METHOD_DIRECT;
     options.relative_residual = 1e-12;
     assert_success(ost_bench_matrix(ctx, &file, &matrix));
     assert_success(OST_NEW(ctx, u, 3 * (size_t)matrix->columns));

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_TESTS_CASE_TEXT_H
 #define ORTHOSTAT_TESTS_CASE_TEXT_H
 
-#include "orthostat/case.h"
+#include "case/case_data.h"
 #include "support.h"
 
 #include <unistd.h>

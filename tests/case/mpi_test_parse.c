@@ -2,7 +2,7 @@
 #include "case_text.h"
 
 #include "core/memory.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 static const char bar[] =
     "mesh: from_program\n"
@@ -64,8 +64,17 @@ static void a_program_brings_mesh_and_axes(void **state)
         memcpy(chunk->tet_axes + 9 * (size_t)t, turned, sizeof turned);
     assert_success(ost_scene_create_on(c, &chunk, &scene));
     assert_success(ost_scene_solve(scene, &result));
-    for (OstLocal n = 0; n < scene->mesh->node_count; n++)
-        assert_close(result->displacement[3 * n], scene->mesh->coordinates[3 * n], 1e-7);
+    const OstMesh *mesh = ost_scene_mesh(scene);
+    for (OstLocal n = 0; n < ost_mesh_node_count(mesh); n++)
+        assert_close(ost_result_displacement(result)[3 * n], ost_mesh_coordinates(mesh)[3 * n], 1e-7);
+    for (OstLocal t = 0; t < ost_mesh_owned_tets(mesh); t++)
+        assert_close(ost_result_stress(result)[6 * t], 1.0, 1e-6);
+    assert_close(ost_result_largest_displacement(result, NULL), 1.0, 0.5);
+    assert_int_equal(ost_result_objection_count(result), 0);
+    assert_string_equal(ost_result_status(result), "accepted");
+    assert_true(ost_result_solve_report(result)->relative_residual <= 1e-8);
+    assert_true(ost_result_checks(result)->finite);
+    assert_int_equal(ost_result_unknowns(result), 3 * 26); /* the node at the origin is constrained */
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);

@@ -207,8 +207,8 @@ static void bad_settings_are_refused(void **state)
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
     assert_refused(CUBE STEEL "accuracy: {out_of_reach: acept}\n",
                    "3:26: unknown answer 'acept'; did you mean 'accept'? Known: refuse, accept");
-    assert_refused(CUBE STEEL "solver: {recipe: twolevel}\n",
-                   "3:18: unknown recipe 'twolevel'; did you mean 'two_level'? Known: auto, plain, metric, strong, "
+    assert_refused(CUBE STEEL "solver: {method: twolevel}\n",
+                   "3:18: unknown method 'twolevel'; did you mean 'two_level'? Known: auto, plain, metric, strong, "
                    "two_level, direct");
     assert_refused(CUBE STEEL "solver: {patience: 0}\n",
                    "3:20: solver.patience: found '0', expected a whole number from 1 to 1000000");
@@ -235,8 +235,8 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 9e-16}\n",
                    "3:31: accuracy.relative_residual: found '9e-16', expected a number from 1e-15 to 0.5");
     assert_refused(
-        CUBE STEEL "solver: {recipe: metrics}\n",
-        "3:18: unknown recipe 'metrics'; did you mean 'metric'? Known: auto, plain, metric, strong, two_level, direct");
+        CUBE STEEL "solver: {method: metrics}\n",
+        "3:18: unknown method 'metrics'; did you mean 'metric'? Known: auto, plain, metric, strong, two_level, direct");
     assert_refused(CUBE STEEL "solver: {max_iterations: 0}\n",
                    "3:26: solver.max_iterations: found '0', expected a whole number from 1 to 1000000");
     assert_refused(CUBE STEEL "output: {file: a.vtk}\n",

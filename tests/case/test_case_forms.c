@@ -36,7 +36,7 @@ static void the_smallest_case_has_the_defaults(void **state)
     assert_int_equal(c->constraint_count + c->load_count, 0);
     assert_null(c->output_file);
     assert_int_equal(c->output_fields, (1U << OST_FIELD_COUNT) - 1);
-    assert_int_equal(c->solver.recipe, OST_RECIPE_AUTO);
+    assert_int_equal(c->solver.method, OST_METHOD_AUTO);
     assert_close(c->solver.relative_residual, defaults.relative_residual, 0.0);
     assert_int_equal(c->materials[0].axes.kind, OST_AXES_NONE);
     assert_int_equal(c->materials[0].line, 2);
@@ -338,13 +338,13 @@ static void settings_are_read(void **state)
     snprintf(whole, sizeof whole,
              "%s%selement: {order: 1}\naccuracy: {relative_residual: 1e-10, "
              "out_of_reach: accept}\n"
-             "solver: {recipe: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
+             "solver: {method: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
              "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"
              "         patience: 88, most_levels: 3, factor_memory: 2}\n"
              "output: {file: a.vtkhdf, fields: [displacement, rank]}\n",
              cube, steel);
     assert_success(read_text(whole, &c));
-    assert_int_equal(c->solver.recipe, OST_RECIPE_PLAIN);
+    assert_int_equal(c->solver.method, OST_METHOD_PLAIN);
     assert_close(c->solver.relative_residual, 1e-10, 0.0);
     assert_int_equal(c->solver.max_iterations, 77);
     assert_close(c->solver.aggregate_nodes, 41, 0.0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case_text.h"
 
-#include "orthostat/plan.h"
+#include "case/plan.h"
 
 #define CUBE "mesh: {block: {size: [1, 1, 1], divisions: [10, 10, 10]}}\n"
 #define STEEL "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3, density: 1}]\n"
@@ -170,18 +170,18 @@ static void only_the_mesh_tells_faces_from_vertices(void **state)
     }
 }
 
-static void the_recipe_follows_the_size_unless_the_case_says(void **state)
+static void the_method_follows_the_size_unless_the_case_says(void **state)
 {
     (void)state;
     make_plan("mesh: {block: {size: [1, 1, 1], divisions: [8, 8, 8]}}\n" STEEL);
     assert_int_equal(plan.unknowns, 3 * 9 * 9 * 9);
-    assert_int_equal(plan.solver.first, OST_RECIPE_DIRECT);
+    assert_int_equal(plan.solver.first, OST_METHOD_DIRECT);
     make_plan(CUBE STEEL);
-    assert_int_equal(plan.solver.first, OST_RECIPE_METRIC);
+    assert_int_equal(plan.solver.first, OST_METHOD_METRIC);
     assert_close(plan.facts.anisotropy, 1.0, 0.0);
     assert_close(plan.facts.contrast, 1.0, 0.0);
-    make_plan(CUBE STEEL "solver: {recipe: plain}\n");
-    assert_int_equal(plan.solver.first, OST_RECIPE_PLAIN);
+    make_plan(CUBE STEEL "solver: {method: plain}\n");
+    assert_int_equal(plan.solver.first, OST_METHOD_PLAIN);
     assert_string_equal(plan.solver.reason[0], "the case asks for it");
 }
 
@@ -268,7 +268,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(supports_are_explained),
     cmocka_unit_test(loads_are_explained),
     cmocka_unit_test(only_the_mesh_tells_faces_from_vertices),
-    cmocka_unit_test(the_recipe_follows_the_size_unless_the_case_says),
+    cmocka_unit_test(the_method_follows_the_size_unless_the_case_says),
     cmocka_unit_test(nearly_incompressible_begins_above_its_limit),
     cmocka_unit_test(the_papers_tube_is_foreseen),
     cmocka_unit_test(more_ranks_hold_more_halo),

@@ -16,7 +16,7 @@ constraints:
   - {on: {boundary: bottom}, displacement: [0, 0, 0]}
 loads:
   - {on: {boundary: top}, total_force: [1, 2, 3]}
-solver: {recipe: metric, coarsest_unknowns: 100}
+solver: {method: metric, coarsest_unknowns: 100}
 CASE
 valgrind --quiet --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=none \
     --log-file="$folder/log" \

@@ -15,7 +15,7 @@ constraints:
 loads:
   - {on: {nearest: [1.5, 2, 0]}, point_force: [1000, 0, 0]}
 accuracy: {relative_residual: 1e-8}
-solver: {recipe: RECIPE}
+solver: {method: METHOD}
 """
 
 HARD = [("1e6, 1e6, 1e6", "0.3", 1), ("1e6, 1e9, 1e6", "0.3", 2), ("1e6, 1e12, 1e6", "0.3", 1), ("1e12, 1e6, 1e6", "0.3", 1),
@@ -63,20 +63,20 @@ constraints:
 loads:
   - {on: {boundary: xmax}, total_force: [1, 0, 0]}
   - {on: {nearest: [100, 0.5, 0.5]}, point_force: [0, 0, 1e-4]}
-solver: {recipe: RECIPE}
+solver: {method: METHOD}
 """
 
 
 def bent_by_little():
     """A bar's pull has the energy and the residual, and a small force that bends it the displacement."""
     found = []
-    for recipe, ranks in (("direct", 1), ("metric", 1), ("metric", 2), ("strong", 1)):
-        finished, report, path = solve(PULLED.replace("RECIPE", recipe), ranks=ranks)
-        check(finished.exit_code == 0, f"{recipe} on {ranks} ranks: {finished.errors}")
-        found.append((recipe, report["checks"]["displacement_error"], read_points(path)))
-    for recipe, error, points in found[1:]:
+    for method, ranks in (("direct", 1), ("metric", 1), ("metric", 2), ("strong", 1)):
+        finished, report, path = solve(PULLED.replace("METHOD", method), ranks=ranks)
+        check(finished.exit_code == 0, f"{method} on {ranks} ranks: {finished.errors}")
+        found.append((method, report["checks"]["displacement_error"], read_points(path)))
+    for method, error, points in found[1:]:
         difference = relative_difference(points, found[0][2])
-        check(difference <= error + found[0][1], f"{recipe}: differs by {difference:.1e}, {error:.1e} was stated")
+        check(difference <= error + found[0][1], f"{method}: differs by {difference:.1e}, {error:.1e} was stated")
 
 
 def main():
@@ -85,9 +85,9 @@ def main():
     for moduli, poisson, order in HARD:
         text = CASE.replace("MODULI", f"[{moduli}]").replace("POISSON", poisson).replace("ORDER", str(order))
         found = []
-        for recipe, ranks in (("direct", 1), ("direct", 2), ("metric", 1), ("metric", 2)):
-            where = f"{recipe} on {ranks} ranks, moduli {moduli}, nu {poisson}, order {order}"
-            finished, report, path = solve(text.replace("RECIPE", recipe), ranks=ranks)
+        for method, ranks in (("direct", 1), ("direct", 2), ("metric", 1), ("metric", 2)):
+            where = f"{method} on {ranks} ranks, moduli {moduli}, nu {poisson}, order {order}"
+            finished, report, path = solve(text.replace("METHOD", method), ranks=ranks)
             check(finished.exit_code == 0, f"{where}: {finished.errors}")
             checks = report["checks"]
             check(checks["rigid_motion"] < 1e-13, f"{where}: rigid motion meets a force of {checks['rigid_motion']:.1e}")

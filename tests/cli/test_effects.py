@@ -55,7 +55,7 @@ CASES = {
                              FIXED + force("{box: {min: [1, 0, 0], max: [1, 1, 1]}}"), ["several materials", "point force"]),
     "near incompressibility": ("element: {order: 2}\nmesh: {file: two.veg}\n" + FIXED + force("{vertices: [5]}"),
                                ["mean dilatation"]),
-    "multigrid": ("element: {order: 2}\n" + BLOCK + STEEL + HELD + force("{boundary: xmax}") + "solver: {recipe: metric}\n",
+    "multigrid": ("element: {order: 2}\n" + BLOCK + STEEL + HELD + force("{boundary: xmax}") + "solver: {method: metric}\n",
                   ["linear space", "surface load"]),
 }
 

@@ -1,8 +1,9 @@
 """Who does the work of the default solve: the calls of AztecOO's AZ_iterate and ML's ML_Cycle_MG are counted from outside
 (count_trilinos.c, preloaded) and held against what the program says of itself."""
+import json
 import os
 
-from program import SOURCE, check, new_folder, solve
+from program import SOURCE, check, new_folder, run, solve
 
 COUNTER = os.environ["ORTHOSTAT_COUNTER"]
 
@@ -34,7 +35,7 @@ def aztecoo_iterates_and_ml_cycles():
         for ranks in (1, 2):
             finished, solver, found = counted(case, ranks)
             where = f"{name}, {ranks} ranks: "
-            check(solver["recipe"] == "metric", where + solver["recipe"])
+            check(solver["method"] == "metric", where + solver["method"])
             check(len(found) == ranks, where + f"counts of {len(found)} processes")
             # one solve; one cycle for each iteration, and one more to estimate the error
             check(set(found) == {(1, solver["iterations"] + 1)}, where + f"{found} for {solver['iterations']} iterations")
@@ -44,11 +45,22 @@ def aztecoo_iterates_and_ml_cycles():
             check(engine in finished.errors, where + finished.errors)
 
 
+def explain_names_the_engine():
+    folder = new_folder()
+    with open(os.path.join(folder, "case.yaml"), "w") as stream:
+        stream.write(TUBE)
+    explained = run("explain", "case.yaml", folder=folder).output
+    check("engine               AztecOO CG, ML cycle" in explained, explained)
+    plan = json.loads(run("explain", "--json", "case.yaml", folder=folder).output)
+    check(plan["solver"]["engine"] == "AztecOO CG, ML cycle", plan)
+
+
 def factors_are_mumps():
-    finished, solver, found = counted(TUBE + "\nsolver: {recipe: direct}\n", 1)
+    finished, solver, found = counted(TUBE + "\nsolver: {method: direct}\n", 1)
     check(found == [], f"{found}")
     check(solver["engine"] == "MUMPS factors, refined by CG", solver["engine"])
 
 
 aztecoo_iterates_and_ml_cycles()
+explain_names_the_engine()
 factors_are_mumps()

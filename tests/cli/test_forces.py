@@ -9,15 +9,15 @@ element: {order: ORDER}
 materials: [{region: all, youngs_modulus: 2e11, poissons_ratio: 0.3}]
 constraints: [{on: {boundary: xmin}, displacement: [0, 0, MOVED]}MORE]
 loads: [LOAD]
-solver: {recipe: RECIPE}
+solver: {method: METHOD}
 output: {fields: [displacement, node_stress]}
 """
 
 PULL = "{on: {boundary: xmax}, total_force: [0, 0, 1]}"
 
 
-def case(moved, recipe="direct", order=1, size="[1, 0.1, 0.1]", divisions="[20, 2, 2]", load=PULL, more=""):
-    text = CASE.replace("MOVED", moved).replace("RECIPE", recipe).replace("ORDER", str(order)).replace("SIZE", size)
+def case(moved, method="direct", order=1, size="[1, 0.1, 0.1]", divisions="[20, 2, 2]", load=PULL, more=""):
+    text = CASE.replace("MOVED", moved).replace("METHOD", method).replace("ORDER", str(order)).replace("SIZE", size)
     return text.replace("DIVISIONS", divisions).replace("LOAD", load).replace("MORE", more)
 
 
@@ -34,12 +34,12 @@ def what_is_stated_is_the_error_of_the_stress():
     cube = {"size": "[1, 1, 1]", "divisions": "[6, 12, 12]"}
     bodies = [({}, "direct", "1e2"), ({}, "metric", "1e2"), ({"order": 2}, "direct", "1"), (cube, "metric", "1e-5"),
               (cube, "direct", "1")]
-    for body, recipe, moved in bodies:
-        _, _, path = solve(case("0", recipe, **body))
+    for body, method, moved in bodies:
+        _, _, path = solve(case("0", method, **body))
         expected = stress(path)
         for ranks in (1, 2):
-            where = f"{body}, {recipe}, moved by {moved}, {ranks} ranks"
-            finished, report, path = solve(case(moved, recipe, **body), ranks=ranks)
+            where = f"{body}, {method}, moved by {moved}, {ranks} ranks"
+            finished, report, path = solve(case(moved, method, **body), ranks=ranks)
             check(finished.exit_code == 0, f"{where}: {finished.errors}")
             stated = report["checks"]["force_error"]
             error = relative_difference(stress(path), expected)
@@ -50,10 +50,10 @@ def what_is_stated_is_the_error_of_the_stress():
 def stresses_without_a_digit_are_refused():
     # the cube's reactions balance to 0.06 all the same, as many that are wrong hide each other
     cube = {"size": "[1, 1, 1]", "divisions": "[6, 12, 12]"}
-    for body, recipe, moved in (({}, "direct", "1e5"), ({}, "metric", "1e5"), (cube, "metric", "1"), (cube, "plain", "1")):
+    for body, method, moved in (({}, "direct", "1e5"), ({}, "metric", "1e5"), (cube, "metric", "1"), (cube, "plain", "1")):
         for ranks in (1, 2):
-            where = f"{body}, {recipe}, moved by {moved}, {ranks} ranks"
-            finished, _, path = solve(case(moved, recipe, **body), ranks=ranks)
+            where = f"{body}, {method}, moved by {moved}, {ranks} ranks"
+            finished, _, path = solve(case(moved, method, **body), ranks=ranks)
             check(finished.exit_code == 1, f"{where}: exit {finished.exit_code}: {finished.output}")
             for words in ("reactions and stresses hold less than one digit", f"moves as a whole by about (0, 0, {float(moved):.3g})",
                           "subtract the common part from the prescribed displacements", "nothing was written"):
@@ -67,21 +67,21 @@ def stresses_without_a_digit_are_refused():
 
 def what_has_no_forces_passes():
     taken_along = ", {on: {boundary: xmax}, displacement: [0, 0, 1e5]}"
-    for recipe in ("direct", "metric", "plain"):
-        for what, text in (("nothing acts", case("0", recipe, load="")), ("moved", case("1e5", recipe, load="")),
-                           ("moved at both ends", case("1e5", recipe, load="", more=taken_along)),
-                           ("loaded where it is held", case("1e5", recipe, load="{on: {nearest: [0, 0, 0]}, point_force: [0, 0, 1e3]}"))):
+    for method in ("direct", "metric", "plain"):
+        for what, text in (("nothing acts", case("0", method, load="")), ("moved", case("1e5", method, load="")),
+                           ("moved at both ends", case("1e5", method, load="", more=taken_along)),
+                           ("loaded where it is held", case("1e5", method, load="{on: {nearest: [0, 0, 0]}, point_force: [0, 0, 1e3]}"))):
             finished, _, _ = solve(text)
-            check(finished.exit_code == 0, f"{what}, {recipe}: {finished.errors}")
+            check(finished.exit_code == 0, f"{what}, {method}: {finished.errors}")
 
 
 def a_force_straight_into_a_moved_support_passes():
     load = "{on: {nearest: [1, 0, 0]}, point_force: [0, 0, 1e12]}"
     more = ", {on: {boundary: xmax}, displacement: [0, 0, 1e-3]}"
-    for recipe in ("direct", "metric"):
-        finished, report, _ = solve(case("0", recipe, load=load, more=more))
-        check(finished.exit_code == 0, f"{recipe}: {finished.errors}")
-        check(report["checks"]["force_error"] < 1e-6, f"{recipe}: {report['checks']}")
+    for method in ("direct", "metric"):
+        finished, report, _ = solve(case("0", method, load=load, more=more))
+        check(finished.exit_code == 0, f"{method}: {finished.errors}")
+        check(report["checks"]["force_error"] < 1e-6, f"{method}: {report['checks']}")
 
 
 what_is_stated_is_the_error_of_the_stress()

@@ -148,11 +148,11 @@ def free_body():
     finished, held, _ = solve(case(slides, PULL, BEAM))
     check(finished.exit_code == 0, finished.errors)
     check(abs(held["checks"]["strain_energy"] - exact) <= 1e-9 * exact, f"held: {held['checks']['strain_energy']}")
-    for recipe in ("direct", "metric"):
+    for method in ("direct", "metric"):
         for ranks in (1, 2, 4):
-            text = case("free_body", PULL, BEAM) + f"solver: {{recipe: {recipe}, coarsest_unknowns: 100}}\n"
+            text = case("free_body", PULL, BEAM) + f"solver: {{method: {method}, coarsest_unknowns: 100}}\n"
             finished, report, path = solve(text, ranks=ranks)
-            where = f"free body, {recipe} on {ranks} ranks"
+            where = f"free body, {method} on {ranks} ranks"
             check(finished.exit_code == 0, f"{where}: {finished.errors}")
             energy = report["checks"]["strain_energy"]
             check(abs(energy - exact) <= 1e-9 * exact, f"{where}: energy {energy}, not {exact}")

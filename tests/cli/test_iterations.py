@@ -16,7 +16,7 @@ constraints:
   - {on: {boundary: ends}, displacement: [0, 0, 0]}
 loads:
   - {on: {nearest: [1.5, 5, 0]}, total_force: [1000, 0, 0]}
-solver: {recipe: metric}
+solver: {method: metric}
 """
 
 MODULI = {"isotropic": "[1e6, 1e6, 1e6]", "stiff along": "[1e9, 1e6, 1e6]", "stiff around": "[1e6, 1e6, 1e9]",
@@ -44,7 +44,7 @@ for order, nu, most in PROMISED:
         check(finished.exit_code == 0, f"{what}: {finished.errors}")
         taken = report["solver"]["iterations"]
         print(f"{what}: {taken} iterations, at most {limit}")
-        check(report["solver"]["recipe"] == "metric", f"{what}: {report['solver']['recipe']}")
+        check(report["solver"]["method"] == "metric", f"{what}: {report['solver']['method']}")
         check(taken <= limit, f"{what}: {taken} iterations, promised at most {limit}")
         if (order, nu) == (1, 0.3):
             check(memory(report) <= MOST_MEMORY, f"{what}: {memory(report):.2f} times the memory of the stiffness")

@@ -16,7 +16,7 @@ constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
 loads:
   - {on: {boundary: xmax}, total_force: [0, 0, -1]}
-solver: {recipe: plain, max_iterations: MOST}
+solver: {method: plain, max_iterations: MOST}
 """
 
 

@@ -20,13 +20,13 @@ loads:
   - {on: {boundary: top}, total_force: [10, 0, 0]}
   - {on: {boundary: inner}, pressure: 5}
 accuracy: {relative_residual: 1e-11}
-solver: {recipe: RECIPE, coarsest_unknowns: 200}
+solver: {method: METHOD, coarsest_unknowns: 200}
 """
 
 
-def run(order, recipe, ranks):
-    finished, report, path = solve(CASE.replace("ORDER", str(order)).replace("RECIPE", recipe), ranks=ranks)
-    check(finished.exit_code == 0, f"order {order}, {recipe}, {ranks} ranks: {finished.errors}")
+def run(order, method, ranks):
+    finished, report, path = solve(CASE.replace("ORDER", str(order)).replace("METHOD", method), ranks=ranks)
+    check(finished.exit_code == 0, f"order {order}, {method}, {ranks} ranks: {finished.errors}")
     return report, read_points(path)
 
 
@@ -61,12 +61,12 @@ def main():
     foreseen_sizes_are_the_real_ones()
     linear, _ = run(1, "metric", 1)
     reference = None
-    for recipe, ranks in (("metric", 1), ("metric", 2), ("metric", 4), ("direct", 1), ("direct", 2), ("plain", 2)):
-        report, points = run(2, recipe, ranks)
+    for method, ranks in (("metric", 1), ("metric", 2), ("metric", 4), ("direct", 1), ("direct", 2), ("plain", 2)):
+        report, points = run(2, method, ranks)
         check(len(points) == 48 * 5 * 21, f"{len(points)} nodes: one on every edge is expected")
         energy = report["checks"]["strain_energy"]
         check(energy > linear["checks"]["strain_energy"], "quadratic tets give more under the same load than linear ones")
-        if recipe == "metric":
+        if method == "metric":
             unknowns = report["solver"]["level_unknowns"]
             check(unknowns[0] == report["unknowns"], "the quadratic tets are the finest level")
             check(unknowns[1] == 3 * 24 * 3 * 10, f"the linear tets come next, not {unknowns[1]} unknowns")
@@ -75,9 +75,9 @@ def main():
             reference = points
             largest = max(abs(v).max() for v in points.values())
             continue
-        check(points.keys() == reference.keys(), f"{recipe} on {ranks} ranks: other labels")
+        check(points.keys() == reference.keys(), f"{method} on {ranks} ranks: other labels")
         worst = max(abs(points[k] - reference[k]).max() for k in points)
-        check(worst <= 1e-9 * largest, f"{recipe} on {ranks} ranks differs by {worst / largest:.2e}")
+        check(worst <= 1e-9 * largest, f"{method} on {ranks} ranks differs by {worst / largest:.2e}")
 
 
 main()

@@ -17,18 +17,18 @@ loads:
   - {on: {nearest: [1.5, 2, 0]}, point_force: [1000, 0, 0]}
   - {on: {boundary: inner}, pressure: 50}
 accuracy: {relative_residual: 2e-11}
-solver: {recipe: RECIPE, coarsest_unknowns: 200}
+solver: {method: METHOD, coarsest_unknowns: 200}
 """
 
 
 def main():
-    for recipe in ("metric", "plain", "direct"):
+    for method in ("metric", "plain", "direct"):
         reference = None
         for ranks in (1, 2, 3, 4):
-            finished, report, path = solve(CASE.replace("RECIPE", recipe), ranks=ranks)
-            check(finished.exit_code == 0, f"{recipe} on {ranks} ranks: {finished.errors}")
+            finished, report, path = solve(CASE.replace("METHOD", method), ranks=ranks)
+            check(finished.exit_code == 0, f"{method} on {ranks} ranks: {finished.errors}")
             check(report["ranks"] == ranks, f"the run reports {report['ranks']} ranks, not {ranks}")
-            check(report["solver"]["recipe"] == recipe, f"recipe {report['solver']['recipe']}, asked for {recipe}")
+            check(report["solver"]["method"] == method, f"method {report['solver']['method']}, asked for {method}")
             points = read_points(path)
             check(len(points) == 24 * 4 * 17, f"{len(points)} vertices in the file")
             if reference is None:
@@ -38,7 +38,7 @@ def main():
                 continue
             check(points.keys() == reference.keys(), "the labels differ between numbers of ranks")
             worst = max(abs(points[k] - reference[k]).max() for k in points)
-            check(worst <= 1e-9 * largest, f"{recipe}: {ranks} ranks differ from 1 by {worst / largest:.2e}")
+            check(worst <= 1e-9 * largest, f"{method}: {ranks} ranks differ from 1 by {worst / largest:.2e}")
 
 
 main()

@@ -115,7 +115,7 @@ def main():
     check(abs(report["largest_displacement"] - 0.02) < 1e-9, f"|u| = {report['largest_displacement']}, F L / E A = 0.02")
     check(abs(report["checks"]["strain_energy"] - 0.1) < 1e-9, "energy")
     check(abs(report["checks"]["reaction"][0] + 10) < 1e-6, "reaction")
-    check(report["solver"]["recipe"] == "direct" and report["solver"]["attainable_residual"] is None,
+    check(report["solver"]["method"] == "direct" and report["solver"]["attainable_residual"] is None,
           f"nobody asked what double precision can hold: {report['solver']}")
     accounts = {a["name"]: a for a in report["ledger"]["accounts"]}
     for name in ("orthotropy", "varying axes", "gradient axes", "body force", "prescribed displacement"):

@@ -8,8 +8,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from program import SOURCE, check, new_folder, run  # noqa: E402,F401
 
 # What the program still says, and the pages no longer do: an entry goes when its word is renamed.
-RENAMED = {"recipe": "method", "rung": "strategy", "steps": "strategies", "held_vertices": "constrained_vertices",
-           "--hard": "--help"}
+RENAMED = {}
 
 PAGES = [os.path.join(SOURCE, name) for name in ("README.md", "CHANGELOG.md", "cases/README.md")] + sorted(
     glob.glob(os.path.join(SOURCE, "docs", "*.md")))

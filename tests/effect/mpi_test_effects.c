@@ -2,7 +2,7 @@
 #include "../case/case_text.h"
 
 #include "core/memory.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* Every effect of the table is solved with once and without once, and the ledger is held to the table: what is off is
  * not called, holds no byte and takes no second; what is on is called. */
@@ -45,8 +45,8 @@ static const struct {
                                      BLOCK STIFF(", " CYLINDER) HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_REGIONS) = {BLOCK TWO HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_MEAN_DILATATION) = {QUADRATIC RUBBER HELD PULLED NO_FIELDS, BLOCK RUBBER HELD PULLED NO_FIELDS},
-    ROW(OST_EFFECT_LINEAR_SPACE) = {QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {recipe: metric}\n",
-                                    QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {recipe: direct}\n"},
+    ROW(OST_EFFECT_LINEAR_SPACE) = {QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: metric}\n",
+                                    QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
     ROW(OST_EFFECT_PRESCRIBED_DISPLACEMENT) = {BLOCK SOFT MOVED NO_FIELDS, BLOCK SOFT SLIDING PULLED NO_FIELDS},
     ROW(OST_EFFECT_SLIDING) = {BLOCK SOFT SLIDING PULLED NO_FIELDS, BLOCK SOFT FREE TORN NO_FIELDS},
     ROW(OST_EFFECT_FREE_BODY) = {BLOCK SOFT FREE TORN NO_FIELDS, BLOCK SOFT MOVED NO_FIELDS},

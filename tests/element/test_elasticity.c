@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/element.h"
 #include "element_support.h"
-#include "orthostat/field.h"
+#include "material/field_data.h"
 #include "support.h"
 
 enum { TETS = 12, REGIONS = 3 };

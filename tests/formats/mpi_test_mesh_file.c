@@ -2,7 +2,7 @@
 #include "msh_writer.h"
 
 #include "core/memory.h"
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 static OstMeshChunk *chunk;
 static OstFileMaterials *materials;

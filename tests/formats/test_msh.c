@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "msh_writer.h"
 
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 #include <zlib.h>
 

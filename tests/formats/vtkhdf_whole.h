@@ -4,7 +4,7 @@
 
 #include "core/memory.h"
 #include "core/small.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 #include "support.h"
 
 /* A small mesh gathered on every rank and put in the order of its labels, which must be 1, 2, 3, ..., so that two that

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/serial/formats.h"
 #include "fuzz.h"
-#include "orthostat/mesh_file.h"
 
 enum { NUMBERS = 9, TETS = 4 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/memory.h"
+#include "formats/serial/formats.h"
 #include "fuzz.h"
-#include "orthostat/mesh_file.h"
 
 /* A list of vertices. */
 static void read_vertices(OstContext *ctx, const char *path)

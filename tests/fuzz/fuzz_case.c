@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/case_data.h"
 #include "fuzz.h"
-#include "orthostat/case.h"
 
 /* The case file. */
 static void read_case(OstContext *ctx, const char *path)

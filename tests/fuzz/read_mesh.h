@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_TESTS_FUZZ_READ_MESH_H
 #define ORTHOSTAT_TESTS_FUZZ_READ_MESH_H
 
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 /* A mesh file, and if it is taken the checks that any mesh meets. */
 static void read_mesh(OstContext *ctx, const char *path)

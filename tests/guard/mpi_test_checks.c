@@ -288,12 +288,12 @@ static void rounding_that_leaves_no_correct_digit_is_refused(void **state)
 static void forces_lost_beside_a_common_displacement_are_seen(void **state)
 {
     (void)state;
-    const OstRecipe norms[] = {OST_RECIPE_METRIC, OST_RECIPE_DIRECT};
+    const OstMethod norms[] = {OST_METHOD_METRIC, OST_METHOD_DIRECT};
     for (int n = 0; n < 2; n++) {
         Solved solved = make_along(1, 1e4, 1.0);
         OstSolveReport *report = &solved.result.solve;
         const OstChecks *checks = &solved.result.checks;
-        report->recipe = norms[n];
+        report->method = norms[n];
         report->rounding_error = 0.0;
         report->energy_error = report->error_estimate = 1e-11;
         check(&solved);

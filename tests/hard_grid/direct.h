@@ -5,7 +5,7 @@
 #include "algebra/direct/mumps.h"
 #include "algebra/matrix/scaling.h"
 #include "assembly/system.h"
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* An unevaluated sum of two doubles, some 32 digits (double-double). */
 typedef struct Twofold {

@@ -2,7 +2,7 @@
 #ifndef HARD_GRID_GRID_H
 #define HARD_GRID_GRID_H
 
-#include "orthostat/scene.h"
+#include "problem/scene_data.h"
 
 /* The hard grid: small bodies of every kind that solvers are known to fail on, each solved as a user's case would be
  * and compared with a direct solution of the same equations. A point of the grid is one body: */
@@ -66,7 +66,7 @@ typedef struct HardReading {
     OstStatus status;
     char reason[512]; /* of a refusal, or of the verdict */
     OstGlobal unknowns;
-    OstRecipe recipe;
+    OstMethod method;
     int iterations, steps; /* in all, by so many solver strategies */
     double residual;       /* true, relative */
     int rounding_limited;  /* did rounding keep the residual above 1e-8? */

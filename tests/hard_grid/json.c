@@ -22,7 +22,7 @@ static json_t *reading_json(const HardReading *reading)
         return json;
     json_t *numbers = json_pack(
         "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:f}", "unknowns",
-        (json_int_t)reading->unknowns, "method", ost_recipe_name(reading->recipe), "iterations", reading->iterations,
+        (json_int_t)reading->unknowns, "method", ost_method_name(reading->method), "iterations", reading->iterations,
         "strategies", reading->steps, "relative_residual", ost_json_number(reading->residual), "rounding_limited",
         reading->rounding_limited, "stated_error", ost_json_number(reading->stated_error), "digits",
         ost_json_number(reading->digits), "size", ost_json_number(reading->truth.size), "amplification",

@@ -27,7 +27,7 @@ static void take_reason(HardReading *reading, const OstContext *ctx, OstStatus s
 static void take_result(const OstResult *result, HardReading *reading)
 {
     reading->unknowns = result->unknowns;
-    reading->recipe = result->solve.recipe;
+    reading->method = result->solve.method;
     reading->iterations = result->solve.iterations;
     reading->steps = result->solve.steps;
     reading->residual = result->solve.relative_residual;

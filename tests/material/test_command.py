@@ -143,7 +143,7 @@ class StabilityRegion(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder.name), ["region.csv"])
         lost = run("--stability-region", os.path.join(self.folder.name, "none", "x.csv"))
         self.assertEqual(lost.returncode, 2)
-        self.assertIn("cannot be written", lost.stderr)
+        self.assertIn("cannot write", lost.stderr)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,8 @@
 #include "support.h"
 
 #include "material/axes_formula.h"
+#include "material/field_data.h"
 #include "material/random.h"
-#include "orthostat/field.h"
 
 enum { TETS = 6 };
 

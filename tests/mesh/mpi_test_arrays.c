@@ -106,6 +106,45 @@ static void rank_0_may_bring_it_all(void **state)
     ost_mesh_destroy(&mesh);
 }
 
+static void a_mesh_can_be_read_by_functions_alone(void **state)
+{
+    (void)state;
+    const OstMeshArrays arrays = two_tets_arrays();
+    OstMeshChunk *chunk = NULL;
+    OstMesh *mesh = NULL;
+    assert_success(ost_chunk_create_from_arrays(ctx, ost_rank(ctx) == 0 ? &arrays : NULL, &chunk));
+    assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
+    assert_int_equal(ost_mesh_nodes_per_tet(mesh), 4);
+    assert_int_equal(ost_mesh_global_nodes(mesh), 5);
+    assert_int_equal(ost_mesh_global_tets(mesh), 2);
+    assert_int_equal(ost_mesh_region_count(mesh), 2);
+    assert_string_equal(ost_mesh_region_name(mesh, 1), "foot");
+    assert_int_equal(ost_mesh_boundary_count(mesh), 3);
+    assert_string_equal(ost_mesh_boundary_name(mesh, 1), "edge");
+    OstGlobal owned[2] = {ost_mesh_owned_nodes(mesh), ost_mesh_owned_tets(mesh)};
+    MPI_Allreduce(MPI_IN_PLACE, owned, 2, MPI_INT64_T, MPI_SUM, ost_comm(ctx));
+    assert_int_equal(owned[0], 5);
+    assert_int_equal(owned[1], 2);
+    for (OstLocal n = 0; n < ost_mesh_node_count(mesh); n++)
+        assert_memory_equal(ost_mesh_coordinates(mesh) + 3 * n, two_tets_x + 3 * (ost_mesh_node_labels(mesh)[n] - 1),
+                            3 * sizeof(double));
+    for (OstLocal t = 0; t < ost_mesh_tet_count(mesh); t++) {
+        const OstGlobal from = ost_mesh_tet_labels(mesh)[t] - 1;
+        for (int v = 0; v < 4; v++)
+            assert_int_equal(ost_mesh_node_labels(mesh)[ost_mesh_tet_nodes(mesh)[4 * t + v]] - 1,
+                             two_tets[4 * from + v]);
+        assert_int_equal(ost_mesh_tet_regions(mesh)[t], two_tets_region[from]);
+        assert_memory_equal(ost_mesh_tet_axes(mesh) + 9 * t, two_tets_axes + 9 * from, 9 * sizeof(double));
+    }
+    int nodes_per_item = 0;
+    const OstGlobal *nodes = NULL;
+    const OstLocal count = ost_mesh_boundary_items(mesh, ost_mesh_find_boundary(mesh, "face"), &nodes_per_item, &nodes);
+    assert_int_equal(nodes_per_item, 3);
+    for (OstLocal i = 0; i < 3 * count; i++)
+        assert_int_equal(ost_mesh_node_labels(mesh)[nodes[i]] - 1, face[i]);
+    ost_mesh_destroy(&mesh);
+}
+
 static void refuses(const OstMeshArrays *arrays, const char *text)
 {
     OstMeshChunk *chunk = NULL;
@@ -189,6 +228,7 @@ static void ranks_must_list_the_same_names(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_mesh_is_that_of_the_arrays_and_they_are_copied),
     cmocka_unit_test(rank_0_may_bring_it_all),
+    cmocka_unit_test(a_mesh_can_be_read_by_functions_alone),
     cmocka_unit_test(what_does_not_fit_is_named),
     cmocka_unit_test(boundaries_that_do_not_fit_are_named),
     cmocka_unit_test(ranks_must_list_the_same_names),

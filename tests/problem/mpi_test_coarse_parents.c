@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/scene_data.h"
 #include "support.h"
 
 #include "core/memory.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
+#include "problem/scene_data.h"
 
 #include "orthostat/analysis.h"
 #include "orthostat/orthostat.h"

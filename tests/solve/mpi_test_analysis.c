@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
+#include "problem/result_data.h"
+#include "problem/scene_data.h"
 
 #include "orthostat/analysis.h"
 #include "orthostat/orthostat.h"
@@ -52,10 +54,10 @@ static double *make_force(const OstMesh *mesh, int salt, double size)
     return force;
 }
 
-static OstSolverOptions options_of(OstRecipe recipe)
+static OstSolverOptions options_of(OstMethod method)
 {
     OstSolverOptions options = ost_solver_default_options();
-    options.recipe = recipe;
+    options.method = method;
     options.relative_residual = 1e-10;
     options.coarsest_unknowns = 30;
     return options;
@@ -64,11 +66,11 @@ static OstSolverOptions options_of(OstRecipe recipe)
 static void two_loads_on_one_solver_are_two_solves(void **state)
 {
     (void)state;
-    const OstRecipe recipes[] = {OST_RECIPE_METRIC, OST_RECIPE_DIRECT};
+    const OstMethod methods[] = {OST_METHOD_METRIC, OST_METHOD_DIRECT};
     Made made = make_body_of_wood();
     const size_t size = 3 * (size_t)made.mesh->owned_nodes;
     for (int r = 0; r < 2; r++) {
-        const OstSolverOptions options = options_of(recipes[r]);
+        const OstSolverOptions options = options_of(methods[r]);
         double *force[2] = {make_force(made.mesh, 50, 1.0), make_force(made.mesh, 60, 3.0)};
         OstProblem *shared = make_problem(&made, 3, NULL);
         OstAnalysis *analysis = NULL;
@@ -107,7 +109,7 @@ static void a_refused_load_is_followed_by_another(void **state)
 {
     (void)state;
     Made made = make_body_of_wood();
-    const OstSolverOptions options = options_of(OST_RECIPE_METRIC);
+    const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0), *beyond = make_force(made.mesh, 50, 1e80);
     OstProblem *problem = make_problem(&made, 3, force);
     OstAnalysis *analysis = NULL;
@@ -133,7 +135,7 @@ static void a_dry_run_refuses_what_a_solve_refuses(void **state)
 {
     (void)state;
     Made made = make_body_of_wood();
-    const OstSolverOptions options = options_of(OST_RECIPE_METRIC);
+    const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0);
     OstProblem *sliding = make_problem(&made, 1, force), *held = make_problem(&made, 3, force);
     OstResult *result = NULL;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/scene_data.h"
 #include "support.h"
 
 #include "orthostat/orthostat.h"
@@ -30,7 +31,7 @@ static int iterations(const OstCase *c)
     assert_success(ost_scene_create(c, &scene));
     assert_success(ost_scene_solve(scene, &result));
     const int count = result->solve.iterations;
-    assert_int_equal(result->solve.recipe, OST_RECIPE_METRIC);
+    assert_int_equal(result->solve.method, OST_METHOD_METRIC);
     assert_true(result->solve.relative_residual <= 1e-8);
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/scene_data.h"
 #include "support.h"
 
 #include "algebra/solver.h"
@@ -72,7 +73,7 @@ static void solve_directly(Pose *pose)
     double *force = calloc(3 * (size_t)pose->mesh->node_count, sizeof *force);
     press(pose, force);
     assert_success(ost_system_right_hand_side(pose->system, pose->field, force, rhs));
-    options.recipe = OST_RECIPE_DIRECT;
+    options.method = OST_METHOD_DIRECT;
     assert_success(ost_solver_create(ctx, pose->system->matrix, &nothing, &options, &solver));
     assert_success(ost_solver_solve(solver, rhs, v, &report));
     assert_success(ost_system_displacement(pose->system, 1.0, v, pose->result.displacement));

@@ -199,7 +199,7 @@ class Cost(unittest.TestCase):
 
     def test_all_refused_is_a_failure_with_its_reason(self):
         with open(self.path("beam.yaml"), "a") as stream:
-            stream.write("solver: {recipe: metric, max_iterations: 1}\n")
+            stream.write("solver: {method: metric, max_iterations: 1}\n")
         finished = run("beam.yaml", "--orders", "1", "--refinements", "2", "--tolerances", "1e-12", folder=self.folder)
         self.assertEqual(finished.returncode, 1, finished)
         self.assertIn("1 iteration", finished.stderr)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_text.h"
-#include "orthostat/verify.h"
+#include "case/verify.h"
 
 /* How the verify section of a case, and the word exact, are read and refused. */
 

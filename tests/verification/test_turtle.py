@@ -16,7 +16,7 @@ constraints:
   - {{on: {{vertices: {folder}/turtle-volumetric.bou}}, displacement: [0, 0, 0]}}
 loads:
   - {{on: {{all: true}}, point_force: [0, -1, 0]}}
-solver: {{recipe: {recipe}}}
+solver: {{method: {method}}}
 accuracy: {{relative_residual: 1e-11}}
 """
 
@@ -33,18 +33,18 @@ def main():
     case = os.path.join(folder, "turtle.yaml")
     summary = os.path.join(folder, "turtle.json")
     for kind, energy in ENERGY.items():
-        for recipe in ("metric", "direct"):
+        for method in ("metric", "direct"):
             with open(case, "w") as stream:
-                stream.write(CASE.format(folder=os.path.realpath(TURTLE), kind=kind, recipe=recipe))
+                stream.write(CASE.format(folder=os.path.realpath(TURTLE), kind=kind, method=method))
             for ranks in (1, 2):
                 finished = run("solve", "-q", case, "--json", summary, ranks=ranks, folder=folder)
-                where = f"{kind} turtle, {recipe} on {ranks} rank(s)"
+                where = f"{kind} turtle, {method} on {ranks} rank(s)"
                 check(finished.exit_code == 0, f"{where}: {finished.errors}")
                 with open(summary) as stream:
                     report = json.load(stream)
                 check(report["vertices"] == 347 and report["tets"] == 1185, f"{where}: another mesh")
                 check(report["unknowns"] == 3 * (347 - 23), f"{where}: {report['unknowns']} unknowns, 23 vertices held")
-                check(report["solver"]["recipe"] == recipe, f"{where}: solved by {report['solver']['recipe']}")
+                check(report["solver"]["method"] == method, f"{where}: solved by {report['solver']['method']}")
                 checks = report["checks"]
                 check(is_close(checks["strain_energy"], energy), f"{where}: energy {checks['strain_energy']:.12g}")
                 check(is_close(checks["work"], energy), f"{where}: half of f u is {checks['work']:.12g}")

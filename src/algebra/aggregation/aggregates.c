@@ -11,17 +11,16 @@
 
 enum { RADIUS_TRIES = 6, RADIUS_SAMPLES = 40, UNREACHED = -1, LEFT_OUT = -2 };
 
-/* What the grouping works on. */
 typedef struct Grouping {
     const OstMetricGraph *graph;
     const OstAggregateShape *shape;
     OstPaths *paths;
     unsigned char *covered; /* nodes */
-    OstLocal count;         /* of seeds */
+    OstLocal count;         /* number of seeds */
     OstLocal *seed;         /* nodes */
     OstLocal *size;         /* nodes: of each seed's aggregate */
     double *centre;         /* nodes × 3: of each seed's aggregate */
-    double *offset;         /* nodes: metric distance of the best new seed from the centre */
+    double *offset;         /* nodes: squared distance, in the metric, of the best new seed from the centre */
 } Grouping;
 
 static void destroy_grouping(Grouping *g)
@@ -51,7 +50,7 @@ done:
     return status;
 }
 
-/* First guess: the mean radius that holds 1.6 targets, over a sample of the nodes. */
+/* First guess: the mean radius of a ball with 1.6 × target nodes, over a sample of the nodes. */
 static OstStatus guess_radius(Grouping *g, double *radius)
 {
     const OstLocal most = (OstLocal)ceil(1.6 * g->shape->target);
@@ -67,7 +66,7 @@ static OstStatus guess_radius(Grouping *g, double *radius)
     return OST_SUCCESS;
 }
 
-/* Every node in its turn becomes a seed unless an earlier seed's ball covers it. */
+/* Each node becomes a seed unless the ball of an earlier seed covers it. */
 static OstStatus cover(Grouping *g, double radius)
 {
     const OstLocal n = g->graph->nodes;
@@ -85,8 +84,8 @@ static OstStatus cover(Grouping *g, double radius)
     return OST_SUCCESS;
 }
 
-/* Balls overlap, so that their radius is found by trying: nodes per seed grow about as its 2.2nd power. On a regular
- * mesh they grow by leaps, which may jump the target; the nearest try is taken. */
+/* Finds the radius by trial, as balls overlap: nodes per seed grow about as radius^2.2. On a regular mesh they grow in
+ * jumps, so the target may be missed; then the best trial is taken. */
 static OstStatus choose_seeds(Grouping *g)
 {
     double radius, best = 0.0, best_miss = DBL_MAX;
@@ -146,7 +145,7 @@ static void recentre(Grouping *g)
     }
 }
 
-/* Seeds of aggregates under the minimum give up theirs; returns whether any did. */
+/* Drops the seeds of aggregates below the minimum size; returns whether there were any. */
 static int drop_small(Grouping *g)
 {
     OstLocal kept = 0;
@@ -158,20 +157,21 @@ static int drop_small(Grouping *g)
     return dropped;
 }
 
-/* Dropping can leave a part of the graph without any seed: it becomes one aggregate, if it is large enough. */
+/* Dropping may leave a connected component without seeds: it becomes one aggregate, or is left out if it is too small.
+ */
 static OstStatus adopt_orphans(Grouping *g)
 {
     OstPaths *paths = g->paths;
     const OstLocal n = g->graph->nodes;
     for (OstLocal i = 0; i < n; i++) {
-        OstBall part;
+        OstBall component;
         if (paths->source[i] != UNREACHED)
             continue;
-        OST_TRY(ost_paths_ball(paths, i, g->count, FLT_MAX, n, NULL, &part));
-        if (part.nodes >= g->shape->minimum)
+        OST_TRY(ost_paths_ball(paths, i, g->count, FLT_MAX, n, NULL, &component));
+        if (component.nodes >= g->shape->minimum)
             g->seed[g->count++] = i;
         else
-            OST_TRY(ost_paths_ball(paths, i, LEFT_OUT, FLT_MAX, n, NULL, &part));
+            OST_TRY(ost_paths_ball(paths, i, LEFT_OUT, FLT_MAX, n, NULL, &component));
     }
     return OST_SUCCESS;
 }

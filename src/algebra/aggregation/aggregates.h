@@ -7,13 +7,13 @@
 /* How a graph is to be grouped. */
 typedef struct OstAggregateShape {
     double target;    /* nodes per aggregate, on average */
-    OstLocal minimum; /* smaller ones are given to their neighbours; parts of the graph smaller than this are left out
-                         (of_node -1) */
+    OstLocal minimum; /* smaller ones are merged into their neighbours; connected components of fewer nodes are left
+                         out (of_node -1) */
     int recentrings;  /* Lloyd passes */
 } OstAggregateShape;
 
-/* Local. Aggregates that are round in the graph's metric: a greedy cover by balls whose radius is tuned to the target,
- * then each node to its nearest seed, and seeds moved to the centre of what they got. */
+/* Local. Aggregates that are round in the graph's metric: a greedy cover by balls of a radius that gives the target
+ * size; then each node joins its nearest seed, and each seed moves to the centre of its aggregate. */
 OstStatus ost_aggregates_create(const OstMetricGraph *graph, const OstAggregateShape *shape,
                                 OstAggregates **aggregates);
 

@@ -81,7 +81,7 @@ static OstStatus check_node(const OstMetricGraph *graph, OstLocal node, OstGloba
     return OST_SUCCESS;
 }
 
-/* Lengths of all edges by the mean metric of their two ends. */
+/* The length of each edge in the mean metric of its two nodes. */
 static void measure_edges(OstMetricGraph *graph)
 {
     for (OstLocal i = 0; i < graph->nodes; i++)
@@ -106,7 +106,7 @@ static OstStatus fill_from_matrix(const OstBlockMatrix *matrix, const OstSolverG
         memcpy(graph->metric, geometry->metric, 6 * n * sizeof(double));
     OstLocal edges = 0;
     for (OstLocal i = 0; i < matrix->rows; i++) {
-        for (int c = 0; c < 6 && !geometry->metric; c++) /* not by memcpy of a constant: gcc 12 gets that wrong */
+        for (int c = 0; c < 6 && !geometry->metric; c++) /* not by memcpy of a constant: GCC 12 miscompiles that */
             graph->metric[6 * (size_t)i + (size_t)c] = c < 3 ? 1.0 : 0.0;
         OST_TRY(check_node(graph, i, matrix->first_row + i));
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
@@ -134,7 +134,7 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
 
 OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most)
 {
-    double least = 1.0; /* metric over plain length, squared */
+    double least = 1.0; /* squared length in the metric over squared Euclidean length */
     for (OstLocal i = 0; i < graph->nodes; i++)
         for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
             const double *a = graph->position + 3 * (size_t)i;

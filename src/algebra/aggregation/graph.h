@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/geometry.h"
 
-/* The nodes of one level on this rank and the edges between them, each as long as the material's metric says: short
- * along the stiff directions. Edges to other ranks' nodes are left out, as aggregates do not cross ranks. */
+/* The nodes of one level on this rank and the edges between them, with lengths in the material metric: short along
+ * stiff directions. There are no edges to other ranks' nodes, as aggregates do not cross ranks. */
 typedef struct OstMetricGraph {
     OstContext *ctx;
     OstLocal nodes;
@@ -28,21 +28,22 @@ typedef struct OstAggregates {
 OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                                   OstMetricGraph **graph);
 
-/* Local. The graph whose nodes are the aggregates: at their centroids, with the mean metric of their nodes, neighbours
- * where any of their nodes are. */
+/* Local. The graph whose nodes are the aggregates: at their centroids, with the mean metric of their nodes. Two are
+ * neighbours if any of their nodes are. */
 OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregates *aggregates,
                                    OstMetricGraph **coarse);
-/* Collective. How much shorter the metric makes edges, squared: the most over all ranks, and about √(E_max / E_min)
- * where an edge lies along what is stiff. Where the axes turn within a node's tets their mean metric, and so this, is
- * less. */
+
+/* Collective. The largest ratio, over all edges, of squared Euclidean length to squared length in the metric. About
+ * √(E_max / E_min) if an edge lies along the stiff direction; smaller if the material axes differ between the tets of a
+ * node, whose metrics are averaged. */
 OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most);
 
 void ost_metric_graph_destroy(OstMetricGraph **graph);
 
 void ost_aggregates_destroy(OstAggregates **aggregates);
 
-/* Local. The nodes of each aggregate, ascending: member[start[a]] up to start[a + 1]; both arrays are the caller's to
- * free. Nodes that are in none are left out. */
+/* Local. The nodes of each aggregate, ascending: member[start[a]] to member[start[a + 1] - 1]. The caller frees both
+ * arrays. Nodes without an aggregate are not listed. */
 OstStatus ost_aggregates_list(const OstAggregates *aggregates, OstLocal nodes, OstLocal **start, OstLocal **member);
 
 /* Local. Squared length of a vector in a metric. */

@@ -40,7 +40,7 @@ void ost_paths_clear(OstPaths *paths)
     }
 }
 
-/* A heap in which each entry has four below it: half as many steps as with two, on the same cache lines. */
+/* A heap with four children per entry: half as many steps as with two, on the same cache lines. */
 enum { BELOW = 4 };
 
 static OstStatus push(OstPaths *paths, float distance, OstLocal node)

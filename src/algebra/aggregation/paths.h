@@ -13,8 +13,8 @@ typedef struct OstPathEnd {
 typedef struct OstPaths {
     const OstMetricGraph *graph;
     float *distance;      /* nodes: from the nearest source */
-    OstLocal *source;     /* nodes: which source that is; -1 where none was reached */
-    OstLocal queue_count; /* a binary heap, nearest first */
+    OstLocal *source;     /* nodes: which source that is; -1 if none is connected */
+    OstLocal queue_count; /* a heap with four children per entry, nearest first */
     OstLocal queue_room;
     OstPathEnd *queue;
 } OstPaths;
@@ -23,20 +23,21 @@ typedef struct OstPaths {
 OstStatus ost_paths_create(const OstMetricGraph *graph, OstPaths **paths);
 void ost_paths_destroy(OstPaths **paths);
 
-/* Forgets every source. */
+/* Removes all sources. */
 void ost_paths_clear(OstPaths *paths);
 
-/* Settles the nodes within `radius` of `node`, at most `most` of them, nearest first, and marks them with `source`,
- * which must be a number not used since the paths were cleared. Other sources' marks are overwritten. `settled`, unless
- * NULL, gets a 1 for each settled node. */
 typedef struct OstBall {
     OstLocal nodes;
-    double reach; /* distance of the farthest */
+    double reach; /* distance of the farthest node */
 } OstBall;
+
+/* Settles the nodes within `radius` of `node`, at most `most` of them, nearest first, and sets their source to
+ * `source`, a number not used since ost_paths_clear; marks of other sources are overwritten. `settled`, unless NULL,
+ * gets a 1 for each settled node. */
 OstStatus ost_paths_ball(OstPaths *paths, OstLocal node, OstLocal source, double radius, OstLocal most,
                          unsigned char *settled, OstBall *ball);
 
-/* Assigns every node that can be reached to the nearest of `count` sources. */
+/* Assigns every connected node to the nearest of `count` sources. */
 OstStatus ost_paths_assign(OstPaths *paths, OstLocal count, const OstLocal *sources);
 
 #endif

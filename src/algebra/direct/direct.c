@@ -11,14 +11,14 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A step by factors costs little beside making them: u is refined until this is all that it moves. */
+/* Refine u until a correction changes it by no more than this, relative to u: steps by factors are cheap. */
 static const double settled = 1e-3;
 
 struct OstDirect {
     OstCgSystem system;
     OstScaling *scaling;
     OstMumps *factors;
-    double shift; /* on the diagonal of what was factored */
+    double shift; /* added to the diagonal before factoring */
 };
 
 void ost_direct_destroy(OstDirect **direct)
@@ -51,16 +51,16 @@ static OstStatus apply_factors(void *data, const double *r, double *z)
     return ost_mumps_solve(data, r, z);
 }
 
-/* What was factored is not the stiffness itself: a body that can move freely looks the same, but holds no digit. */
+/* An unconstrained body also factors once the diagonal is shifted: a rounding error of 0.1 or more gives it away. */
 static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
 {
     if (report->error_estimate > 0.0 && isfinite(report->error_estimate) &&
         !ost_surely_beyond(report->rounding_error, report->rounding_spread, ost_least_digit))
         return OST_SUCCESS;
     return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
-                     "the stiffness, as double precision rounds it, is not positive definite, or hardly: the body, or "
-                     "a part of it, can move freely or has no stiffness in some direction; hold it in all six rigid "
-                     "motions, and check that parts share vertices and that materials are definite");
+                     "rounded to double precision, the stiffness is not or hardly positive definite: the body, or a "
+                     "part of it, can move freely or has no stiffness in some direction; constrain all six rigid "
+                     "motions, and check that parts share nodes and that materials are definite");
 }
 
 OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
@@ -71,8 +71,8 @@ OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoa
     report->operator_complexity = 1.0;
     snprintf(report->engine, sizeof report->engine, "MUMPS factors, refined by CG");
     goal->settled = settled;
-    goal->compensated |=
-        direct->shift > 0.0; /* such factors do not tell by themselves what rounding left of the matrix */
+    if (direct->shift > 0.0) /* errors of such factors do not show how close rounding is */
+        goal->compensated = 1;
     OST_TRY(ost_cg_solve(&direct->system, &factors, f, u, goal, report));
     return direct->shift > 0.0 ? check_shifted(direct, report) : OST_SUCCESS;
 }

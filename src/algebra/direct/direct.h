@@ -4,10 +4,9 @@
 
 #include "algebra/krylov/refine.h"
 
-/* The direct recipe: MUMPS factors the scaled matrix, and conjugate gradients preconditioned by its factors bring the
- * residual down to what was requested, which one solve alone does not (1e-6 on very uneven stiffness). Where rounding
- * makes the matrix, or its factors, indefinite, those of the matrix and at most 5e-13 on its diagonal of ones
- * lead to the solution as well, if there is one. */
+/* The direct method: MUMPS factors the scaled matrix, and CG preconditioned by the factors reduces the residual to the
+ * one requested (a single solve leaves 1e-6 on very uneven stiffness). If rounding makes the factorisation fail, up to
+ * 5e-13 is added to the scaled diagonal, and CG removes the effect. */
 typedef struct OstDirect OstDirect;
 
 /* Collective. Factors in at most `memory` bytes, as ost_mumps_create; the matrix stays the caller's and is used until
@@ -15,8 +14,8 @@ typedef struct OstDirect OstDirect;
 OstStatus ost_direct_create(const OstBlockMatrix *matrix, double memory, OstDirect **direct);
 void ost_direct_destroy(OstDirect **direct);
 
-/* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. Raises OST_NOT_CONVERGED
- * where more than rounding makes the matrix indefinite: no digit of u is left. */
+/* Collective. As ost_cg_solve; also fills the report's engine, levels and complexity. Raises OST_NOT_CONVERGED if the
+ * diagonal was shifted and u has a relative error of 0.1 or more: the matrix is singular or indefinite. */
 OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
 #endif

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* MUMPS numbers its controls and results from 1. */
+/* The MUMPS manual numbers controls and results from 1. */
 #define ICNTL(k) icntl[(k)-1]
 #define INFOG(k) infog[(k)-1]
 #define INFO(k) info[(k)-1]
@@ -23,7 +23,7 @@ enum {
     JOB_FACTOR = 2,
     JOB_SOLVE = 3,
     POSITIVE_DEFINITE = 1,     /* SYM */
-    SPARE_PERCENT = 30,        /* ICNTL(14): workspace beyond the estimate; doubled when it was not enough, */
+    SPARE_PERCENT = 30,        /* ICNTL(14): workspace beyond the estimate; doubled if it is not enough, */
     MOST_SPARE_PERCENT = 2000, /* up to this */
     ERROR_WORKSPACE = -9,      /* INFOG(1) */
     ERROR_INTEGER_WORKSPACE = -8,
@@ -34,8 +34,8 @@ enum {
 
 static const double mebibyte = 1048576.0;
 
-/* The first shift, each next over the last, and the largest, of a diagonal of order 1: rounding was never seen to take
- * more than 6e-14. */
+/* Shifts of a diagonal of order 1: the first, the factor to the next, and the largest. Rounding never needed more than
+ * 6e-14. */
 static const double least_shift = 4.0 * DBL_EPSILON, next_shift = 8.0, rounding_shift = 5e-13;
 
 struct OstMumps {
@@ -43,13 +43,13 @@ struct OstMumps {
     DMUMPS_STRUC_C id;
     int started;
     int unknowns;         /* of this rank */
-    OstGlobal first, all; /* number of the first, and of all ranks */
+    OstGlobal first, all; /* global number of its first one; number over all ranks */
     double memory;        /* bytes it may take over all ranks; 0: what is free */
-    double shift;         /* added to the diagonal, */
-    double most_shift;    /* and the most that may be */
+    double shift;         /* added to the diagonal */
+    double most_shift;    /* the largest that may be */
     int *counts;          /* rank 0: unknowns of each rank, and where they start */
     int *starts;
-    double *vector; /* rank 0: all of a right-hand side, then of its solution */
+    double *vector; /* rank 0: the whole right-hand side, then the solution */
 };
 
 static void call(OstMumps *mumps, int job)
@@ -73,8 +73,8 @@ void ost_mumps_destroy(OstMumps **mumps)
 static OstStatus raise_singular(OstContext *ctx, const char *finding)
 {
     return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                     "%s: the body, or a part of it, can move freely or has no stiffness in some direction; hold it in "
-                     "all six rigid motions, and check that parts share vertices and that materials are definite",
+                     "%s: the body, or a part of it, can move freely or has no stiffness in some direction; constrain "
+                     "all six rigid motions, and check that parts share nodes and that materials are definite",
                      finding);
 }
 
@@ -94,7 +94,7 @@ static OstStatus check(OstMumps *mumps, const char *phase)
     case ERROR_INTEGER_WORKSPACE:
     case ERROR_ALLOCATION:
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
-                         "MUMPS ran out of memory in its %s (codes %d, %d); use more machines, or an iterative recipe",
+                         "MUMPS ran out of memory in its %s (codes %d, %d); use more machines, or an iterative method",
                          phase, code, mumps->id.INFOG(2));
     default:
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "MUMPS failed in its %s with codes %d, %d", phase, code,
@@ -115,7 +115,7 @@ static OstStatus start(OstMumps *mumps)
     id->ICNTL(2) = -1;
     id->ICNTL(3) = -1;
     id->ICNTL(4) = 0;
-    id->ICNTL(18) = 3; /* each rank gives its own entries */
+    id->ICNTL(18) = 3; /* each rank passes its own entries */
     return OST_SUCCESS;
 }
 
@@ -130,12 +130,12 @@ static OstStatus number_unknowns(OstMumps *mumps, const OstDoubleMatrix *matrix)
     mumps->first = end - mine;
     if (mumps->all > INT_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "%lld unknowns are more than MUMPS can number (2^31 - 1); use an iterative recipe",
+                         "%lld unknowns are more than MUMPS can number (2^31 - 1); use an iterative method",
                          (long long)mumps->all);
     return OST_SUCCESS;
 }
 
-/* This rank's entries on and above the diagonal, by global numbers from 1; `number` has each column's first. */
+/* This rank's entries on and above the diagonal, by global numbers from 1; `number` is each column's first unknown. */
 static void fill_entries(const OstDoubleMatrix *matrix, const OstGlobal *number, DMUMPS_STRUC_C *id)
 {
     const int size = matrix->size;
@@ -173,7 +173,7 @@ static OstStatus allocate_entries(const OstDoubleMatrix *matrix, DMUMPS_STRUC_C 
     return OST_NEW(matrix->ctx, &id->a_loc, most);
 }
 
-/* By the analysis, which knows for each rank what the factorisation is going to take. */
+/* Compares the analysis's forecast for each rank with the memory allowed or free. */
 static OstStatus check_memory(OstMumps *mumps)
 {
     OstContext *ctx = mumps->ctx;
@@ -186,7 +186,7 @@ static OstStatus check_memory(OstMumps *mumps)
         return OST_SUCCESS;
     return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
                      "factoring %lld unknowns would take %.0f MiB, but %s %.0f MiB; use more or larger machines, or an "
-                     "iterative recipe",
+                     "iterative method",
                      (long long)mumps->all, wanted / mebibyte,
                      mumps->memory > 0.0 ? "solver.factor_memory allows" : "there are", allowed / mebibyte);
 }

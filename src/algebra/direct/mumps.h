@@ -7,14 +7,15 @@
 /* MUMPS's factors of a symmetric positive definite matrix of blocks. */
 typedef struct OstMumps OstMumps;
 
-/* Collective. Analyses and factors; nothing of the matrix is kept. Its diagonal blocks are expected to be of order 1
- * (OstScaling). Raises OST_OUT_OF_MEMORY, before it takes any, if the analysis foresees more than `memory` bytes over
- * all ranks, or than the machines have free where `memory` is 0; OST_NOT_CONVERGED if the matrix is singular or
- * indefinite, OST_LIMIT_EXCEEDED, OST_LIBRARY_FAILED with MUMPS's code. */
+/* Collective. Analyses and factors; the matrix is not kept. Its diagonal should be of order 1 (OstScaling). Raises
+ * OST_OUT_OF_MEMORY if the analysis foresees more than `memory` bytes over all ranks (0: more than the machines have
+ * free), before any is allocated; OST_NOT_CONVERGED if the matrix is singular or indefinite; OST_LIMIT_EXCEEDED if
+ * MUMPS cannot number the unknowns; OST_LIBRARY_FAILED with MUMPS's code. */
 OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps);
-/* Collective. The same of S A S^T, or of A where `scaling` is NULL. `shift` (or NULL): where the matrix is singular or
- * indefinite by no more than rounding makes it, the factors are those of the matrix with this added to its diagonal,
- * 5e-13 at most of the order of 1 that it is; 0 where it is definite. */
+
+/* Collective. The same for S A S^T (A, if scaling is NULL). Unless `shift` is NULL, a matrix that only rounding makes
+ * singular or indefinite is factored with *shift, at most 5e-13, added to its diagonal; *shift is 0 if none was needed.
+ */
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
                                    double *shift, OstMumps **mumps);
 void ost_mumps_destroy(OstMumps **mumps);

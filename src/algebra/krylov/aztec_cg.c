@@ -7,21 +7,21 @@
 
 #include <math.h>
 
-/* AztecOO iterates; these are the numbers of a step that the goal and the estimates need. */
+/* AztecOO iterates; the goal and the Lanczos estimate need these numbers of each step. */
 typedef struct AztecRun {
     OstCgRun *run;
     OstGoal *goal;
     int steps;
-    int multiplied;       /* has p been since the last residual? */
+    int multiplied;       /* has A p been computed since the last residual? */
     double energy;        /* this rank's part of p·Ap */
-    double weight;        /* r·z that p was made from */
+    double weight;        /* r·z of this step */
     double weight_before; /* r·z of the step before */
 } AztecRun;
 
 static OstStatus multiply(void *data, const double *p, double *y)
 {
     AztecRun *aztec = data;
-    if (aztec->multiplied) /* after a breakdown AztecOO recomputes a residual that nobody reads */
+    if (aztec->multiplied) /* after a breakdown AztecOO computes a residual that is not used */
         return OST_SUCCESS;
     OST_TRY(ost_cg_multiply(aztec->run, p, y));
     aztec->energy = ost_dot(aztec->run->n, p, y);
@@ -29,7 +29,7 @@ static OstStatus multiply(void *data, const double *p, double *y)
     return OST_SUCCESS;
 }
 
-/* Counts the step that led to the residual r; `norm` is that of the unscaled one. */
+/* Counts the step whose residual is r; `norm` is that of the unscaled residual. */
 static OstStatus count_step(AztecRun *aztec, const double *r, double *norm)
 {
     OstCgRun *run = aztec->run;
@@ -46,7 +46,7 @@ static OstStatus count_step(AztecRun *aztec, const double *r, double *norm)
     return OST_SUCCESS;
 }
 
-/* Called before each step: here is where the goal ends the iteration. */
+/* Called before each step; ends the iteration if the goal says so. */
 static OstStatus precondition(void *data, const double *r, double *z, int *stop)
 {
     AztecRun *aztec = data;

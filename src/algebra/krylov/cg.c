@@ -12,17 +12,17 @@
 #include <stdio.h>
 #include <string.h>
 
-const double ost_cg_rounding = 1e-13; /* some tens of units in the last place */
+const double ost_cg_rounding = 1e-13; /* several hundred units in the last place */
 
-/* What each pass for a hidden displacement takes from the residual, and how many there are at most. */
+/* Where the displacement is hidden, each pass reduces the residual by this factor. */
 static const double pass_gain = 1e-2;
 
 enum { MOST_PASSES = 8 };
 
 typedef struct Cg {
     OstCgRun run;
-    double smallest, largest; /* eigenvalues of M^-1 A, by the coefficients of all first runs */
-    int hidden;               /* is the displacement where the energy, and so the residual, has little to say? */
+    double smallest, largest; /* eigenvalues of M^-1 A, over the Lanczos estimates so far */
+    int hidden;               /* OstEnergyError's: more iterations are needed */
 } Cg;
 
 double ost_cg_square(const OstCgRun *run, const double *residual)
@@ -68,7 +68,7 @@ OstStatus ost_cg_judge_energy(const OstCgRun *run, double energy, OstGoal *goal)
     return OST_SUCCESS;
 }
 
-/* OstInnerSolve: A u = r by way of A' u' = S r, u = S^T u'. */
+/* OstInnerSolve: solves A' u' = S r; u = S^T u'. */
 static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *goal)
 {
     OstCgRun *run = &((Cg *)data)->run;
@@ -90,28 +90,22 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
     return status;
 }
 
-/* What the coefficients say of the spectrum. */
-static void note_spectrum(Cg *cg)
+/* Estimates the spectrum of M^-1 A and the error of u, which stays 0 (unknown) where M is not positive definite. */
+static OstStatus report_error(Cg *cg, const double *f, const double *u, const OstGoal *goal, OstSolveReport *report)
 {
+    OstEnergyError error = {.whole = NAN};
     double smallest, largest;
     ost_lanczos_extremes(&cg->run.lanczos, &smallest, &largest);
     cg->smallest = cg->smallest > 0.0 && smallest > 0.0 ? fmin(cg->smallest, smallest) : fmax(cg->smallest, smallest);
     cg->largest = fmax(cg->largest, largest);
     cg->run.lanczos.count = 0;
     cg->run.runs = 0;
-}
-
-/* That, and so the error of u; nothing where M is not definite. */
-static OstStatus report_error(Cg *cg, const double *f, const double *u, const OstGoal *goal, OstSolveReport *report)
-{
-    OstEnergyError error = {.whole = NAN};
-    note_spectrum(cg);
     if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
         OST_TRY(
             ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
     const int known = !isnan(error.whole) && !isnan(error.rounding);
     report->condition_estimate = cg->smallest > 0.0 ? cg->largest / cg->smallest : 0.0;
-    /* Factors whose steps do not settle are what rounding made them. */
+    /* If corrections by factors do not settle, rounding of the factors is the cause: the drift is its error. */
     report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
     report->energy_error = known ? fmax(error.energy, goal->drift) : 0.0;
     report->rounding_error = known ? fmax(error.rounding, goal->drift) : 0.0;
@@ -120,37 +114,38 @@ static OstStatus report_error(Cg *cg, const double *f, const double *u, const Os
     return OST_SUCCESS;
 }
 
-/* Solves for what is left; u stays where the goal would then be missed. Returns whether more may be had in `on`. */
-static OstStatus go_on(Cg *cg, const double *f, double *u, double *before, OstGoal *goal, int *on)
+/* One pass towards a residual that is pass_gain times smaller. If it misses the goal, u stays as it was. *on: may
+ * another pass gain more? */
+static OstStatus tighten(Cg *cg, const double *f, double *u, double *before, OstGoal *goal, int *on)
 {
-    OstGoal further = *goal;
-    further.target = pass_gain * goal->norm;
+    OstGoal tighter = *goal;
+    tighter.target = pass_gain * goal->norm;
     memcpy(before, u, cg->run.n * sizeof *u);
-    OST_TRY(ost_refine(cg->run.system->matrix, solve_scaled, cg, f, u, &further));
-    *on = further.end == OST_END_REACHED;
-    goal->iterations = further.iterations;
-    if (further.norm > goal->target) {
+    OST_TRY(ost_refine(cg->run.system->matrix, solve_scaled, cg, f, u, &tighter));
+    *on = tighter.end == OST_END_REACHED;
+    goal->iterations = tighter.iterations;
+    if (tighter.norm > goal->target) {
         memcpy(u, before, cg->run.n * sizeof *u);
         *on = 0;
         return OST_SUCCESS;
     }
-    goal->norm = further.norm;
-    goal->compensated = further.compensated;
+    goal->norm = tighter.norm;
+    goal->compensated = tighter.compensated;
     return OST_SUCCESS;
 }
 
-/* The residual asked for is reached, but by the part of the body that has the energy: the displacement of another is
- * hardly solved for, and nor was its part of the spectrum seen. So a smaller residual is asked for, until it is. */
-static OstStatus solve_for_the_hidden(Cg *cg, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+/* The residual is small only because one stiff region dominates it: a soft region has not converged, and its
+ * eigenvalues have not been seen. Tightens the target until the error estimate is below the residual requested. */
+static OstStatus solve_hidden(Cg *cg, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     double *before = NULL;
     OST_TRY(ost_agree(cg->run.ctx, OST_NEW(cg->run.ctx, &before, cg->run.n)));
     OstStatus status = OST_SUCCESS;
-    const double asked = goal->target / goal->start;
+    const double requested = goal->target / goal->start;
     for (int pass = 0, on = 1; pass < MOST_PASSES && on && cg->hidden && status == OST_SUCCESS; pass++) {
-        if (report->error_estimate <= asked)
+        if (report->error_estimate <= requested)
             break;
-        status = go_on(cg, f, u, before, goal, &on);
+        status = tighten(cg, f, u, before, goal, &on);
         if (status == OST_SUCCESS)
             status = report_error(cg, f, u, goal, report);
     }
@@ -173,7 +168,7 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
     OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
     OST_TRY_DONE(report_error(&cg, f, u, goal, report));
     if (cg.hidden && goal->end == OST_END_REACHED)
-        OST_TRY_DONE(solve_for_the_hidden(&cg, f, u, goal, report));
+        OST_TRY_DONE(solve_hidden(&cg, f, u, goal, report));
 done:
     OST_FREE(cg.run.unscaled);
     OST_FREE(cg.run.residual);

@@ -5,12 +5,12 @@
 #include "algebra/krylov/preconditioner.h"
 #include "algebra/krylov/refine.h"
 
-/* Collective. Improves u towards A u = f by preconditioned conjugate gradients (AztecOO's, or our own
- * where the preconditioner is factors), as ost_refine, in the unscaled norm.
- * Fills the report's condition_estimate, from the first run's coefficients, error_estimate, rounding_error and its
- * spread. Raises OST_NOT_CONVERGED where p·Ap is negative beyond rounding: the matrix is indefinite, which no
- * preconditioner mends. Where rounding hides p·Ap, factors are believed, which makes it iterative refinement; others
- * stall. */
+/* Collective. Improves u towards A u = f by iterative refinement (ost_refine), whose inner solves are preconditioned
+ * conjugate gradients: AztecOO's, or our own if the preconditioner is factors. Norms are unscaled. Fills the report's
+ * condition_estimate, error_estimate, energy_error, rounding_error and rounding_spread. Raises OST_NOT_CONVERGED if
+ * p·Ap is negative beyond rounding: the matrix is indefinite, and no other preconditioner helps. Where rounding hides
+ * p·Ap, a step by factors is taken whole (plain iterative refinement); other preconditioners end with OST_END_STALLED.
+ */
 OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const double *f, double *u,
                        OstGoal *goal, OstSolveReport *report);
 

@@ -13,32 +13,31 @@ typedef struct OstCgRun {
     const OstPreconditioner *preconditioner;
     size_t n;           /* unknowns this rank owns */
     double *residual;   /* r', of order 1: preconditioners work in single precision too */
-    double size;        /* what r' was divided by for that, a power of two */
+    double size;        /* the power of two that r' was divided by for that */
     double *unscaled;   /* S^T p, with room for ghosts */
-    OstLanczos lanczos; /* the coefficients of the first run since it was emptied */
-    int runs;           /* since then */
+    OstLanczos lanczos; /* coefficients of the first run since it was last emptied */
+    int runs;           /* runs since then */
 } OstCgRun;
 
-/* Collective. Improves u' (which comes as 0) until the goal is reached or ends otherwise; r' is used up. Raises
- * OST_NOT_CONVERGED where p·Ap is negative beyond rounding: the matrix is indefinite. By AztecOO, with a fixed,
- * symmetric and definite preconditioner: */
+/* Collective. Improves u', which is 0 on entry, until the goal is reached or ended; overwrites r'. Raises
+ * OST_NOT_CONVERGED if p·Ap is negative beyond rounding: the matrix is indefinite. AztecOO's needs a fixed, symmetric
+ * and positive definite preconditioner; the other, our own, the factors of A. */
 OstStatus ost_cg_run_by_aztec(OstCgRun *run, double *u, OstGoal *goal);
-
-/* Our own, where the preconditioner is the factors of A. */
 OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal);
 
-/* Local. y = A' p = S (A (S^T p)), which leaves S^T p in run->unscaled. */
+/* Collective over neighbours. y = A' p = S (A (S^T p)); leaves S^T p in run->unscaled. */
 OstStatus ost_cg_multiply(OstCgRun *run, const double *p, double *y);
 
-/* Local. This rank's part of the square of the unscaled residual that belongs to r', over run->size squared. */
+/* Local. This rank's part of ||r||² / run->size², r being the unscaled residual. */
 double ost_cg_square(const OstCgRun *run, const double *residual);
 
-/* Collective. p·Dp of the p last multiplied, D being A's diagonal: rounding leaves up to ost_cg_rounding times this of
- * p·Ap, and may turn its sign. */
+/* Collective. p·Dp of the p last multiplied, D being the diagonal of A. Up to ost_cg_rounding times this, p·Ap is
+ * rounding, and so may be its sign. */
 OstStatus ost_cg_rounding_scale(const OstCgRun *run, double *scale);
 extern const double ost_cg_rounding;
 
-/* Collective. Ends a run whose p·Ap = energy is not positive: the matrix is indefinite, or singular to rounding. */
+/* Collective. Ends a run in which p·Ap = energy is not positive: raises OST_NOT_CONVERGED if the matrix is indefinite;
+ * ends with OST_END_STALLED if it is singular to rounding. */
 OstStatus ost_cg_judge_energy(const OstCgRun *run, double energy, OstGoal *goal);
 
 #endif

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-void ost_convergence_start(OstConvergence *pace, double norm)
+void ost_convergence_start(OstConvergence *convergence, double norm)
 {
-    pace->count = 0;
-    pace->residual.first = pace->residual.least = norm;
+    convergence->count = 0;
+    convergence->residual.first = convergence->residual.least = norm;
 }
 
 static void follow(OstTrack *track, int count, double norm)
@@ -16,14 +16,14 @@ static void follow(OstTrack *track, int count, double norm)
         track->least = norm;
 }
 
-void ost_convergence_add(OstConvergence *pace, double norm, double weight)
+void ost_convergence_add(OstConvergence *convergence, double norm, double weight)
 {
     const double energy = sqrt(weight);
-    if (pace->count == 0)
-        pace->energy.first = pace->energy.least = energy;
-    follow(&pace->residual, pace->count, norm);
-    follow(&pace->energy, pace->count, energy);
-    pace->count++;
+    if (convergence->count == 0)
+        convergence->energy.first = convergence->energy.least = energy;
+    follow(&convergence->residual, convergence->count, norm);
+    follow(&convergence->energy, convergence->count, energy);
+    convergence->count++;
 }
 
 static double mean(double ratio, int count)
@@ -38,20 +38,22 @@ static double window_factor(const OstTrack *track, int count)
     return mean(track->least / track->before[count % OST_CONVERGENCE_WINDOW], OST_CONVERGENCE_WINDOW);
 }
 
-double ost_convergence_factor(const OstConvergence *pace)
+double ost_convergence_factor(const OstConvergence *convergence)
 {
-    return fmin(window_factor(&pace->residual, pace->count), window_factor(&pace->energy, pace->count));
+    return fmin(window_factor(&convergence->residual, convergence->count),
+                window_factor(&convergence->energy, convergence->count));
 }
 
-double ost_convergence_whole_factor(const OstConvergence *pace)
+double ost_convergence_whole_factor(const OstConvergence *convergence)
 {
-    return pace->count > 0 ? mean(pace->residual.least / pace->residual.first, pace->count) : 1.0;
+    return convergence->count > 0 ? mean(convergence->residual.least / convergence->residual.first, convergence->count)
+                                  : 1.0;
 }
 
-double ost_convergence_remaining(const OstConvergence *pace, double target)
+double ost_convergence_remaining(const OstConvergence *convergence, double target)
 {
-    if (pace->count < 2 * OST_CONVERGENCE_WINDOW || pace->residual.least <= target)
+    if (convergence->count < 2 * OST_CONVERGENCE_WINDOW || convergence->residual.least <= target)
         return 0.0;
-    const double gain = log(ost_convergence_factor(pace));
-    return gain < 0.0 ? log(target / pace->residual.least) / gain : INFINITY;
+    const double gain = log(ost_convergence_factor(convergence));
+    return gain < 0.0 ? log(target / convergence->residual.least) / gain : INFINITY;
 }

@@ -4,30 +4,30 @@
 
 enum { OST_CONVERGENCE_WINDOW = 20 };
 
-/* A norm that goes up and down in conjugate gradients: the least one so far is what counts. */
+/* A norm of the residual. In conjugate gradients it goes up and down, so the smallest so far is what counts. */
 typedef struct OstTrack {
     double first, least;
-    double before[OST_CONVERGENCE_WINDOW]; /* the least ones of the last iterations */
+    double before[OST_CONVERGENCE_WINDOW]; /* `least` before each of the last iterations */
 } OstTrack;
 
-/* How a residual falls, in the norm that is asked for and in that of the preconditioner, sqrt(r·z): while the first
- * still rises (thin bodies, uneven stiffness), the second, close to the norm of the energy, may long be falling. */
+/* How the residual falls, in the 2-norm and in the norm of the preconditioner, sqrt(r·z). The second is close to the
+ * energy norm of the error and may fall while the first still rises (thin bodies, uneven stiffness). */
 typedef struct OstConvergence {
     int count; /* iterations so far */
     OstTrack residual, energy;
 } OstConvergence;
 
 /* Local, all. `weight` is r·z. */
-void ost_convergence_start(OstConvergence *pace, double norm);
-void ost_convergence_add(OstConvergence *pace, double norm, double weight);
+void ost_convergence_start(OstConvergence *convergence, double norm);
+void ost_convergence_add(OstConvergence *convergence, double norm, double weight);
 
-/* By what an iteration of the last window multiplied the faster of the two; and the residual since the start (geometric
- * means). */
-double ost_convergence_factor(const OstConvergence *pace);
-double ost_convergence_whole_factor(const OstConvergence *pace);
+/* The convergence rate, by which an iteration multiplies the norm (geometric mean): over the last window and the norm
+ * that falls faster; over all iterations and the 2-norm. */
+double ost_convergence_factor(const OstConvergence *convergence);
+double ost_convergence_whole_factor(const OstConvergence *convergence);
 
-/* How many more iterations it takes to reach `target` at the pace of the last window: INFINITY if there is none, 0 if
- * it is too early to say (two windows). */
-double ost_convergence_remaining(const OstConvergence *pace, double target);
+/* Iterations still needed to reach `target` at the convergence rate of the last window: INFINITY if the norm does not
+ * fall, 0 before two windows are complete. */
+double ost_convergence_remaining(const OstConvergence *convergence, double target);
 
 #endif

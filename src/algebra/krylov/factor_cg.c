@@ -8,9 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Conjugate gradients preconditioned by factors of A itself: one to three steps, most of them near rounding. AztecOO's
- * do not serve here. Where rounding hides p·Ap they break down, while the step that the factors give is right all the
- * same; and residuals summed in twice the precision decide when u is good enough. */
+/* Conjugate gradients preconditioned by factors of A itself: one to three steps, most of them close to rounding.
+ * AztecOO's would break down where rounding hides p·Ap, although the step by the factors is right. */
 typedef struct FactorRun {
     OstCgRun *run;
     OstGoal *goal;
@@ -18,7 +17,7 @@ typedef struct FactorRun {
     double *product;   /* A' p */
     double *corrected; /* z */
     double weight;     /* r·z of the last direction */
-    int blind;         /* rounding hides p·Ap: p does not lead to a next direction */
+    int blind;         /* rounding hides p·Ap: there is no next direction */
 } FactorRun;
 
 /* z = M^-1 r, and the next direction p = z + beta p. */
@@ -37,7 +36,7 @@ static OstStatus next_direction(FactorRun *work, int first, double *beta)
     return OST_SUCCESS;
 }
 
-/* Is p·Ap no more than rounding, or rounding so near that the caller finds the step? */
+/* Is p·Ap mere rounding? With compensated residuals the caller finds the step length. */
 static OstStatus look_for_rounding(FactorRun *work, double energy)
 {
     double scale;
@@ -49,7 +48,7 @@ static OstStatus look_for_rounding(FactorRun *work, double energy)
     return OST_SUCCESS;
 }
 
-/* The step along p that leaves the least energy; all of p, where the energy is hidden. */
+/* The step along p that minimises the energy; all of p where rounding hides p·Ap. */
 static OstStatus step(FactorRun *work, double *u, double *alpha)
 {
     OstCgRun *run = work->run;

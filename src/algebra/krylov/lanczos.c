@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-/* More steps would not change the estimate, and a generous iteration limit should not cost memory. */
+/* More steps would not change the estimate; a high iteration limit should cost no memory. */
 enum { MOST_STEPS = 10000 };
 
 OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos)
@@ -46,7 +46,7 @@ static double off_diagonal_square(const OstLanczos *lanczos, int k)
     return lanczos->beta[k + 1] / (lanczos->alpha[k] * lanczos->alpha[k]);
 }
 
-/* Sturm's count: how many eigenvalues are below x. */
+/* The number of eigenvalues below x (Sturm sequence). */
 static int count_below(const OstLanczos *lanczos, double x)
 {
     int count = 0;
@@ -60,7 +60,7 @@ static int count_below(const OstLanczos *lanczos, double x)
     return count;
 }
 
-/* The place where the count first exceeds `below`. */
+/* Eigenvalue number `below`, counted from 0. */
 static double bisect(const OstLanczos *lanczos, int below, double high)
 {
     double low = 0.0;
@@ -74,7 +74,7 @@ static double bisect(const OstLanczos *lanczos, int below, double high)
     return high;
 }
 
-/* Gershgorin's bound on the largest. */
+/* Gershgorin's bound on the largest eigenvalue. */
 static double upper_bound(const OstLanczos *lanczos)
 {
     const int n = lanczos->count;

@@ -4,12 +4,12 @@
 
 #include "orthostat/context.h"
 
-/* The coefficients of a run of conjugate gradients, which hold the Lanczos matrix of the preconditioned operator. */
+/* The coefficients of a run of conjugate gradients, which define the Lanczos matrix of the preconditioned operator. */
 typedef struct OstLanczos {
     int room;
     int count;
     double *alpha; /* step lengths */
-    double *beta;  /* beta[k] led to the direction of step k; beta[0] is not used */
+    double *beta;  /* beta[k] made the direction of step k; beta[0] is not used */
 } OstLanczos;
 
 /* Local. Room for at most `steps` steps; later ones are not kept. */

@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-/* A row of smoothed aggregates of tets has some 55 blocks, of which the diagonal and half of the others are summed.
- * Room for these from the start is not touched before it is used; growing would be, twice over. */
+/* A coarse row of tets has about 55 blocks, of which the diagonal one and half of the others are summed. Room for these
+ * is reserved at once: pages that are not used cost no memory, while growing would copy all. */
 enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
 
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum)
@@ -77,7 +77,7 @@ static OstGlobal number_of(const OstBlockSum *sum, OstLocal node)
     return node < sum->owned ? sum->first + node : sum->ghost->key[node - sum->owned];
 }
 
-/* What was summed in the rows of the halo's ghosts. */
+/* The blocks summed in the rows of ghosts. */
 static OstStatus pack(const OstBlockSum *sum, OstFetchedRows *out)
 {
     const OstLocal entries = sum->entry->count;
@@ -136,12 +136,12 @@ done:
     return status;
 }
 
-/* The rows of the matrix as lists of blocks: entry e, or ~e where it is the mirror image of one. */
+/* The rows of the matrix as lists of blocks: entry e, or ~e for the transpose of entry e. */
 typedef struct Listing {
-    OstLocal *start;    /* owned + 2, the last one scratch; becomes the matrix' row_start */
+    OstLocal *start;    /* owned + 2, the last one scratch; becomes the matrix's row_start */
     OstLocal *block;    /* start[owned] */
     OstLocal *renumber; /* local number here -> column of the matrix */
-    OstGlobal *ghost;   /* global numbers of the matrix' ghosts, ascending */
+    OstGlobal *ghost;   /* global numbers of the matrix's ghosts, ascending */
     OstLocal columns;
 } Listing;
 
@@ -170,7 +170,7 @@ static OstStatus list_rows(const OstBlockSum *sum, Listing *list)
     return OST_SUCCESS;
 }
 
-/* Ghosts that no row of the matrix needs are dropped, the others sorted. */
+/* Drops the ghosts that no row of the matrix needs and sorts the others. */
 static OstStatus number_columns(const OstBlockSum *sum, Listing *list)
 {
     const OstLocal ghosts = sum->ghost->count;
@@ -193,7 +193,7 @@ static OstStatus number_columns(const OstBlockSum *sum, Listing *list)
     return OST_SUCCESS;
 }
 
-/* Puts a row's blocks in the order of their columns, by insertion: rows are short. */
+/* Sorts a row's blocks by column; by insertion, as rows are short. */
 static void sort_row(const OstBlockSum *sum, const Listing *list, OstLocal i, OstLocal *column)
 {
     for (OstLocal k = list->start[i]; k < list->start[i + 1]; k++) {

@@ -6,40 +6,39 @@
 #include "algebra/level/simd.h"
 #include "core/index_map.h"
 
-/* A coarse matrix in the making: 6 × 6 blocks that are found by row and column and added to. Rows and columns are this
- * rank's coarse nodes, then those of other ranks in the order in which they were met. The sum over the ranks is
- * symmetric: of what couples this rank's own nodes only what is on the diagonal or right of it is summed. */
+/* A coarse matrix under construction: 6 × 6 blocks, found by row and column, to which contributions are added. Rows and
+ * columns are this rank's coarse nodes, then those of other ranks in the order in which they appear. The matrix is
+ * symmetric: of the blocks between this rank's own nodes only those on and right of the diagonal are summed. */
 typedef struct OstBlockSum {
     OstContext *ctx;
     OstGlobal first; /* global number of this rank's first node */
-    OstLocal owned;  /* its nodes */
+    OstLocal owned;  /* number of its nodes */
     OstIndex *ghost; /* other ranks' nodes, by global number */
     OstIndex *entry; /* the blocks, by row and column */
     double *value;   /* room × OST_MODES × OST_MODES: the blocks, row by row */
     OstLocal room;
 } OstBlockSum;
 
-/* Local. */
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum);
 void ost_block_sum_destroy(OstBlockSum **sum);
 
-/* Local. The local number of a node. */
+/* Local. The local number of a node, a new one if it has not appeared before. */
 OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *node);
 
-/* Local. Whether this block is left to its mirror image. */
+/* Local. Is this block left out, as its transpose is summed? */
 static inline int ost_block_sum_is_mirrored(const OstBlockSum *sum, OstLocal row, OstLocal column)
 {
     return column < row && row < sum->owned;
 }
 
-/* Local. A block, row by row, zeros if it is new; good until the next block is asked for. */
+/* Local. A block, row by row; zeros if it is new. The pointer is valid until the next call. */
 OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block);
 
-/* Collective. Sends what was summed in other ranks' rows to their owners, which add it. The halo is over the first
- * columns here: this rank's nodes and the ghosts that were met first. */
+/* Collective. Sends the blocks of other ranks' rows to their owners, which add them. The halo is over this rank's nodes
+ * and the ghosts that appeared first. */
 OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo);
 
-/* Collective. The matrix: this rank's rows, both halves, columns ascending. */
+/* Collective. The matrix: this rank's rows with both triangles, columns ascending. */
 OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstDoubleMatrix **matrix);
 
 #endif

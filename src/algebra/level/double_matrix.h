@@ -5,14 +5,14 @@
 #include "algebra/level/simd.h"
 #include "algebra/matrix/scaling.h"
 
-/* A level's matrix in double precision, as the next level is made of it. Rows are complete; columns are local numbers,
- * owned ones first, then ghosts. The finest one is the stiffness in scaled unknowns, whose blocks are made as they are
- * asked for: a copy of its own would be a fifth of a solver's memory. */
+/* A level's matrix in double precision, from which the next level is made. Rows are complete; columns are local
+ * numbers, owned ones first, then ghosts. On the finest level it is a view of the stiffness, whose blocks are scaled on
+ * access: a copy would take a fifth of the solver's memory. */
 typedef struct OstDoubleMatrix {
     OstContext *ctx;
-    int size;                  /* of a block, which is kept row by row: 3 or 6 */
-    int borrowed;              /* the arrays and the halo are a block matrix' own */
-    const OstScaling *scaling; /* of that, or NULL; the caller's */
+    int size;                  /* of a block (row-major): 3 or 6 */
+    int borrowed;              /* arrays and halo belong to a block matrix */
+    const OstScaling *scaling; /* of that block matrix, or NULL; the caller's */
     OstLocal rows, columns;
     OstLocal *row_start, *column; /* columns ascend within a row */
     double *value;
@@ -23,8 +23,8 @@ typedef struct OstDoubleMatrix {
 OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstDoubleMatrix **source);
 void ost_double_matrix_destroy(OstDoubleMatrix **source);
 
-/* Local. Block k, one of row i: where it is kept, or scaled in `room`. `size` is the matrix', as a constant
- * where it is to be quick. */
+/* Local. Block k, in row i: a pointer to it, or its scaled copy in `room`. `size` is the matrix's, passed as a constant
+ * so that the compiler unrolls. */
 OST_UNROLLED const double *ost_double_matrix_block(const OstDoubleMatrix *matrix, int size, OstLocal i, OstLocal k,
                                                    double room[9])
 {
@@ -35,11 +35,11 @@ OST_UNROLLED const double *ost_double_matrix_block(const OstDoubleMatrix *matrix
     return room;
 }
 
-/* Local. The block on the diagonal of a row, of a matrix that is not scaled. */
+/* Local. The diagonal block of a row; not for a scaled view. */
 double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row);
 
-/* Local. Puts 1 on the diagonal where it is not positive, so that an unknown that the prolongator does not reach (a
- * mode its aggregate cannot show) does no harm. */
+/* Local. Sets diagonal entries that are not positive to 1. They belong to unknowns that the prolongator does not reach:
+ * a mode that is linearly dependent on its aggregate. */
 void ost_double_matrix_mend_diagonal(OstDoubleMatrix *matrix);
 
 #endif

@@ -37,7 +37,7 @@ OstStatus ost_fetched_rows_reserve(OstFetchedRows *rows)
     return OST_NEW(rows->ctx, &rows->value, blocks * rows->block_bytes + PADDING);
 }
 
-/* One array's exchange: what goes to and comes from each neighbour, in items of `bytes`. */
+/* The exchange of one array: what is sent to and received from each neighbour, in items of `bytes`. */
 typedef struct Parcel {
     const OstLocal *out_start, *in_start; /* neighbours + 1 */
     size_t bytes;
@@ -86,7 +86,7 @@ static OstStatus block_starts(const OstHalo *halo, const OstLocal *row_start, co
     return OST_SUCCESS;
 }
 
-/* The lengths of the rows, which say how much else there is to come. */
+/* Lengths of the rows: they say how many blocks follow. */
 static OstStatus exchange_lengths(OstHalo *halo, const OstLocal *out_row, const OstLocal *in_row,
                                   const OstFetchedRows *out, OstFetchedRows *in)
 {

@@ -10,18 +10,18 @@
 
 enum { WIDTH = OST_MODES };
 
-/* The product in the making. */
+/* The product under construction. */
 typedef struct Product {
     OstContext *ctx;
     const OstDoubleMatrix *a;
     const OstSmootherBlocks *blocks;
     const OstProlongator *p;
-    OstBlockSum *sum;     /* numbers coarse nodes as the prolongator does, then others as they are met */
+    OstBlockSum *sum;     /* numbers coarse nodes as the prolongator does, then others as they appear */
     OstFetchedRows *far;  /* the rows of P of A's ghosts */
     OstLocal *far_column; /* their columns */
     double *p_column;     /* one column of the block's rows of P */
-    /* the rows of A P of the block at hand: */
-    OstLocal *place, *column, count; /* place: coarse nodes; where each is among the `count` columns, or -1 */
+    /* the rows of A P of the current block: */
+    OstLocal *place, *column, count; /* place: of each coarse node among the `count` columns, or -1 */
     OstDouble8 *rows;                /* column by column, each `height` high */
     size_t height, room;             /* room: of `rows` */
 } Product;
@@ -37,7 +37,7 @@ static void destroy_product(Product *product)
     OST_FREE(product->rows);
 }
 
-/* The sum meets the prolongator's columns first; `number` becomes their global numbers. */
+/* The prolongator's columns appear in the sum first, in their order. `number`: their global numbers. */
 static OstStatus number_columns(Product *product, OstGlobal **number)
 {
     const OstProlongator *p = product->p;
@@ -52,7 +52,7 @@ static OstStatus number_columns(Product *product, OstGlobal **number)
     return status;
 }
 
-/* The rows of P that A's ghosts stand for. */
+/* The rows of P that other ranks need for their ghosts. */
 static OstStatus pack_rows(const Product *product, const OstGlobal *number, OstFetchedRows *out)
 {
     const OstProlongator *p = product->p;
@@ -97,7 +97,7 @@ done:
     return status;
 }
 
-/* A column of zeros for a coarse node. */
+/* Appends a column of zeros for a coarse node. */
 static OstStatus add_column(Product *product, OstLocal node)
 {
     const size_t used = (size_t)product->count * product->height;
@@ -161,7 +161,7 @@ OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k
     }
 }
 
-/* block += pᵀ × a column of A P */
+/* block += pᵀ × (a column of A P) */
 static void add_product(size_t height, const double *p, const OstDouble8 *column, double *block)
 {
     OstDouble8 sum[WIDTH] = {{0}};
@@ -172,7 +172,7 @@ static void add_product(size_t height, const double *p, const OstDouble8 *column
         ost_add_row6(&sum[c], block + WIDTH * c);
 }
 
-/* Adds the block's rows of Pᵀ, times those of A P, to the product. */
+/* Adds (the block's rows of P)ᵀ × (those of A P) to the product. */
 OST_UNROLLED OstStatus multiply_block(Product *product, int size, OstLocal b)
 {
     const OstSmootherBlocks *blocks = product->blocks;

@@ -6,9 +6,9 @@
 #include "algebra/level/prolongator.h"
 #include "algebra/level/smoother_blocks.h"
 
-/* Collective. Pᵀ A P, of the prolongator as it is kept, in single precision, but summed in double precision: positive
- * semidefinite to rounding. The rows of a block, of those that smoothed P, have the same columns: their product is
- * summed as one. `first_coarse` is the global number of this rank's first coarse node. */
+/* Collective. The Galerkin product Pᵀ A P, summed in double precision with the single-precision P, so that it is
+ * positive semidefinite to rounding. All rows of P in one smoother block have the same columns, so the product is
+ * formed block by block. `first_coarse` is the global number of this rank's first coarse node. */
 OstStatus ost_galerkin_create(const OstDoubleMatrix *matrix, const OstSmootherBlocks *blocks,
                               const OstProlongator *prolongator, OstGlobal first_coarse, OstDoubleMatrix **coarse);
 

@@ -93,8 +93,7 @@ OstStatus ost_level_vector_create(OstContext *ctx, int size, OstLocal columns, d
     return OST_NEW(ctx, vector, (size_t)size * (size_t)columns + OST_PADDING);
 }
 
-/* Block rows 0 .. rows - 1 with blocks of 3 × 3: each block right of the diagonal serves its row and, transposed, the
- * row of its column. */
+/* 3 × 3 blocks. Each block right of the diagonal acts on its row and, transposed, on the row of its column. */
 static void add3(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
@@ -127,7 +126,7 @@ static void add3(const OstLevelMatrix *matrix, double scale, const double *restr
     }
 }
 
-/* The same with blocks of 6 × 6. */
+/* The same with 6 × 6 blocks. */
 static void add6(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {

@@ -5,33 +5,33 @@
 #include "algebra/level/double_matrix.h"
 #include "algebra/trilinos/exchange.h"
 
-/* A level's matrix as the cycle uses it: symmetric, so that of its own part only what lies right of the diagonal is
- * kept, and in single precision: a quarter of the traffic of what is only a preconditioner. Vectors are in double
- * precision. */
+/* A level's matrix as the multigrid cycle uses it. Between owned nodes only the blocks on and right of the diagonal are
+ * stored, as the matrix is symmetric, and in single precision: a quarter of the memory traffic, and enough for a
+ * preconditioner. Vectors are in double precision. */
 typedef struct OstLevelMatrix {
     OstContext *ctx;
     int size; /* of a block: 3 or 6 */
     OstLocal rows, columns;
     OstLocal *row_start;   /* rows + 1 */
-    OstLocal *own_end;     /* rows: where a row's owned columns end and its ghosts begin */
+    OstLocal *own_end;     /* rows: where a row's owned columns end and the ghosts begin */
     OstLocal *column;      /* row_start[rows], ascending within a row, > row */
     float *diagonal;       /* rows × size × size, row by row, and padding */
     float *value;          /* row_start[rows] × size × size, row by row, and padding */
-    OstExchange *exchange; /* of ghosts of x */
-    OstGlobal nonzeros;    /* of this rank's rows, both halves */
+    OstExchange *exchange; /* of the ghosts of x */
+    OstGlobal nonzeros;    /* of this rank's rows, both triangles */
 } OstLevelMatrix;
 
 /* Collective. The source is not kept. */
 OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix **matrix);
 void ost_level_matrix_destroy(OstLevelMatrix **matrix);
 
-/* Numbers this rank owns of a vector. */
+/* Local. Length of this rank's owned part of a vector. */
 static inline size_t ost_level_unknowns(const OstLevelMatrix *matrix)
 {
     return (size_t)matrix->size * (size_t)matrix->rows;
 }
 
-/* Local. A vector of zeros with room for `columns` nodes and the padding that the products want. */
+/* Local. A level vector: zeros for `columns` nodes, and the padding that the products need. */
 OstStatus ost_level_vector_create(OstContext *ctx, int size, OstLocal columns, double **vector);
 
 /* Collective over neighbours. y += scale A x; the ghosts of x are filled here. Both are level vectors: x over the

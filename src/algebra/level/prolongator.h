@@ -5,16 +5,16 @@
 #include "algebra/level/simd.h"
 #include "algebra/trilinos/exchange.h"
 
-/* From a coarse level to the next finer one, in single precision. Columns are coarse nodes: this rank's, then those of
- * others that its rows reach, by ascending global number. */
+/* The prolongator P from a coarse level to the next finer one, in single precision. Columns are coarse nodes: this
+ * rank's, then those of other ranks in its rows, by ascending global number. */
 typedef struct OstProlongator {
     OstContext *ctx;
-    int height; /* numbers of a fine node: 3 or 6; a coarse one has OST_MODES */
+    int height; /* unknowns of a fine node: 3 or 6; a coarse node has OST_MODES */
     OstLocal rows, columns;
     OstLocal *row_start, *column; /* columns ascend within a row */
     float *value;                 /* row_start[rows] × height × OST_MODES, row by row, and padding */
     OstHalo *halo;                /* over columns */
-    OstExchange *exchange;        /* of coarse vectors along it */
+    OstExchange *exchange;        /* of coarse vectors along that halo */
 } OstProlongator;
 
 void ost_prolongator_destroy(OstProlongator **prolongator);
@@ -22,7 +22,7 @@ void ost_prolongator_destroy(OstProlongator **prolongator);
 /* Collective over neighbours. x += P c; the ghosts of c are filled here. Both are level vectors. */
 OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x);
 
-/* Collective over neighbours. c = Pᵀ x; c has room for the columns, and is right in its owned part. */
+/* Collective over neighbours. c = Pᵀ x; c has room for all columns; its owned part is the result. */
 OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c);
 
 #endif

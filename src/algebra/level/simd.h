@@ -6,9 +6,9 @@
 #include <immintrin.h>
 #endif
 
-/* Products of small blocks in registers, by the compiler's vector types (GCC and Clang; the processor need not have
- * registers that wide). Rows of three are read as four numbers and rows of six as eight: all arrays that are read so
- * are padded at their end, and what the lanes behind a row hold means nothing. */
+/* Products of small blocks by the compiler's vector types (GCC and Clang; the processor need not have registers that
+ * wide). Rows of three numbers are read as vectors of four, rows of six as vectors of eight; the numbers after the row
+ * are not used. So all arrays that are read this way are padded at their end. */
 typedef double OstDouble2 __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double OstDouble4 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double OstDouble8 __attribute__((vector_size(64), aligned(8), may_alias));
@@ -18,10 +18,10 @@ typedef float OstFloat8 __attribute__((vector_size(32), aligned(4), may_alias));
 /* A coarse node carries the six modes of its aggregate: coarse rows are six numbers wide. */
 enum { OST_MODES = 6, OST_PADDING = 8 };
 
-/* Inlined where `size` or `height` is a constant, so that the loops over it unroll. */
+/* Inlined with constant `size` or `height`, so that the loops over it unroll. */
 #define OST_UNROLLED static inline __attribute__((always_inline))
 
-/* Rows of three or six numbers, as they are read. GCC 12 does the general conversion in five steps. */
+/* Load a row as doubles. Intrinsics, as GCC 12 takes five instructions for the general conversion. */
 #ifdef __AVX__
 #define OST_LOAD_FLOAT4(p) ((OstDouble4)_mm256_cvtps_pd(_mm_loadu_ps(p)))
 #else
@@ -35,8 +35,8 @@ enum { OST_MODES = 6, OST_PADDING = 8 };
 #define OST_LOAD4(p) (*(const OstDouble4 *)(p))
 #define OST_LOAD8(p) (*(const OstDouble8 *)(p))
 
-/* *target += v in a row of three or six, and nothing behind it: a store of whole registers would reach into the next
- * row, and make a processor that loads that row next wait for it. */
+/* *target += v, a row of three or six, and nothing after it: storing a whole register would overlap the next row and
+ * stall the load of that row. */
 OST_UNROLLED void ost_add_row3(const OstDouble4 *v, double *target)
 {
     *(OstDouble2 *)target += __builtin_shufflevector(*v, *v, 0, 1);

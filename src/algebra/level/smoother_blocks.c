@@ -22,7 +22,7 @@ void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
     OST_FREE(*blocks);
 }
 
-/* One block per aggregate; those too large for a dense inverse are cut. */
+/* One block per aggregate; those too large for a dense inverse are split. */
 static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstSmootherBlocks *blocks)
 {
     OstContext *ctx = blocks->ctx;
@@ -46,7 +46,7 @@ done:
     return status;
 }
 
-/* Puts a 3 × 3 or 6 × 6 block in its place, and its mirror image. */
+/* Stores a 3 × 3 or 6 × 6 block and its transpose. */
 static void spread(int size, const float *value, int side, double *lower, double *upper)
 {
     for (int r = 0; r < size; r++)
@@ -54,7 +54,7 @@ static void spread(int size, const float *value, int side, double *lower, double
             lower[c * side + r] = upper[r * side + c] = (double)value[r * size + c];
 }
 
-/* The block's part of the matrix, dense; `place` is each node's place in its block and `of_node` its block. */
+/* The diagonal block b of the matrix as a dense one; of_node: each node's block; place: its place there. */
 static void gather_block(const OstLevelMatrix *matrix, const OstSmootherBlocks *blocks, OstLocal b,
                          const OstLocal *of_node, const OstLocal *place, double *dense)
 {
@@ -75,7 +75,9 @@ static void gather_block(const OstLevelMatrix *matrix, const OstSmootherBlocks *
     }
 }
 
-/* inverse = A^-1 by way of the Cholesky factor, which replaces A; returns 0, or the pivot that is not positive. */
+/* inverse = A^-1 by the Cholesky factor, which overwrites A; returns 0, or the number of the pivot that is not
+ * positive.
+ */
 static int invert_dense(int side, double *a, double *inverse)
 {
     const int pivot = ost_cholesky(side, a);
@@ -102,7 +104,7 @@ static int invert_dense(int side, double *a, double *inverse)
     return 0;
 }
 
-/* Inverts only the `size` × `size` blocks on the diagonal of `a`, or of those that fail only their diagonals. */
+/* Inverts the diagonal blocks of single nodes instead; where one is not positive definite, its diagonal. */
 static void invert_nodes(int size, int side, const double *a, double *inverse)
 {
     memset(inverse, 0, (size_t)(side * side) * sizeof *inverse);
@@ -183,7 +185,8 @@ done:
     return status;
 }
 
-/* Rows offset[0 .. count - 1] and the seven behind each of value × in; columns by twos, for what they wait for. */
+/* out = value × in for `count` strips of eight rows that start at offset[]. Even and odd columns are summed apart, as
+ * two independent sums hide the latency of the additions. */
 OST_UNROLLED void multiply_strips(int count, int side, const float *value, const int *offset, const float *in,
                                   float *out)
 {
@@ -200,8 +203,8 @@ OST_UNROLLED void multiply_strips(int count, int side, const float *value, const
         *(OstFloat8 *)(out + offset[s]) = even[s] + odd[s];
 }
 
-/* out = value × in, in strips of eight rows of which the last two overlap; what is behind out[side - 1] is written over
- * if there are fewer than eight. */
+/* out = value × in, in strips of eight rows of which the last two may overlap. With fewer than eight rows, out is
+ * overwritten up to out[7]. */
 static void multiply_dense(int side, const float *value, const float *in, float *out)
 {
     for (int from = 0; from < side; from += 8 * MOST_STRIPS) {

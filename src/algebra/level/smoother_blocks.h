@@ -5,10 +5,10 @@
 #include "algebra/aggregation/graph.h"
 #include "algebra/level/level_matrix.h"
 
-/* Block Jacobi: the inverses of a matrix' diagonal blocks over groups of nodes that do not overlap. */
+/* Block Jacobi: the inverses B^-1 of a matrix's diagonal blocks, over groups of nodes that do not overlap. */
 typedef struct OstSmootherBlocks {
     OstContext *ctx;
-    int size; /* numbers per node */
+    int size; /* unknowns per node */
     OstLocal count;
     OstLocal *node_start; /* count + 1 */
     OstLocal *node;       /* nodes, block by block */
@@ -16,19 +16,18 @@ typedef struct OstSmootherBlocks {
     float *value;         /* dense symmetric inverses, and padding */
 } OstSmootherBlocks;
 
-/* Local. Blocks of about `target` nodes, round in the graph's metric. A block that is not positive definite falls back
- * to its nodes alone, and these to their diagonal. */
+/* Local. Blocks of about `target` nodes, round in the graph's metric. If a block is not positive definite, its nodes'
+ * blocks are inverted instead, and of those that are not either, the diagonal. */
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                      OstSmootherBlocks **blocks);
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 
-/* A step of an iteration: direction = keep direction + add B^-1 r, then x += direction. */
+/* One step of an iteration: direction = keep × direction + add × B^-1 r, then x += direction. */
 typedef struct OstBlockStep {
     double keep, add;
     double *direction, *x;
 } OstBlockStep;
 
-/* Local. */
 void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r);
 
 #endif

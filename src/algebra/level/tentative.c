@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/level/tentative.h"
 
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A mode of which the others leave less than this is no mode of its own. */
+/* A mode is linearly dependent on the others if orthogonalisation leaves less than this of it. */
 static const double dependent = 1e-10;
 
 void ost_tentative_destroy(OstTentative **tentative)
@@ -20,37 +21,28 @@ void ost_tentative_destroy(OstTentative **tentative)
     OST_FREE(*tentative);
 }
 
-static double dot(size_t n, const double *restrict a, const double *restrict b)
-{
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-/* Takes what q shares with the orthonormal vectors before it out of it; twice is enough (Kahan, in Parlett 1980). */
+/* Makes q orthogonal to the orthonormal vectors before it; two passes are enough (Kahan, in Parlett 1980). */
 static void orthogonalise(size_t n, int before, const double *basis, double *restrict q, double *r)
 {
     for (int pass = 0; pass < 2; pass++)
         for (int d = 0; d < before; d++) {
             const double *restrict other = basis + (size_t)d * n;
-            const double share = dot(n, other, q);
+            const double share = ost_dot(n, other, q);
             r[d] += share;
             for (size_t i = 0; i < n; i++)
                 q[i] -= share * other[i];
         }
 }
 
-/* Gram and Schmidt: basis = Q R of n × OST_MODES; column c of R is r + OST_MODES c. */
+/* Gram-Schmidt: basis = Q R, n × OST_MODES; Q overwrites basis, column c of R is r + OST_MODES c. */
 static void factor_modes(size_t n, double *basis, double *r)
 {
     memset(r, 0, OST_MODES * OST_MODES * sizeof *r);
     for (int c = 0; c < OST_MODES; c++) {
         double *q = basis + (size_t)c * n;
-        const double whole = sqrt(dot(n, q, q));
+        const double whole = sqrt(ost_dot(n, q, q));
         orthogonalise(n, c, basis, q, r + OST_MODES * c);
-        const double left = sqrt(dot(n, q, q));
+        const double left = sqrt(ost_dot(n, q, q));
         const double factor = left > dependent * whole ? 1.0 / left : 0.0;
         r[OST_MODES * c + c] = factor > 0.0 ? left : 0.0;
         for (size_t i = 0; i < n; i++)
@@ -58,7 +50,7 @@ static void factor_modes(size_t n, double *basis, double *r)
     }
 }
 
-/* The aggregate of nodes member[0 .. count - 1] becomes coarse node a; basis is scratch. */
+/* Makes coarse node a of the aggregate with nodes member[0 .. count - 1]; `basis` is scratch. */
 static void make_coarse_node(const OstDoubleMatrix *matrix, const double *modes, OstLocal a, OstLocal count,
                              const OstLocal *member, double *basis, OstTentative *tentative)
 {

@@ -6,8 +6,8 @@
 #include "algebra/level/double_matrix.h"
 #include "algebra/level/simd.h"
 
-/* The tentative prolongator: each aggregate's part of the near-null space, made orthonormal, is the basis of its coarse
- * node. Nodes of other ranks are known as well. */
+/* The tentative prolongator: the near-null space restricted to an aggregate, made orthonormal, is the basis of its
+ * coarse node. Ghost nodes are included. */
 typedef struct OstTentative {
     OstContext *ctx;
     OstLocal coarse_nodes;  /* of this rank */
@@ -17,8 +17,8 @@ typedef struct OstTentative {
     double *modes; /* near-null space of the coarse level: OST_MODES columns of OST_MODES × coarse_nodes */
 } OstTentative;
 
-/* Collective. `modes`: near-null space of the fine level, OST_MODES columns of size × rows. A mode that an aggregate
- * cannot tell from the others gets a basis vector of zeros, and the coarse modes' part there is 0. */
+/* Collective. `modes`: near-null space of the fine level, OST_MODES columns of size × rows. A mode that is
+ * linearly dependent on an aggregate gets a basis vector of zeros, and the coarse modes are 0 there. */
 OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
                                OstTentative **tentative);
 void ost_tentative_destroy(OstTentative **tentative);

@@ -12,7 +12,7 @@ typedef struct OstBlockMatrix {
     OstLocal columns;    /* rows + ghosts */
     OstGlobal first_row; /* global number of row 0 */
     OstGlobal global_rows;
-    OstGlobal *label;    /* columns: a number of each node's own, the same on any ranks */
+    OstGlobal *label;    /* columns: each node's label, the same on any number of ranks */
     OstLocal *row_start; /* rows + 1 */
     OstLocal *column;    /* row_start[rows] */
     OstLocal *diagonal;  /* rows: where each diagonal block is */
@@ -22,11 +22,11 @@ typedef struct OstBlockMatrix {
 
 void ost_block_matrix_destroy(OstBlockMatrix **matrix);
 
-/* Collective over neighbours. y = A x; x has room for 3 × columns numbers, and its ghosts are filled here; y 3 × rows.
+/* Collective over neighbours. y = A x; x has room for 3 × columns numbers, its ghosts are filled here; y has 3 × rows.
  */
 OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y);
 
-/* Local. The same where x holds its ghosts' values already. */
+/* Local. The same; the ghosts of x are already set. */
 void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *x, double *y);
 
 #endif

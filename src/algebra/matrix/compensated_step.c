@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/compensated_step.h"
 
-#include "algebra/matrix/compensated_residual.h"
+#include "algebra/matrix/residual.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -35,7 +35,7 @@ void ost_compensated_step_destroy(OstCompensatedStep **step)
     OST_FREE(*step);
 }
 
-/* p = correction, made conjugate to the last p where there is one. */
+/* p = correction, made conjugate to the last p if there was one. */
 static OstStatus next_direction(OstCompensatedStep *step, const double *correction)
 {
     const size_t n = 3 * (size_t)step->matrix->rows;

@@ -4,24 +4,24 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* Flexible conjugate gradients (Notay, SIAM J. Sci. Comput. 22, 2000) whose products are summed by
- * ost_compensated_residual. Factors of a badly conditioned matrix miss its softest modes by as much as they like, and
- * p·Ap in double precision is rounding: repeated, their steps diverge. As a preconditioner they leave those few modes
- * alone, which this finds. */
+/* Steps of flexible conjugate gradients (Notay, SIAM J. Sci. Comput. 22, 2000) with compensated products A p, for a
+ * preconditioner M that is factors of a badly conditioned A. Rounding makes such factors wrong in the few softest
+ * modes, so that refinement by them alone may diverge; and p·Ap in double precision is mere rounding. CG with
+ * compensated products finds those modes in a few steps. */
 typedef struct OstCompensatedStep {
     const OstBlockMatrix *matrix;
     double *direction; /* p, with room for ghosts */
     double *product;   /* A p */
     double energy;     /* p·Ap; 0 before the first step, and where it is not positive */
-    double length;     /* of the step, in p: it takes length × A p off the residual */
+    double length;     /* of the step along p: it reduces the residual by length × A p */
 } OstCompensatedStep;
 
 /* Collective. */
 OstStatus ost_compensated_step_create(const OstBlockMatrix *matrix, OstCompensatedStep **step);
 void ost_compensated_step_destroy(OstCompensatedStep **step);
 
-/* Collective. Makes of the correction M^-1 r the step of conjugate gradients; leaves it as it is where p·Ap is not
- * positive. `residual` and `correction` have 3 × rows numbers. */
+/* Collective. Replaces the correction M^-1 r by the step of conjugate gradients, but leaves it as it is if p·Ap is not
+ * positive (then energy is 0 and length 1). `residual` and `correction` have 3 × rows numbers. */
 OstStatus ost_compensated_step_turn(OstCompensatedStep *step, const double *residual, double *correction);
 
 #endif

@@ -5,25 +5,26 @@
 #include "algebra/matrix/block_matrix.h"
 #include "orthostat/solver.h"
 
-/* What multigrid knows of the unknowns beyond the matrix; arrays belong to the caller and outlive the solver. */
+/* What multigrid needs beyond the matrix. Arrays belong to the caller and outlive the solver. */
 typedef struct OstSolverGeometry {
     const double *coordinates; /* rows × 3 */
-    const double *metric; /* rows × 6 (11 22 33 12 23 31): mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R, or
-                             NULL for the Euclidean metric */
-    const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
-                             on what the supports leave free). The plain recipe takes NULL for three translations, the
-                             direct one looks at nothing of this */
-    const struct OstCoarseSpace *coarse; /* METRIC to TWO_LEVEL: a coarser discretisation to correct by, or NULL */
-    const OstSolverFacts *facts;         /* what is known beyond the matrix, for the plan; or NULL */
+    const double *metric;      /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
+                                  R^T diag(sqrt(E_min/E_k)) R; or NULL for the Euclidean metric */
+    const double *modes; /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
+                            on the unconstrained directions). The plain method takes NULL for three translations, the
+                            direct method uses nothing of this */
+    const struct OstCoarseSpace *coarse; /* METRIC to TWO_LEVEL: a coarser discretisation for corrections, or NULL */
+    const OstSolverFacts *facts;         /* for the plan, or NULL */
 } OstSolverGeometry;
 
-/* A coarser discretisation of the same body on the same ranks: linear tets under quadratic ones (p-multigrid). A fine
- * row takes the weighted sum of its four parents, projected on what the fine row's supports leave free. */
+/* A coarser discretisation of the same body on the same ranks: linear tets for quadratic ones (p-multigrid). A fine
+ * node interpolates its four parents by weights, projected on the directions in which the fine node is unconstrained.
+ */
 typedef struct OstCoarseSpace {
     const OstBlockMatrix *matrix;      /* assembled on its own; unscaled */
     const OstSolverGeometry *geometry; /* of its rows */
     const OstLocal
-        *parents; /* fine rows × 4: columns of the coarse matrix (owned or ghost), -1: none, or held, so zero */
+        *parents;          /* fine rows × 4: columns of the coarse matrix (owned or ghost); -1: none, or constrained */
     const double *weights; /* fine rows × 4 */
 } OstCoarseSpace;
 

@@ -4,8 +4,8 @@
 
 #include "orthostat/context.h"
 
-/* Local. Rigid body modes of nodes about the point `about`: 6 columns of 3 × count, three translations and three
- * rotations. */
+/* Local. The rigid body modes of nodes: 6 columns of 3 × count numbers, three translations, then three rotations about
+ * axes through the point `about`. */
 void ost_rigid_body_modes(OstLocal count, const double *coordinates, const double about[3], double *modes);
 
 #endif

@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Standard errors that make sure. */
-static const double sure = 3.0;
+static const double sure = 3.0; /* standard errors */
 
-/* Where a block of the matrix is; which of the pair's nine bits is each entry's there. */
+/* Entries (i, j) and (j, i) must get the same sign: a pair of blocks shares nine random bits, and these tables say
+ * which bit is each entry's. */
 typedef enum { BELOW_DIAGONAL, ABOVE_DIAGONAL, ON_DIAGONAL } Place;
 
 static const int bit_of_entry[][9] = {
@@ -53,14 +53,14 @@ void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, 
         }
 }
 
-double ost_samples_size(const OstSamples *throws)
+double ost_samples_size(const OstSamples *samples)
 {
-    return sqrt(throws->squares / throws->count);
+    return sqrt(samples->squares / samples->count);
 }
 
-double ost_samples_spread(const OstSamples *throws)
+double ost_samples_spread(const OstSamples *samples)
 {
-    return 1.0 / sqrt(2.0 * throws->count);
+    return 1.0 / sqrt(2.0 * samples->count);
 }
 
 int ost_surely_beyond(double size, double spread, double limit)
@@ -68,10 +68,10 @@ int ost_surely_beyond(double size, double spread, double limit)
     return !(size <= (1.0 + sure * spread) * limit);
 }
 
-int ost_samples_undecided(const OstSamples *throws, double limit, int fewest, int most)
+int ost_samples_undecided(const OstSamples *samples, double limit, int fewest, int most)
 {
-    if (throws->count < fewest)
+    if (samples->count < fewest)
         return 1;
-    const double size = ost_samples_size(throws), margin = sure * ost_samples_spread(throws) * limit;
-    return throws->count < most && fabs(size - limit) <= margin;
+    const double size = ost_samples_size(samples), margin = sure * ost_samples_spread(samples) * limit;
+    return samples->count < most && fabs(size - limit) <= margin;
 }

@@ -4,37 +4,36 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* What double precision leaves unsaid of a stiffness: each of its entries may be off by 2^-53 of itself, both of a pair
- * alike, as one number was rounded. What that does to a displacement is looked at by throws of the signs at random, and
- * told by the root of the mean square over them. */
+/* The perturbation of a stiffness K by rounding its entries: each is off by up to 2^-53 of its size, K_ij and K_ji
+ * alike. Its effect on a displacement is estimated from random samples of the signs, as their root mean square. */
 
-/* Local. The force (K' - K) u, every entry of K' being up or down by 2^-53 of K's; `which` of many such throws, whose
- * signs follow the nodes' labels and so are the same on any ranks. u comes with its ghosts; `force` has 3 × rows
- * numbers. */
+/* Local. The force (K' - K) u of random sample `which`: every entry of K' is 2^-53 of its size above or below that of
+ * K. The signs depend on the nodes' labels alone, so they are the same on any number of ranks. The ghosts of u are set;
+ * `force` has 3 × rows numbers. */
 void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force);
 
-/* Sizes that throws had. */
+/* The sizes found with the samples so far. */
 typedef struct OstSamples {
     int count;
     double squares;
 } OstSamples;
 
-static inline void ost_samples_add(OstSamples *throws, double size)
+static inline void ost_samples_add(OstSamples *samples, double size)
 {
-    throws->count++;
-    throws->squares += size * size;
+    samples->count++;
+    samples->squares += size * size;
 }
 
-/* Local. The root of the mean square, and its standard error over itself. That is for one soft mode, which is what
- * there is to find in a badly conditioned body: its share is normally distributed. With more modes it is less. */
-double ost_samples_size(const OstSamples *throws);
-double ost_samples_spread(const OstSamples *throws);
+/* Local. The root mean square, and its relative standard error if one soft mode dominates, as in a badly conditioned
+ * body (its share is then normally distributed); with more modes it is smaller. */
+double ost_samples_size(const OstSamples *samples);
+double ost_samples_spread(const OstSamples *samples);
 
-/* Local. Is `size` surely beyond the limit, by three standard errors? What is no number is. */
+/* Local. Is `size` above the limit by more than three standard errors? Yes if it is NAN. */
 int ost_surely_beyond(double size, double spread, double limit);
 
-/* Local. Are more throws called for? They are below `fewest`, and below `most` while the limit is within three standard
- * errors. */
-int ost_samples_undecided(const OstSamples *throws, double limit, int fewest, int most);
+/* Local. Are more samples needed? Up to `fewest` always; up to `most` while the limit is within three standard errors.
+ */
+int ost_samples_undecided(const OstSamples *samples, double limit, int fewest, int most);
 
 #endif

@@ -45,7 +45,8 @@ static OstStatus factor_rows(const OstBlockMatrix *matrix, OstScaling *scaling)
         if (!all_finite(block) || ost_cholesky(3, l) != 0)
             return OST_RAISE(matrix->ctx, OST_INVALID_INPUT,
                              "the diagonal block of row %lld of the stiffness (diagonal %g, %g, %g) is not positive "
-                             "definite: a vertex without stiffness, or a material or tet that is not usable",
+                             "definite: a node without stiffness, or an unusable material or tet; check the materials "
+                             "and tets there",
                              (long long)(matrix->first_row + i), block[0], block[4], block[8]);
         invert_lower(l, scaling->factor + 9 * (size_t)i);
     }

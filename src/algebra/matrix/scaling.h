@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* Scaling by the Cholesky factor L of each row's diagonal block: with S = L^-1, A' = S A S^T has identities on its
- * diagonal, whatever the units and however stiff the node. A u = f becomes A' u' = f' with
+/* Scaling by the Cholesky factor L of each row's diagonal block: with S = L^-1, A' = S A S^T has identity blocks on its
+ * diagonal, whatever the units and the stiffness of the node. A u = f becomes A' u' = f' with
  *     f' = S f,   u = S^T u',   r = S^-1 r',   modes' = S^-T modes. */
 typedef struct OstScaling {
     OstContext *ctx;
@@ -38,7 +38,7 @@ static inline void ost_scaling_block(const OstScaling *scaling, OstLocal i, OstL
     }
 }
 
-/* Local; 3 × rows numbers each, and the two arrays may be the same. */
+/* Local. 3 × rows numbers each; input and output may be the same array. */
 void ost_scaling_to_scaled(const OstScaling *scaling, const double *f, double *scaled_f);            /* S f */
 void ost_scaling_from_scaled(const OstScaling *scaling, const double *scaled_u, double *u);          /* S^T u' */
 void ost_scaling_unscale_residual(const OstScaling *scaling, const double *scaled_r, double *r);     /* S^-1 r' */

@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* Local. What double precision leaves unsaid of each component of A u, every term of it being rounded at random:
- * DBL_EPSILON times the root of the sum of their squares. u comes with its ghosts; `rounding` has 3 × rows numbers. */
+/* Local. The expected rounding error of each component of A u if its terms are rounded at random: DBL_EPSILON times the
+ * root of the sum of their squares. The ghosts of u are set; `rounding` has 3 × rows numbers. */
 void ost_term_rounding(const OstBlockMatrix *matrix, const double *u, double *rounding);
 
 #endif

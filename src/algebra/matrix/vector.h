@@ -4,14 +4,14 @@
 
 #include "orthostat/context.h"
 
-/* Vectors shared out over the ranks, n numbers on this one. Collective. */
+/* Vectors distributed over the ranks; n numbers on this one. */
 
-/* a·b of this rank, and over all ranks. */
+/* a·b: local, of this rank's numbers; collective, over all ranks. */
 double ost_dot(size_t n, const double *a, const double *b);
 OstStatus ost_vector_dot(OstContext *ctx, size_t n, const double *a, const double *b, double *product);
 
-/* The power of two next below the largest number of all ranks, 1 if that is 0 or not finite: dividing by it is exact.
- */
+/* Collective. The largest power of two not above the largest absolute value, 1 if that is 0 or not finite. Dividing by
+ * it makes no rounding error. */
 OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, double *size);
 
 #endif

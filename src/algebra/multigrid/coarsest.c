@@ -9,7 +9,8 @@
 
 enum { SHIFT_TRIES = 5 };
 
-static const double first_shift = 1e-10; /* of the largest diagonal entry; the next are a hundred times larger each */
+static const double first_shift =
+    1e-10; /* relative to the largest diagonal entry; each next one is a hundred times larger */
 
 extern void dpotrf_(const char *uplo, const int *n, double *a, const int *leading, int *info, size_t length);
 extern void dpotrs_(const char *uplo, const int *n, const int *columns, const double *a, const int *leading, double *b,
@@ -27,7 +28,7 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
     OST_FREE(*coarsest);
 }
 
-/* How the unknowns lie over the ranks. */
+/* Counts the unknowns of each rank; they are factored as a dense matrix if all are few. */
 static OstStatus number_unknowns(OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
@@ -42,7 +43,7 @@ static OstStatus number_unknowns(OstCoarsest *coarsest)
     return OST_SUCCESS;
 }
 
-/* This rank's rows, in place in the dense matrix. `number` has each block column's first global unknown. */
+/* Copies this rank's rows into the dense matrix. `number` is the first global unknown of each block column. */
 static void spread_rows(const OstDoubleMatrix *matrix, const OstGlobal *number, OstCoarsest *coarsest)
 {
     const int size = matrix->size;
@@ -58,7 +59,7 @@ static void spread_rows(const OstDoubleMatrix *matrix, const OstGlobal *number, 
         }
 }
 
-/* All rows to every rank. Rows are sent as one type, so that counts stay small. */
+/* Sends all rows to every rank. A row is one MPI type, so that counts fit an int. */
 static OstStatus gather_rows(OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
@@ -89,8 +90,8 @@ done:
     return status;
 }
 
-/* LAPACK's lower triangle is the upper one of our rows, which it leaves whole when it fails: a failed try is undone
- * from the other triangle. */
+/* Restores the matrix after a failed factorisation. LAPACK, by columns, factors what is the upper triangle of our rows;
+ * the lower one still has the entries. */
 static void restore(OstCoarsest *coarsest, const double *diagonal, double shift)
 {
     const size_t n = (size_t)coarsest->order;
@@ -121,8 +122,7 @@ static OstStatus factor(OstCoarsest *coarsest)
     }
     return OST_RAISE(
         coarsest->ctx, OST_NOT_CONVERGED,
-        "pivot %d of %d on the coarsest level is not positive: the stiffness, or what rounding made of it, is "
-        "indefinite",
+        "pivot %d of %d on the coarsest level is not positive: the stiffness is indefinite, or rounding makes it so",
         info, coarsest->order);
 }
 

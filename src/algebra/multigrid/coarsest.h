@@ -4,30 +4,30 @@
 
 #include "algebra/direct/mumps.h"
 
-/* The factors of the coarsest level. A small matrix every rank holds whole and factors alone, as messages would cost
- * more than flops; a large one is MUMPS's. */
+/* The factors of the coarsest level. A small matrix is stored and factored whole on every rank, as messages would cost
+ * more than the arithmetic; a large one is factored by MUMPS. */
 typedef struct OstCoarsest {
     OstContext *ctx;
     int dense;
-    OstMumps *sparse; /* the rest is of the dense one */
+    OstMumps *sparse; /* if not dense; what follows is for a dense matrix */
     int order;        /* unknowns over all ranks */
     int owned;        /* of them on this rank */
     int *count;       /* ranks: unknowns of each */
-    int *start;       /* ranks: number of the first */
+    int *start;       /* ranks: global number of the first */
     double *factor;   /* order × order: LAPACK's Cholesky factor */
     double *vector;   /* order */
 } OstCoarsest;
 
-/* The largest order that is factored as a dense matrix: beyond it MUMPS is faster. */
+/* The largest order that is factored as a dense matrix; above it MUMPS is faster. */
 enum { OST_COARSEST_LIMIT = 2000 };
 
-/* Collective. The matrix is not kept; up to OST_COARSEST_LIMIT unknowns the factor is dense. Raises OST_NOT_CONVERGED
- * if it cannot be factored (the dense one: even with a small shift, which a positive semidefinite one gets), and what
- * ost_mumps_create does, `memory` included. */
+/* Collective. The matrix is not kept. `memory` as in ost_mumps_create. Raises OST_NOT_CONVERGED if the matrix cannot be
+ * factored (a dense one gets a small diagonal shift if it is positive semidefinite), and what ost_mumps_create raises.
+ */
 OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest);
 void ost_coarsest_destroy(OstCoarsest **coarsest);
 
-/* Collective. Solves A x = b; this rank's parts. */
+/* Collective. Solves A x = b; b and x are this rank's unknowns. */
 OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x);
 
 #endif

@@ -9,30 +9,29 @@
 #include <string.h>
 
 enum {
-    LARGEST_FACTORED = 50000, /* unknowns of a level that coarsening could not make smaller; beyond, it is smoothed */
-    COARSEST_SWEEPS = 10      /* then; a fixed number keeps the cycle symmetric */
+    LARGEST_FACTORED = 50000, /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
+    COARSEST_SWEEPS = 10      /* of that smoothing; a fixed number keeps the cycle symmetric */
 };
 
-static const double careful = 1.2; /* of an eigenvalue estimate that may have been too low */
+static const double careful = 1.2; /* safety factor of an eigenvalue estimate that may be too low */
 
-/* One level as the cycle works on it. */
 typedef struct Level {
     const OstLevelMatrix *matrix;
     OstSmoother *smoother;                 /* NULL where the level is solved by factors */
-    const OstProlongator *prolongator;     /* from the next level: this or */
-    const OstInterpolation *interpolation; /* this; neither on the coarsest level */
-    OstCoarsest *coarsest;                 /* of that, unless smoothing must do */
+    const OstProlongator *prolongator;     /* from the next level; or */
+    const OstInterpolation *interpolation; /* from the linear tets; neither on the coarsest level */
+    OstCoarsest *coarsest;                 /* its factors; NULL if it is smoothed */
     double *own;                           /* a vector of this level with room for ghosts */
     double *coarse;                        /* a vector of the next level with room for the prolongator's ghosts */
 } Level;
 
 struct OstCycle {
-    OstMetricLevels levels;
+    OstLevels levels;
     OstQuadraticLevel *quadratic;
     OstCoarsest *coarsest;
     int count; /* of levels, the quadratic one included */
     Level level[OST_MAX_LEVELS + 1];
-    OstMlCycle *ml; /* NULL where there is but one level */
+    OstMlCycle *ml; /* NULL if there is only one level */
 };
 
 void ost_cycle_destroy(OstCycle **cycle)
@@ -46,14 +45,14 @@ void ost_cycle_destroy(OstCycle **cycle)
     }
     ost_coarsest_destroy(&(*cycle)->coarsest);
     ost_quadratic_level_destroy(&(*cycle)->quadratic);
-    ost_metric_levels_clear(&(*cycle)->levels);
+    ost_levels_clear(&(*cycle)->levels);
     OST_FREE(*cycle);
 }
 
-/* Factors the coarsest level, or, where it is still large, makes the smoother that must do. */
+/* Factors the coarsest level, or makes its smoother if it is too large. */
 static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSolverOptions *options)
 {
-    OstMetricLevels *levels = &cycle->levels;
+    OstLevels *levels = &cycle->levels;
     const int last = levels->count - 1;
     OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
     OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
@@ -114,12 +113,12 @@ static OstStatus prolong(void *data, const double *coarse, double *fine)
     return ost_prolongator_add(level->prolongator, level->coarse, fine);
 }
 
-/* The levels in the order of the cycle, the finest first. */
+/* Lists the levels, the finest first. */
 static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
 {
-    const OstMetricLevels *levels = &cycle->levels;
+    const OstLevels *levels = &cycle->levels;
     const OstQuadraticLevel *quadratic = cycle->quadratic;
-    const int finest = quadratic ? 1 : 0; /* of the linear tets */
+    const int finest = quadratic ? 1 : 0; /* level of the linear tets */
     cycle->count = levels->count + finest;
     if (quadratic)
         cycle->level[0] = (Level){
@@ -152,7 +151,7 @@ static OstStatus hand_to_ml(OstContext *ctx, OstCycle *cycle)
     return ost_ml_cycle_create(ctx, cycle->count, level, &cycle->ml);
 }
 
-OstStatus ost_cycle_create(OstContext *ctx, OstMetricLevels *levels, OstQuadraticLevel **quadratic,
+OstStatus ost_cycle_create(OstContext *ctx, OstLevels *levels, OstQuadraticLevel **quadratic,
                            const OstSolverOptions *options, OstCycle **cycle)
 {
     OstCycle *made = NULL;
@@ -186,7 +185,8 @@ void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)
             continue;
         smoother->degree += more;
         smoother->ratio = ratio * careful;
-        /* The estimate comes from below, and a polynomial that ends short of the spectrum is not definite. */
+        /* The estimate approaches the eigenvalue from below; a Chebyshev polynomial is indefinite beyond its interval.
+         */
         smoother->largest *= careful;
     }
 }

@@ -10,20 +10,21 @@
 #include <math.h>
 #include <string.h>
 
-/* A level with more than this part of the unknowns of the one above is not worth having. */
+/* A level is dropped if it has more than this fraction of the unknowns of the finer one. */
 static const double least_gain = 0.8;
 
-/* Up to a ratio of 1000 between Young's moduli (its root below this) the options hold as they are. Beyond, what is
- * stiff keeps its length to ever more digits: six modes an aggregate follow that only over few nodes, and the smoother
- * must reach them. Found on the tube of cases/tube with a ratio of 1e6: 25, 108 and over 300 iterations (along, through
- * the wall, around) by the options as they are, 12, 18 and 53 by 12 nodes an aggregate and 10 a block. */
-static const double unhurt_shortening = 32.0, fewest_nodes = 10.0;
+/* Up to a ratio of 1000 between Young's moduli (shortening, its root, up to 32) the options are used as they are.
+ * Beyond it the stiff direction is nearly inextensible: the six modes of an aggregate represent that over few nodes
+ * only, and the smoother's blocks must be as large. Iterations on the tube of cases/tube with a ratio of 1e6, stiff
+ * along, through the wall and around: 25, 108 and over 300 with the default options; 12, 18 and 53 with aggregates of
+ * 12 nodes and blocks of 10. */
+static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 
-/* The building of levels, from the finest down. */
+/* The levels under construction, from the finest down. */
 typedef struct Coarsening {
     OstContext *ctx;
     OstSolverOptions options;
-    OstMetricLevels *levels;
+    OstLevels *levels;
     double **modes;     /* near-null space of the coarsest level so far */
     OstGlobal unknowns; /* on all ranks */
 } Coarsening;
@@ -32,9 +33,9 @@ static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *op
 {
     double shortening;
     OST_TRY(ost_metric_graph_shortening(graph, &shortening));
-    if (shortening <= unhurt_shortening)
+    if (shortening <= unchanged_shortening)
         return OST_SUCCESS;
-    const double factor = shortening / unhurt_shortening;
+    const double factor = shortening / unchanged_shortening;
     const double aggregate = options->aggregate_nodes, block = options->smoother_block_nodes;
     if (!(options->given & OST_GIVEN_AGGREGATE))
         options->aggregate_nodes = fmin(aggregate, fmax(aggregate / factor, fewest_nodes));
@@ -43,13 +44,13 @@ static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *op
     return OST_SUCCESS;
 }
 
-/* Aggregates of the coarsest level so far, the graph of the next, and its unknowns over all ranks. */
+/* Aggregates the coarsest level so far; also the graph of the next level and its unknowns over all ranks. */
 static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlobal *unknowns)
 {
     const int l = work->levels->count - 1;
     const OstSolverOptions *options = &work->options;
     const OstMetricGraph *graph = work->levels->graph[l];
-    /* Two nodes or fewer cannot show the six modes; a coarse node carries all six. */
+    /* Two nodes of 3 unknowns cannot represent the six rigid modes; a coarse node has all six. */
     const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
                                      .minimum = l == 0 ? 3 : 1,
                                      .recentrings = 2};
@@ -61,17 +62,11 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     return OST_MPI(work->ctx, MPI_Allreduce(MPI_IN_PLACE, unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(work->ctx)));
 }
 
-static void take_modes(Coarsening *work, OstTentative *tentative)
-{
-    OST_FREE(*work->modes);
-    *work->modes = tentative->modes;
-    tentative->modes = NULL;
-}
-
-/* The level below the coarsest so far. */
+/* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
+ */
 static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
 {
-    OstMetricLevels *levels = work->levels;
+    OstLevels *levels = work->levels;
     const int l = levels->count - 1;
     OstTentative *tentative = NULL;
     OstDoubleMatrix *coarse = NULL;
@@ -79,10 +74,12 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
-    ost_metric_graph_destroy(&levels->graph[l]); /* as all that goes early here: the Galerkin product is the peak */
+    ost_metric_graph_destroy(&levels->graph[l]);
     OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
     const OstGlobal first = tentative->first_coarse;
-    take_modes(work, tentative);
+    OST_FREE(*work->modes);
+    *work->modes = tentative->modes;
+    tentative->modes = NULL;
     ost_tentative_destroy(&tentative);
     OST_TRY_DONE(
         ost_galerkin_create(levels->coarsest, levels->smoother[l]->blocks, levels->prolongator[l], first, &coarse));
@@ -98,7 +95,7 @@ done:
 
 static OstStatus coarsen(Coarsening *work)
 {
-    OstMetricLevels *levels = work->levels;
+    OstLevels *levels = work->levels;
     OstAggregates *aggregates = NULL;
     OstStatus status = OST_SUCCESS;
     while (work->unknowns > work->options.coarsest_unknowns && levels->count < work->options.most_levels) {
@@ -118,9 +115,8 @@ done:
     return status;
 }
 
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
-                                   OstMetricLevels *levels)
+OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
+                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels)
 {
     Coarsening work = {
         .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
@@ -136,11 +132,11 @@ OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScalin
     if (status == OST_SUCCESS)
         status = coarsen(&work);
     if (status != OST_SUCCESS)
-        ost_metric_levels_clear(levels);
+        ost_levels_clear(levels);
     return status;
 }
 
-void ost_metric_levels_clear(OstMetricLevels *levels)
+void ost_levels_clear(OstLevels *levels)
 {
     for (int l = 0; l < OST_MAX_LEVELS; l++) {
         ost_smoother_destroy(&levels->smoother[l]);

@@ -7,24 +7,22 @@
 #include "algebra/level/prolongator.h"
 #include "algebra/multigrid/smoother.h"
 
-/* What smoothed aggregation makes of a matrix: matrices of all levels, prolongators between them, graphs of the levels'
- * nodes. Level 0 is the finest. */
-typedef struct OstMetricLevels {
+/* The levels of smoothed aggregation: their matrices, and the prolongators and smoothers. Level 0 is the finest. */
+typedef struct OstLevels {
     int count;
     OstLevelMatrix *matrix[OST_MAX_LEVELS];
     OstProlongator *prolongator[OST_MAX_LEVELS]; /* [l]: from level l + 1 to level l */
     OstSmoother *smoother[OST_MAX_LEVELS];       /* of all but the last level */
-    OstMetricGraph *graph[OST_MAX_LEVELS];       /* of the last level */
-    OstDoubleMatrix *coarsest;                   /* the last of the matrices in double precision */
-} OstMetricLevels;
+    OstMetricGraph *graph[OST_MAX_LEVELS];       /* of the last level; of the others only during construction */
+    OstDoubleMatrix *coarsest;                   /* the last level's matrix in double precision */
+} OstLevels;
 
-/* Collective. Of S A S^T, whose near-null space are `modes` (6 columns of 3 × rows); they and the graph are taken over;
- * matrix and scaling outlive the levels, and a scaling of NULL is the identity. A matrix no larger than
- * options->coarsest_unknowns stays the only level, and so does one that has nothing to aggregate; `coarsest` is then a
+/* Collective. The levels of S A S^T (of A, if scaling is NULL), whose near-null space is `modes`: 6 columns of 3 × rows
+ * numbers. Takes over modes and graph, and empties the caller's; matrix and scaling must outlive the levels. A matrix
+ * of at most options->coarsest_unknowns, or without anything to aggregate, stays the only level; `coarsest` is then a
  * view of it. */
-OstStatus ost_metric_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                                   OstMetricGraph **finest_graph, const OstSolverOptions *options,
-                                   OstMetricLevels *levels);
-void ost_metric_levels_clear(OstMetricLevels *levels);
+OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
+                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels);
+void ost_levels_clear(OstLevels *levels);
 
 #endif

@@ -17,7 +17,7 @@ struct OstMetric {
     const OstBlockMatrix *matrix;
     OstScaling *scaling;
     OstCycle *cycle;
-    OstScaling *linear_scaling; /* of the linear tets under quadratic ones */
+    OstScaling *linear_scaling; /* of the linear tets, for quadratic ones */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -33,7 +33,7 @@ void ost_metric_destroy(OstMetric **metric)
     OST_FREE(*metric);
 }
 
-/* The modes in scaled unknowns, each of order 1. */
+/* The modes in scaled unknowns, each divided to be of order 1. */
 static OstStatus scale_modes(const OstScaling *scaling, const double *modes, double **scaled)
 {
     const size_t n = 3 * (size_t)scaling->rows;
@@ -49,8 +49,8 @@ static OstStatus scale_modes(const OstScaling *scaling, const double *modes, dou
     return OST_SUCCESS;
 }
 
-/* Sizes of the levels over all ranks, for the report. */
-static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels)
+/* Counts the levels' unknowns and nonzeros over all ranks, for the report. */
+static OstStatus measure_levels(OstMetric *metric, const OstLevels *levels)
 {
     OstGlobal size[2 * OST_MAX_LEVELS] = {0};
     for (int l = 0; l < levels->count; l++) {
@@ -69,16 +69,16 @@ static OstStatus measure_levels(OstMetric *metric, const OstMetricLevels *levels
     return OST_SUCCESS;
 }
 
-/* The levels of a matrix of linear tets, on aggregates of its graph. */
+/* Builds the levels of a matrix by aggregation. */
 static OstStatus build_levels(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
-                              const OstSolverGeometry *geometry, OstMetricLevels *levels)
+                              const OstSolverGeometry *geometry, OstLevels *levels)
 {
     OstMetricGraph *graph = NULL;
     double *modes = NULL;
     OstStatus status;
     OST_TRY_DONE(ost_metric_graph_create(matrix, geometry, &graph));
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
-    OST_TRY_DONE(ost_metric_levels_create(matrix, scaling, &modes, &graph, &metric->options, levels));
+    OST_TRY_DONE(ost_levels_create(matrix, scaling, &modes, &graph, &metric->options, levels));
     OST_TRY_DONE(measure_levels(metric, levels));
 done:
     OST_FREE(modes);
@@ -86,7 +86,7 @@ done:
     return status;
 }
 
-/* Puts the quadratic tets on top in the report: complexity is over the finest matrix. */
+/* Adds the quadratic level to the report; the operator complexity is relative to its matrix. */
 static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear)
 {
     OstGlobal blocks[2] = {metric->matrix->row_start[metric->matrix->rows], linear->row_start[linear->rows]};
@@ -100,8 +100,8 @@ static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear
     return OST_SUCCESS;
 }
 
-/* The same of the linear tets under quadratic ones, and the level of the quadratic ones. */
-static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry, OstMetricLevels *levels,
+/* Builds the level of the quadratic tets, and below it the levels of the linear tets. */
+static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry, OstLevels *levels,
                                  OstQuadraticLevel **quadratic)
 {
     const OstCoarseSpace *space = geometry->coarse;
@@ -123,7 +123,7 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
                             const OstSolverOptions *options, OstMetric **metric)
 {
     OstMetric *made = NULL;
-    OstMetricLevels levels = {0};
+    OstLevels levels = {0};
     OstQuadraticLevel *quadratic = NULL;
     *metric = NULL;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
@@ -140,7 +140,7 @@ OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &quadratic, &made->options, &made->cycle));
 done:
     ost_quadratic_level_destroy(&quadratic);
-    ost_metric_levels_clear(&levels);
+    ost_levels_clear(&levels);
     if (status != OST_SUCCESS)
         ost_metric_destroy(&made);
     *metric = made;

@@ -5,25 +5,26 @@
 #include "algebra/krylov/refine.h"
 #include "algebra/matrix/geometry.h"
 
-/* The recipe METRIC: rows scaled by their diagonal blocks, aggregates round in the material's metric,
- * smoothed aggregation on them, block Chebyshev smoothing, a K-cycle, flexible conjugate gradients. */
+/* Metric multigrid (the methods METRIC, STRONG and TWO_LEVEL): conjugate gradients on the matrix scaled by its diagonal
+ * blocks, preconditioned by smoothed aggregation on aggregates that are round in the material metric, with block
+ * Chebyshev smoothing. */
 typedef struct OstMetric OstMetric;
 
-/* Collective. The matrix stays the caller's and outlives the solver. Raises OST_INVALID_INPUT if the geometry is not
- * usable or a diagonal block is not positive definite. */
+/* Collective. The matrix stays the caller's and must outlive the solver. Raises OST_INVALID_INPUT if a coordinate or
+ * metric is not usable or a diagonal block is not positive definite. */
 OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstMetric **metric);
 void ost_metric_destroy(OstMetric **metric);
 
-/* Local. Takes the smoother's degree and ratio from `options`, and more care with the eigenvalues it was built on; the
- * hierarchy and the smoothers' blocks stay. */
+/* Local. Takes the smoother's degree and ratio from `options` and raises the eigenvalue estimates; the levels and the
+ * smoothers' blocks stay. */
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
 
 /* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
-/* Collective. The same from u = 0 by the options' residual and iterations; also fills the report's iterations and
- * relative_residual. Raises OST_NOT_CONVERGED if they do not do. */
+/* Collective. Solves from u = 0 to the residual that the options request; also fills the report's iterations and
+ * relative_residual. Raises OST_NOT_CONVERGED if it is not reached. */
 OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report);
 
 #endif

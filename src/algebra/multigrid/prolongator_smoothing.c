@@ -9,7 +9,6 @@
 
 static const double damping = 4.0 / 3.0;
 
-/* What the rows are made from. */
 typedef struct Smoothing {
     const OstDoubleMatrix *matrix;
     const OstTentative *tentative;
@@ -17,9 +16,9 @@ typedef struct Smoothing {
     OstProlongator *p;
     double omega;
     OstLocal *column;                     /* fine columns: the coarse column of each node, or -1 */
-    OstLocal *block_start, *block_column; /* of each block: the coarse columns that its rows reach, ascending */
-    OstLocal *place;                      /* coarse columns: where each is in the block at hand, or -1 */
-    OstDouble8 *sum;                      /* the block's part of A T, node by node, column by column */
+    OstLocal *block_start, *block_column; /* of each block: the coarse columns of its rows, ascending */
+    OstLocal *place;                      /* coarse columns: the place of each in the current block, or -1 */
+    OstDouble8 *sum;                      /* the block's rows of A T, node by node, column by column */
 } Smoothing;
 
 static void destroy_smoothing(Smoothing *s)
@@ -31,7 +30,7 @@ static void destroy_smoothing(Smoothing *s)
     OST_FREE(s->sum);
 }
 
-/* The coarse nodes of the fine ghosts, each once, and every fine node's coarse column. */
+/* Lists the coarse nodes of the fine ghosts, each once, and numbers the coarse column of every fine node. */
 static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
 {
     const OstDoubleMatrix *a = s->matrix;
@@ -54,7 +53,7 @@ static OstStatus number_columns(Smoothing *s, OstGlobal **ghost)
     return OST_SUCCESS;
 }
 
-/* The columns that a block's rows reach, ascending. B^-1 mixes them: they are the columns of each of its rows. */
+/* Lists the columns of a block's rows, ascending. B^-1 couples its rows, so all have the same columns. */
 static void list_block(Smoothing *s, OstLocal b)
 {
     const OstDoubleMatrix *a = s->matrix;

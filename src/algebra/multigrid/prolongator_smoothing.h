@@ -7,8 +7,10 @@
 #include "algebra/level/tentative.h"
 #include "algebra/multigrid/smoother.h"
 
-/* Collective. One step of damped block Jacobi on the tentative prolongator: P = (I - omega B^-1 A) T, B the smoother's
- * blocks and omega 4/3 over the largest eigenvalue of B^-1 A (Vaněk, Mandel, Brezina 1996, with blocks for points). */
+/* Collective. One step of damped block Jacobi on the tentative prolongator T: P = (I - omega B^-1 A) T, where B is the
+ * smoother's blocks and omega = 4/3 over the largest eigenvalue of B^-1 A (Vaněk, Mandel, Brezina 1996, but with
+ * blocks).
+ */
 OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstDoubleMatrix *matrix,
                                const OstSmoother *smoother, OstProlongator **prolongator);
 

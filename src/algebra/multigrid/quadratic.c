@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-/* What linear tets cannot show is wider than what aggregates cannot: two more degrees pay. */
+/* Linear tets leave a wider part of the spectrum to the smoother than aggregates do: two more degrees pay. */
 enum { MORE_SMOOTHING = 2 };
 
 void ost_quadratic_level_destroy(OstQuadraticLevel **level)

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static const double safety = 1.1; /* of the estimated largest eigenvalue */
+static const double safety = 1.1; /* factor on the estimated largest eigenvalue */
 
 void ost_smoother_destroy(OstSmoother **smoother)
 {
@@ -19,7 +19,7 @@ void ost_smoother_destroy(OstSmoother **smoother)
     OST_FREE(*smoother);
 }
 
-/* z = B^-1 r, by a step from nothing. */
+/* z = B^-1 r. `direction` is scratch here. */
 static void apply_blocks(const void *data, const double *r, double *z)
 {
     const OstSmoother *smoother = data;
@@ -52,7 +52,7 @@ done:
     return status;
 }
 
-/* Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
+/* Chebyshev iteration: Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
 OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
 {
     const size_t n = ost_level_unknowns(smoother->matrix);

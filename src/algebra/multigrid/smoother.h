@@ -4,13 +4,13 @@
 
 #include "algebra/level/smoother_blocks.h"
 
-/* Chebyshev polynomial in block Jacobi times the matrix, over the upper part of its spectrum. From a zero guess it is a
- * symmetric positive definite operator. */
+/* Chebyshev iteration preconditioned by block Jacobi, over the upper end of the spectrum of B^-1 A. From a zero guess
+ * it is a symmetric positive definite operator. */
 typedef struct OstSmoother {
     const OstLevelMatrix *matrix;
     OstSmootherBlocks *blocks;
     int degree;
-    double ratio;
+    double ratio;   /* the interval is [largest / ratio, 1.1 largest] */
     double largest; /* eigenvalue of B^-1 A, estimated */
     double *residual, *direction;
 } OstSmoother;
@@ -20,7 +20,7 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
                               const OstSolverOptions *options, OstSmoother **smoother);
 void ost_smoother_destroy(OstSmoother **smoother);
 
-/* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken to be 0. */
+/* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken as 0. */
 OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero);
 
 #endif

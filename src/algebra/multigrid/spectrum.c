@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/multigrid/spectrum.h"
 
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/scatter.h"
@@ -12,7 +13,7 @@ enum { STEPS = 10 };
 
 extern void dsterf_(const int *n, double *diagonal, double *below, int *info);
 
-/* Conjugate gradients for A x = noise, whose step lengths hold the Lanczos matrix; x itself is of no interest. */
+/* Conjugate gradients for A x = noise, for their Lanczos matrix; x is not computed. */
 typedef struct Lanczos {
     const OstLevelMatrix *a;
     OstLocalSolve solve;
@@ -23,7 +24,7 @@ typedef struct Lanczos {
     double diagonal[STEPS], below[STEPS];
 } Lanczos;
 
-/* A number in [-1/2, 1/2) that depends on the global number of the unknown alone. */
+/* A pseudo-random number in [-1/2, 1/2), by the global number of the unknown alone. */
 static double noise(OstGlobal unknown)
 {
     return (double)(ost_scatter((uint64_t)unknown) >> 11) * 0x1p-53 - 0.5;
@@ -40,30 +41,20 @@ static OstStatus start(Lanczos *lanczos)
     return OST_SUCCESS;
 }
 
-static OstStatus global_dot(const Lanczos *lanczos, const double *restrict x, const double *restrict y, double *sum)
-{
-    OstContext *ctx = lanczos->a->ctx;
-    double total = 0.0;
-#pragma omp simd reduction(+ : total)
-    for (size_t i = 0; i < lanczos->n; i++)
-        total += x[i] * y[i];
-    *sum = total;
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx)));
-}
-
 static OstStatus run(Lanczos *lanczos)
 {
+    OstContext *ctx = lanczos->a->ctx;
     const size_t n = lanczos->n;
     double weight, energy, alpha = 1.0, beta = 0.0;
     OST_TRY(start(lanczos));
     lanczos->solve(lanczos->data, lanczos->r, lanczos->z);
-    OST_TRY(global_dot(lanczos, lanczos->r, lanczos->z, &weight));
+    OST_TRY(ost_vector_dot(ctx, n, lanczos->r, lanczos->z, &weight));
     for (int k = 0; k < STEPS && weight > 0.0; k++) {
         for (size_t i = 0; i < n; i++)
             lanczos->p[i] = lanczos->z[i] + beta * lanczos->p[i];
         memset(lanczos->ap, 0, n * sizeof(double));
         OST_TRY(ost_level_matrix_add(lanczos->a, 1.0, lanczos->p, lanczos->ap));
-        OST_TRY(global_dot(lanczos, lanczos->p, lanczos->ap, &energy));
+        OST_TRY(ost_vector_dot(ctx, n, lanczos->p, lanczos->ap, &energy));
         if (!(energy > 0.0))
             break;
         const double coupling = beta / alpha;
@@ -72,7 +63,7 @@ static OstStatus run(Lanczos *lanczos)
             lanczos->r[i] -= alpha * lanczos->ap[i];
         lanczos->solve(lanczos->data, lanczos->r, lanczos->z);
         const double before = weight;
-        OST_TRY(global_dot(lanczos, lanczos->r, lanczos->z, &weight));
+        OST_TRY(ost_vector_dot(ctx, n, lanczos->r, lanczos->z, &weight));
         beta = weight / before;
         lanczos->diagonal[k] = 1.0 / alpha + coupling;
         lanczos->below[k] = sqrt(fmax(beta, 0.0)) / alpha;

@@ -4,10 +4,10 @@
 
 #include "algebra/level/level_matrix.h"
 
-/* z = M^-1 r for a symmetric positive definite M of this rank's unknowns alone. */
+/* Local. z = M^-1 r for a symmetric positive definite M that couples only unknowns of this rank. */
 typedef void (*OstLocalSolve)(const void *data, const double *r, double *z);
 
-/* Collective. The largest eigenvalue of M^-1 A, from below, by Lanczos' method from a vector that looks like noise. */
+/* Collective. Estimates the largest eigenvalue of M^-1 A, from below, by ten Lanczos steps from a random vector. */
 OstStatus ost_largest_eigenvalue(const OstLevelMatrix *a, OstLocalSolve solve, const void *data, double *largest);
 
 #endif

@@ -10,10 +10,10 @@
 
 typedef struct Aztec {
     const OstAztecSystem *system;
-    double *residual; /* AztecOO hands over r in the place where it wants z */
+    double *residual; /* copy of r, as AztecOO passes r in the array that receives z */
     int products;
     int stopped;
-    OstStatus status; /* the first failure inside a callback, which AztecOO has no way to pass on */
+    OstStatus status; /* the first failure inside a callback: AztecOO cannot pass it on */
 } Aztec;
 
 static void note(Aztec *aztec, OstStatus status)
@@ -27,7 +27,7 @@ static void multiply(double *p, double *y, AZ_MATRIX *matrix, int *configuration
 {
     Aztec *aztec = AZ_get_matvec_data(matrix);
     (void)configuration;
-    /* The first product is that of x = 0, and after the end AztecOO recomputes a residual that nobody reads. */
+    /* Skips two products: the first, of x = 0, and the one for a final residual that is not used. */
     if (aztec->products++ == 0 || aztec->stopped)
         memset(y, 0, (size_t)aztec->system->unknowns * sizeof *y);
     else
@@ -49,8 +49,8 @@ static void precondition(double *z, int *options, int *configuration, double *pa
     note(aztec, aztec->system->precondition(aztec->system->data, aztec->residual, z, &aztec->stopped));
 }
 
-/* AztecOO's test for the end passes on what `precondition` said. A norm of 0 would hide a breakdown: AztecOO would take
- * x for converged. */
+/* AztecOO's convergence test: reports what `precondition` decided. The norm is 1 until then, as with 0 AztecOO would
+ * take a breakdown for convergence. */
 static void test(void *data, void *vector, int iteration, double *r, int print, int updated, int *converged,
                  int *not_a_number, double *norm, int *residual_wanted)
 {
@@ -104,7 +104,7 @@ OstStatus ost_aztec_cg(OstContext *ctx, const OstAztecSystem *system, const doub
     double outcome[AZ_STATUS_SIZE] = {0};
     double *right_side = NULL;
     OST_TRY(ost_memory_foresee(ctx, (double)(VECTORS * n * sizeof(double)), "AztecOO's conjugate gradients"));
-    OstStatus status = OST_NEW(ctx, &aztec.residual, n + 1); /* AztecOO wants arrays even where there are no unknowns */
+    OstStatus status = OST_NEW(ctx, &aztec.residual, n + 1); /* AztecOO needs arrays even without unknowns */
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &right_side, n + 1);
     OST_TRY_DONE(ost_agree(ctx, status));

@@ -4,8 +4,9 @@
 
 #include "orthostat/context.h"
 
-/* What AztecOO's conjugate gradients for A x = b call back. Vectors hold the unknowns that this rank owns. All ranks
- * are in the same call at the same time. */
+/* The callbacks of AztecOO's conjugate gradients for A x = b; collective. Vectors hold the unknowns that this rank
+ * owns.
+ */
 typedef struct OstAztecSystem {
     void *data;
     OstLocal unknowns; /* of this rank */
@@ -17,13 +18,13 @@ typedef struct OstAztecSystem {
 
 typedef enum {
     OST_AZTEC_STOPPED,   /* by `precondition` */
-    OST_AZTEC_BREAKDOWN, /* p·Ap is not a positive number, or nothing beside |p| |Ap| */
-    OST_AZTEC_STEPS      /* most_steps are done */
+    OST_AZTEC_BREAKDOWN, /* p·Ap is not positive, or negligible beside |p| |Ap| */
+    OST_AZTEC_STEPS      /* after most_steps */
 } OstAztecEnd;
 
-/* Collective. Improves x (which comes as zero) by AZ_iterate. The test for the end sits in `precondition`: asked
- * anywhere else, AztecOO applies the preconditioner once more after its last step. Raises OST_OUT_OF_MEMORY where there
- * is no room for AztecOO's four vectors, as it would end the process, and what the callbacks do. */
+/* Collective. Improves x, which is 0 on entry, by AZ_iterate. The iteration is ended in `precondition`, as otherwise
+ * AztecOO applies the preconditioner once more after its last step. Raises OST_OUT_OF_MEMORY if there is no room for
+ * AztecOO's four vectors (it would end the process), and what the callbacks raise. */
 OstStatus ost_aztec_cg(OstContext *ctx, const OstAztecSystem *system, const double *b, double *x, int most_steps,
                        OstAztecEnd *end);
 

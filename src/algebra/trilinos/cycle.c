@@ -9,20 +9,21 @@
 
 #include <string.h>
 
-static const double second_weight = 2.0;
+/* From 2 to 2.5 iterations hardly differ; the larger, the less room there is for eigenvalues above 1. */
+static const double second_weight = 2.25;
 
 typedef struct Level {
     OstMlCycle *cycle;
     OstMlLevel operators;
-    double *first; /* the result of the first visit; NULL where there is but one */
-    int second;    /* is this the second? */
+    double *first; /* the result of the first visit; NULL if there is only one */
+    int second;    /* is this the second visit? */
 } Level;
 
 struct OstMlCycle {
     ML *ml;
     int levels;
     Level *level;
-    OstStatus status; /* the first failure inside a callback, which ML has no way to pass on */
+    OstStatus status; /* the first failure inside a callback: ML cannot pass it on */
 };
 
 static int note(OstMlCycle *cycle, OstStatus status)
@@ -56,7 +57,7 @@ static int prolong(ML_Operator *operator, int in_length, double *coarse, int out
     return note(level->cycle, level->operators.prolong(level->operators.data, coarse, fine));
 }
 
-/* ML starts the second visit to a level from the result of the first, which is kept. */
+/* ML starts the second visit to a level from the result of the first, which is stored. */
 static int smooth_before(ML_Smoother *smoother, int in_length, double *x, int out_length, double *b)
 {
     Level *level = ML_Get_MySmootherData(smoother);
@@ -69,7 +70,7 @@ static int smooth_before(ML_Smoother *smoother, int in_length, double *x, int ou
     return note(level->cycle, level->operators.smooth(level->operators.data, b, x, from_zero));
 }
 
-/* What the second visit adds to the first counts twice. */
+/* What the second visit adds to the first is weighted. */
 static int smooth_after(ML_Smoother *smoother, int in_length, double *x, int out_length, double *b)
 {
     Level *level = ML_Get_MySmootherData(smoother);
@@ -81,7 +82,7 @@ static int smooth_after(ML_Smoother *smoother, int in_length, double *x, int out
     return 0;
 }
 
-/* Hands level l to ML; of the last one only the smoother before the cycle, which solves, is called. */
+/* Passes level l to ML. On the last level ML calls only the pre-smoother, which solves. */
 static OstStatus set_level(OstContext *ctx, OstMlCycle *cycle, int l)
 {
     ML *ml = cycle->ml;
@@ -139,7 +140,7 @@ static OstStatus check_sizes(OstContext *ctx, int levels, const OstMlLevel *leve
 
 OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *level, OstMlCycle **cycle)
 {
-    enum { VECTORS = 3 }; /* that ML takes for each level while it cycles */
+    enum { VECTORS = 3 }; /* that ML allocates for each level during a cycle */
     double bytes = 0.0;
     OstMlCycle *made = NULL;
     *cycle = NULL;

@@ -6,12 +6,12 @@
 
 #include <limits.h>
 
-/* Epetra_ConfigDefs.h is C++ only. The C wrappers need nothing from it but to know that Epetra has MPI. */
+/* Epetra_ConfigDefs.h is C++ only. The C wrappers only need to know from it that Epetra has MPI. */
 #define EPETRA_CONFIGDEFS_H
 #define EPETRA_MPI
 #include <Epetra_C_wrappers.h>
 
-enum { EPETRA_VIEW = 0 }; /* for the wrappers, 1 copies the values and anything else looks at them in place */
+enum { EPETRA_VIEW = 0 }; /* for the wrappers, 1 copies the values and anything else uses them in place */
 
 struct OstEpetraMap {
     OstContext *ctx;
@@ -30,8 +30,8 @@ void ost_epetra_map_destroy(OstEpetraMap **map)
     OST_FREE(*map);
 }
 
-/* The wrapper that makes a 64-bit map with a given count per rank is not callable from C in Trilinos 13 (the library
- * defines it with other argument types than its header, under a C++ name), so the map is a 32-bit one. */
+/* The map is a 32-bit one: in Trilinos 13 the C wrapper for a 64-bit map cannot be called, as the library defines it
+ * with other argument types than its header, under a C++ name. */
 static OstStatus check_limit(OstContext *ctx, OstLocal count)
 {
     OstGlobal total = count;
@@ -77,7 +77,7 @@ OstGlobal ost_epetra_map_first(const OstEpetraMap *map)
 
 OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm)
 {
-    /* The wrappers know no const; a norm writes nothing. */
+    /* The wrappers have no const; the norm does not write. */
     EPETRA_OBJECT_PTR vector = epetra_vector_create2(EPETRA_VIEW, map->map, (double *)(uintptr_t)values);
     const int error = vector ? epetra_vector_norm2(vector, norm) : -1;
     if (vector)

@@ -7,8 +7,8 @@
 /* Epetra's map of the unknowns: which global numbers this rank owns (contiguous, in rank order). */
 typedef struct OstEpetraMap OstEpetraMap;
 
-/* Collective. The map of `count` unknowns on this rank. Raises OST_LIMIT_EXCEEDED if all ranks' are more than Epetra's
- * C interface can number. */
+/* Collective. The map of `count` unknowns on this rank. Raises OST_LIMIT_EXCEEDED if the total is more than
+ * Epetra's C interface can number. */
 OstStatus ost_epetra_map_create(OstContext *ctx, OstLocal count, OstEpetraMap **map);
 void ost_epetra_map_destroy(OstEpetraMap **map);
 
@@ -16,7 +16,7 @@ void ost_epetra_map_destroy(OstEpetraMap **map);
 OstGlobal ost_epetra_map_size(const OstEpetraMap *map);
 OstGlobal ost_epetra_map_first(const OstEpetraMap *map);
 
-/* Collective. 2-norm of a distributed vector, which Epetra looks at in place. */
+/* Collective. The 2-norm of a distributed vector, which Epetra uses in place. */
 OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm);
 
 #endif

@@ -26,8 +26,8 @@ void ost_exchange_destroy(OstExchange **exchange)
     OST_FREE(*exchange);
 }
 
-/* Which numbers of x go to and come from each neighbour, in both directions. ML copies the lists, and its functions
- * have no failure to tell. */
+/* Lists which numbers of x are sent to and received from each neighbour, for both directions. ML copies the lists; its
+ * functions cannot fail. */
 static void list_numbers(const OstHalo *halo, int width, int *owned, int *ghost, OstExchange *exchange)
 {
     for (OstLocal i = 0; i < halo->send_start[halo->neighbour_count]; i++)

@@ -70,7 +70,7 @@ static int multiply(ML_Operator *operator, int in_length, double *x, int out_len
     return 0;
 }
 
-/* ML learns who its neighbours are from what this exchange does. */
+/* ML finds its neighbours by calling this exchange. */
 static int exchange(double *x, void *data)
 {
     OstMlMatrix *link = data;

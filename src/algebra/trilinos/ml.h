@@ -6,23 +6,23 @@
 
 #include <ml_include.h>
 
-/* What ML calls back with: a block matrix, and a vector with room for its ghosts. Lives as long as the ML object. */
+/* The data of ML's callbacks: a block matrix, and a vector with room for its ghosts. Must outlive the ML object. */
 typedef struct OstMlMatrix {
     const OstBlockMatrix *matrix;
     double *vector;   /* 3 × columns */
-    OstStatus status; /* the first failure inside a callback, which ML has no way to pass on; see ost_ml_check */
+    OstStatus status; /* the first failure inside a callback, as ML cannot pass it on; see ost_ml_check */
 } OstMlMatrix;
 
 /* Local. An ML object over the context's communicator, silent, with room for `levels` levels; ML_Destroy frees it. */
 OstStatus ost_ml_create(OstContext *ctx, int levels, ML **ml);
 
-/* Collective. Gives `matrix` to ML as the operator of `level`: rows on demand, product, diagonal, halo exchange. ML
- * copies nothing, so the matrix stays in place. Free the link after ML_Destroy. Raises OST_LIMIT_EXCEEDED where ML's
- * 32-bit numbers do not reach. */
+/* Collective. Passes `matrix` to ML as the operator of `level`, by callbacks for rows, product and halo exchange; ML
+ * copies only the diagonal, so the matrix must outlive it. Free the link after ML_Destroy. Raises OST_LIMIT_EXCEEDED if
+ * ML's 32-bit numbers are too small. */
 OstStatus ost_ml_set_matrix(ML *ml, int level, const OstBlockMatrix *matrix, OstMlMatrix **link);
 void ost_ml_matrix_destroy(OstMlMatrix **link);
 
-/* Collective. The first failure of the callbacks since the link was made, on any rank. */
+/* Collective. Fails on all ranks if a callback has failed on any. */
 OstStatus ost_ml_check(const OstMlMatrix *link);
 
 #endif

@@ -11,10 +11,10 @@
 enum {
     FINEST = 0,
     EIGENVALUE_STEPS = 30, /* of ML's conjugate gradients for the largest eigenvalue of a level */
-    LARGEST_FOR_KLU = 2000 /* unknowns of the coarsest level; above, MUMPS is faster */
+    LARGEST_FOR_KLU = 2000 /* unknowns of the coarsest level; above that MUMPS is faster */
 };
 
-/* The eigenvalue comes from below, and a Chebyshev polynomial that ends short of the spectrum is not definite. */
+/* The estimate approaches the eigenvalue from below; a Chebyshev polynomial is indefinite beyond its interval. */
 static const double eigenvalue_margin = 1.2;
 
 struct OstSmoothedAggregation {
@@ -53,7 +53,7 @@ static OstStatus set_aggregation(OstSmoothedAggregation *hierarchy, const double
     ML_Aggregate_Set_DampingFactor(aggregates, 4.0 / 3.0);
     ML_Set_SpectralNormScheme_Calc(hierarchy->ml);
     if (ML_Aggregate_Set_NullSpace(aggregates, 3, modes ? 6 : 3, (double *)modes, 3 * hierarchy->matrix->rows) != 0)
-        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML would not take the near-null space");
+        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML_Aggregate_Set_NullSpace failed");
     return OST_SUCCESS;
 }
 
@@ -97,7 +97,8 @@ static OstStatus set_smoothers(OstSmoothedAggregation *hierarchy, const OstSolve
         ML_Operator *matrix = &ml->Amat[level];
         ML_Operator_Set_SpectralNormScheme_Calc(matrix);
         ML_Operator_Set_SpectralNorm_Iterations(matrix, EIGENVALUE_STEPS);
-        matrix->lambda_max = -666.666; /* ML's mark for "not known yet": the prolongator's estimate took few steps */
+        matrix->lambda_max =
+            -666.666; /* ML's mark for "unknown": discards the prolongator's estimate, which took few steps */
         if (ML_Gen_Smoother_Cheby(ml, level, ML_BOTH, options->smoother_ratio, options->smoother_degree) != 0)
             return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML has no Chebyshev smoother for level %d", level);
     }
@@ -110,8 +111,7 @@ static OstStatus set_smoothers(OstSmoothedAggregation *hierarchy, const OstSolve
     return ost_ml_check(hierarchy->link);
 }
 
-/* What ML and Amesos would take badly (a failed factorisation prints, and dumps the matrix to files) is refused first.
- */
+/* Refuses unusable diagonal blocks first, as a failed factorisation in Amesos prints and writes the matrix to files. */
 static OstStatus check_diagonal(const OstBlockMatrix *matrix)
 {
     OstScaling *scaling = NULL;
@@ -150,7 +150,7 @@ OstStatus ost_smoothed_aggregation_apply(void *data, const double *r, double *z)
     memset(z, 0, (size_t)n * sizeof *z);
     if (hierarchy->levels > 1)
         ML_Solve_MGV(hierarchy->ml, (double *)r, z);
-    else /* ML has no cycle of one level (it would print a warning), but the direct solve is there */
+    else /* with one level ML's cycle would print a warning; the smoother is the direct solve */
         ML_Smoother_Apply(&hierarchy->ml->post_smoother[FINEST], n, z, n, (double *)r, ML_ZERO);
     return hierarchy->link->status;
 }

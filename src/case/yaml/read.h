@@ -3,7 +3,7 @@
 #define ORTHOSTAT_CASE_YAML_READ_H
 
 #include "case/yaml/message.h"
-#include "orthostat/case.h"
+#include "case/yaml/place.h"
 
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
  * "path:line:column: what was found, what was expected". */

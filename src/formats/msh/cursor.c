@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/serial/line_reader.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -4,7 +4,7 @@
 
 #include "formats/msh/cursor.h"
 #include "formats/serial/label_index.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Gmsh's numbers of the element types in use. */
 enum {

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_FORMATS_SERIAL_CHUNK_TIDY_H
 #define ORTHOSTAT_FORMATS_SERIAL_CHUNK_TIDY_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Local. Sorts a whole mesh's tets by their labels; raises OST_INVALID_INPUT if two share one. */
 OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path);

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_FORMATS_SERIAL_SERIAL_H
 #define ORTHOSTAT_FORMATS_SERIAL_SERIAL_H
 
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
 
 /* Readers of the serial formats: local, called on one rank. They read the whole mesh. */
 OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);

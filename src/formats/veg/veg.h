@@ -2,9 +2,9 @@
 #ifndef ORTHOSTAT_FORMATS_VEG_VEG_H
 #define ORTHOSTAT_FORMATS_VEG_VEG_H
 
+#include "formats/serial/formats.h"
 #include "formats/serial/label_index.h"
 #include "formats/serial/line_reader.h"
-#include "orthostat/mesh_file.h"
 
 enum { OST_VEG_DEPTH = 16, OST_VEG_NAME_SIZE = 256 };
 

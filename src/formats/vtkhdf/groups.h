@@ -3,7 +3,7 @@
 #define ORTHOSTAT_FORMATS_VTKHDF_GROUPS_H
 
 #include "formats/vtkhdf/hdf5.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Names of regions and boundaries, in a group of the file that VTK ignores:
  *   /Orthostat/RegionNames      strings; the cell array "region" counts them from 0

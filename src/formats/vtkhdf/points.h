@@ -3,7 +3,7 @@
 #define ORTHOSTAT_FORMATS_VTKHDF_POINTS_H
 
 #include "formats/vtkhdf/hdf5.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Each piece of a file has its own copy of the points it uses, so a node on the border of pieces occurs several times.
  * The first of these points in the file becomes the node; nodes are numbered in the order of their points. */

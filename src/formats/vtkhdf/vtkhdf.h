@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_FORMATS_VTKHDF_VTKHDF_H
 #define ORTHOSTAT_FORMATS_VTKHDF_VTKHDF_H
 
-#include "orthostat/mesh.h"
-#include "orthostat/mesh_file.h"
+#include "formats/serial/formats.h"
+#include "mesh/mesh_data.h"
 
 typedef enum { OST_ON_NODES, OST_ON_TETS } OstCentring;
 typedef enum { OST_VALUES_DOUBLE, OST_VALUES_INT32 } OstValueType;

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_CHECK_CHECK_H
 #define ORTHOSTAT_MESH_CHECK_CHECK_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. What can be told of a chunk before its tets meet their vertices: counts and ranges that fit together,
  * finite coordinates, node and region numbers in range, no tet that uses a node twice. Empty shares get the place in

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
 #define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* A component: tets joined through faces. Such a set moves as one where it does not deform; components that touch in an
  * edge or a vertex alone are hinged there. */

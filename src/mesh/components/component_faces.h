@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_FACES_H
 #define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_FACES_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Two tets on the same side of a face, by label: they overlap, or one is doubled. */
 typedef struct OstOverlap {

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_COMPONENTS_COMPONENT_RANKS_H
 #define ORTHOSTAT_MESH_COMPONENTS_COMPONENT_RANKS_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Merges each rank's sets of tets into those of the whole body, by the tets that several ranks hold:
  * set[t] comes as one of this rank's `set_count` numbers and leaves as one of *count numbers that all ranks share. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_DISTRIBUTION_MERGE_H
 #define ORTHOSTAT_MESH_DISTRIBUTION_MERGE_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Joins vertices of the chunk that are no farther apart than `tolerance` (above 0): of such vertices the
  * one with the lowest number stays, with its label and place; `merged` is how many went. Raises OST_INVALID_INPUT if

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_DISTRIBUTION_SHARE_H
 #define ORTHOSTAT_MESH_DISTRIBUTION_SHARE_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Collective. Gives every rank that brings no chunk (NULL) an empty one that agrees with rank 0's: the same global
  * counts, regions and boundaries, and no nodes, tets or items. Rank 0 brings one. Raises OST_INVALID_INPUT where a

@@ -3,7 +3,7 @@
 #define ORTHOSTAT_MESH_DISTRIBUTION_SLAB_H
 
 #include "core/parallel/halo.h"
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* A chunk seen from its nodes: this rank's nodes of the chunk, all tets that touch one of them (wherever the chunk
  * holds them), and as ghosts all other nodes that those tets and this rank's items of the chunk mention. */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_REFINEMENT_EDGE_TABLE_H
 #define ORTHOSTAT_MESH_REFINEMENT_EDGE_TABLE_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* The edges of the tets held here, between vertices. An edge is filed under its end with the lowest global number, and
  * owned where that end is: there, all tets around it are held. Owned edges come first, as their ends do. */

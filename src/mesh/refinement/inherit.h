@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_MESH_REFINEMENT_INHERIT_H
 #define ORTHOSTAT_MESH_REFINEMENT_INHERIT_H
 
-#include "orthostat/mesh.h"
+#include "mesh/mesh_data.h"
 
 /* Local. A mesh with the parent's regions, and its boundaries without items; all else is empty. What is made before a
  * failure is the caller's to destroy. */

@@ -2,8 +2,8 @@
 #ifndef ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 #define ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 
-#include "orthostat/exact.h"
-#include "orthostat/verify.h"
+#include "assembly/exact.h"
+#include "case/verify.h"
 
 /* Closed-form solutions with which answers are compared. A formula takes shape and material from the case, and gives a
  * displacement field and named numbers ("values"). */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_PLAN_H
-#define ORTHOSTAT_PLAN_H
+#ifndef ORTHOSTAT_CASE_PLAN_H
+#define ORTHOSTAT_CASE_PLAN_H
 
-#include "orthostat/case.h"
-#include "orthostat/effect.h"
-#include "orthostat/mesh_file.h"
-
-OST_API_BEGIN
+#include "case/case_data.h"
+#include "effect/effect.h"
+#include "formats/serial/formats.h"
 
 /* The work a case calls for: every effect, on or off with the reason, and the size of the job, foreseen before anything
  * large is allocated. */
@@ -61,7 +59,5 @@ OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
 /* Local. Turns the counts of a mesh file into those of the mesh that the case makes of it, refined and in its order:
  * the tets exactly, the nodes about. */
 void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets);
-
-OST_API_END
 
 #endif

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_EXACT_H
-#define ORTHOSTAT_EXACT_H
+#ifndef ORTHOSTAT_ASSEMBLY_EXACT_H
+#define ORTHOSTAT_ASSEMBLY_EXACT_H
 
 #include "orthostat/context.h"
-
-OST_API_BEGIN
 
 /* A displacement field known in closed form, with the stress and the force per volume that belong to it in the scene's
  * material. It stands behind the word `exact` in constraints and loads, and is what the answer is measured against.
@@ -18,7 +16,5 @@ typedef struct OstExactField {
     OstStatus (*body_force)(const void *data, const double point[3],
                             double force[3]); /* minus the stress's divergence */
 } OstExactField;
-
-OST_API_END
 
 #endif

@@ -1,4 +1,4 @@
-"""The solver's ladder as a user sees it: its plan, its climb in summary and JSON, its refusals; on one rank and on two."""
+"""The solver's strategies as a user sees them: the plan, the next strategy in summary and JSON, refusals; on one rank and on two."""
 import json
 import os
 
@@ -21,7 +21,7 @@ accuracy: {relative_residual: TOLERANCE}
 solver: {SOLVER}
 """
 
-# One step of smoothing on single nodes over a narrow interval: far too slow, and given, so that no rung may mend it.
+# One step of smoothing on single nodes over a narrow interval: far too slow, and given, so that no strategy may mend it.
 CRIPPLED = "aggregate_nodes: 300, smoother_block_nodes: 1, smoother_degree: 1, smoother_ratio: 1.5, patience: 1"
 
 
@@ -37,25 +37,25 @@ def close(a, b, what):
 
 def every_rung_gives_the_same_pose():
     expected = None
-    for recipe in ("direct", "plain", "metric", "strong", "two_level", "auto"):
+    for method in ("direct", "plain", "metric", "strong", "two_level", "auto"):
         for ranks in (1, 2):
-            finished, report, path = solve(case(f"recipe: {recipe}"), ranks=ranks)
-            check(finished.exit_code == 0, f"{recipe}, {ranks} ranks: {finished.errors}")
-            used = "metric" if recipe == "auto" else recipe
-            check(report["solver"]["recipe"] == used, f"{recipe} used {report['solver']['recipe']}")
-            check([step["rung"] for step in report["solver"]["steps"]] == [used], f"{recipe} tried another")
-            check(report["solver"]["relative_residual"] <= 1e-9, f"{recipe}: {report['solver']['relative_residual']}")
+            finished, report, path = solve(case(f"method: {method}"), ranks=ranks)
+            check(finished.exit_code == 0, f"{method}, {ranks} ranks: {finished.errors}")
+            used = "metric" if method == "auto" else method
+            check(report["solver"]["method"] == used, f"{method} used {report['solver']['method']}")
+            check([step["strategy"] for step in report["solver"]["strategies"]] == [used], f"{method} went on to another")
+            check(report["solver"]["relative_residual"] <= 1e-9, f"{method}: {report['solver']['relative_residual']}")
             points = read_points(path)
             expected = expected or points
-            close(points, expected, f"{recipe} on {ranks} ranks")
+            close(points, expected, f"{method} on {ranks} ranks")
 
 
-def a_climb_is_told():
+def a_next_strategy_is_told():
     for ranks in (1, 2):
         finished, report, _ = solve(case(CRIPPLED), ranks=ranks)
         check(finished.exit_code == 0, f"{ranks} ranks: {finished.errors}")
-        steps = report["solver"]["steps"]
-        check([step["rung"] for step in steps] == ["metric", "strong", "two_level", "direct"], f"steps: {steps}")
+        steps = report["solver"]["strategies"]
+        check([step["strategy"] for step in steps] == ["metric", "strong", "two_level", "direct"], f"steps: {steps}")
         check("too slow" in steps[0]["outcome"] and steps[0]["iterations"] == 40, f"first step: {steps[0]}")
         check(steps[3]["relative_residual"] <= 1e-9, f"last step: {steps[3]}")
         check(sum(step["iterations"] for step in steps) == report["solver"]["iterations"], "iterations do not add up")
@@ -88,14 +88,14 @@ def a_small_body_that_may_not_be_factored_is_iterated_on():
         for ranks in (1, 2):
             finished, report, path = solve(SMALL.replace("MEMORY", memory).replace("ORDER", "1"), ranks=ranks)
             check(finished.exit_code == 0, f"{memory} MiB, {ranks} ranks: {finished.errors}")
-            check(report["solver"]["recipe"] == "metric", f"{memory} MiB: {report['solver']['recipe']}")
+            check(report["solver"]["method"] == "metric", f"{memory} MiB: {report['solver']['method']}")
             check(len(report["solver"]["level_unknowns"]) > 1, f"{memory} MiB: factored after all")
             check(said in report["solver"]["plan"][0], f"{memory} MiB: {report['solver']['plan']}")
             free, _, expected = solve(SMALL.replace("MEMORY", "1000").replace("ORDER", "1"))
             check("solver           direct" in free.output, free.output)
             close(read_points(path), read_points(expected), f"{memory} MiB")
     finished, report, _ = solve(SMALL.replace("MEMORY", "1.7").replace("ORDER", "2").replace("6, 6, 6", "3, 3, 3"))
-    check(finished.exit_code == 0 and report["solver"]["recipe"] == "metric", finished.errors + finished.output)
+    check(finished.exit_code == 0 and report["solver"]["method"] == "metric", finished.errors + finished.output)
     check(report["solver"]["level_unknowns"][1] == 144, f"not on the linear tets: {report['solver']['level_unknowns']}")
 
 
@@ -106,26 +106,26 @@ def all_that_was_tried_is_told_whole():
     finished, _, path = solve(hopeless, folder=folder, extra=("--keep",))
     with open(os.path.join(folder, "summary.json")) as stream:
         report = json.load(stream)
-    steps = report["solver"]["steps"]
+    steps = report["solver"]["strategies"]
     check(len(steps) == 5, f"five steps are wanted: {steps}")
     reason = report["reasons"][0]
-    tried = "; ".join(f"{s['rung']} ({s['iterations']} iterations): {s['outcome']}" for s in steps)
+    tried = "; ".join(f"{s['strategy']} ({s['iterations']} iterations): {s['outcome']}" for s in steps)
     check(reason.endswith("Tried: " + tried), f"not all of {tried}: {reason}")
-    check("or an iterative recipe" in steps[3]["outcome"], f"an outcome is cut off: {steps[3]}")
+    check("or an iterative method" in steps[3]["outcome"], f"an outcome is cut off: {steps[3]}")
     check(finished.errors.endswith(reason + "\n"), f"not whole: {finished.errors}")
     with open(path, "rb") as stream:
         check(reason.encode() in stream.read(), "the file's reason is not whole")
 
 
 def what_rounding_allows_is_refused_or_taken():
-    finished, _, _ = solve(case("recipe: auto", tolerance="1e-15"))
+    finished, _, _ = solve(case("method: auto", tolerance="1e-15"))
     check(finished.exit_code == 1 and "double precision allows about" in finished.errors, finished.errors)
-    finished, report, _ = solve(case("recipe: auto", tolerance="1e-15, out_of_reach: accept"))
+    finished, report, _ = solve(case("method: auto", tolerance="1e-15, out_of_reach: accept"))
     check(finished.exit_code == 0, finished.errors)
     solver = report["solver"]
     check(solver["rounding_limited"], "not said to be limited by rounding")
     check(1e-15 < solver["relative_residual"] < 3 * solver["attainable_residual"], f"{solver}")
-    check(len(solver["steps"]) == 1, f"tried others in vain: {solver['steps']}")
+    check(len(solver["strategies"]) == 1, f"went on in vain: {solver['strategies']}")
 
 
 def the_plan_is_explained():
@@ -133,18 +133,18 @@ def the_plan_is_explained():
     first = "metric"
     for modulus in ("1e9", "1e12"):
         with open(os.path.join(folder, "case.yaml"), "w") as stream:
-            stream.write(case("recipe: auto", modulus=modulus))
+            stream.write(case("method: auto", modulus=modulus))
         finished = run("explain", "case.yaml", "--json", folder=folder)
         check(finished.exit_code == 0, finished.errors)
         plan = json.loads(finished.output)["solver"]
-        check(plan["recipe"] == first, f"{modulus}: {plan}")
+        check(plan["method"] == first, f"{modulus}: {plan}")
         check(any("at one place" in reason for reason in plan["reasons"]), f"{modulus}: {plan}")
-        check(any("last rung is" in reason for reason in plan["reasons"]), f"{modulus}: {plan}")
-        check(f"{first} first: " in run("explain", "case.yaml", folder=folder).output, "the rung is not printed")
+        check(any("method direct is" in reason for reason in plan["reasons"]), f"{modulus}: {plan}")
+        check(f"{first} first: " in run("explain", "case.yaml", folder=folder).output, "the method is not printed")
 
 
 every_rung_gives_the_same_pose()
-a_climb_is_told()
+a_next_strategy_is_told()
 without_memory_all_that_was_tried_is_told()
 a_small_body_that_may_not_be_factored_is_iterated_on()
 all_that_was_tried_is_told_whole()

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/plan.h"
+#include "case/plan.h"
 
 #include "algebra/solver_plan.h"
 #include "case/plan_parts.h"

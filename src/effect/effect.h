@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_EFFECT_H
-#define ORTHOSTAT_EFFECT_H
+#ifndef ORTHOSTAT_EFFECT_EFFECT_H
+#define ORTHOSTAT_EFFECT_EFFECT_H
 
 #include "orthostat/context.h"
 

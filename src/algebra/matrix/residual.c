@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/matrix/compensated_residual.h"
+#include "algebra/matrix/residual.h"
 
 #include "core/error.h"
 
@@ -10,7 +10,7 @@ typedef struct Sum {
     double high, low;
 } Sum;
 
-/* sum - a b; the errors of the product and of the addition are caught in `low`. */
+/* sum -= a b; `low` collects the rounding errors of the product and of the addition. */
 static inline void subtract_product(Sum *sum, double a, double b)
 {
     const double product = -a * b;
@@ -38,5 +38,15 @@ OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f
         for (int i = 0; i < 3; i++)
             residual[3 * (size_t)row + (size_t)i] = sum[i].high + sum[i].low;
     }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_residual(const OstBlockMatrix *matrix, const double *f, double *u, int compensated, double *residual)
+{
+    if (compensated)
+        return ost_compensated_residual(matrix, f, u, residual);
+    OST_TRY(ost_block_matrix_apply(matrix, u, residual));
+    for (size_t i = 0; i < 3 * (size_t)matrix->rows; i++)
+        residual[i] = f[i] - residual[i];
     return OST_SUCCESS;
 }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_VERIFY_H
-#define ORTHOSTAT_VERIFY_H
+#ifndef ORTHOSTAT_CASE_VERIFY_H
+#define ORTHOSTAT_CASE_VERIFY_H
 
-#include "orthostat/case.h"
-
-OST_API_BEGIN
+#include "case/case_data.h"
 
 /* The `verify` section of a case: a formula, what of the answer it foretells, the ladder of meshes on which that is
  * measured, and what counts as passed. Plain data, owned by the case. */
@@ -76,7 +74,5 @@ typedef struct OstVerify {
     int quantity_count;
     OstVerifyQuantity *quantity;
 } OstVerify;
-
-OST_API_END
 
 #endif

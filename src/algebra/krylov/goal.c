@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/krylov/goal.h"
+
+#include "algebra/matrix/vector.h"
+#include "core/error.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal)
+{
+    OstContext *ctx = matrix->ctx;
+    double square;
+    memset(goal, 0, sizeof *goal);
+    goal->ctx = ctx;
+    goal->most_iterations = options->max_iterations;
+    goal->accept_attainable = options->accept_attainable;
+    OST_TRY(ost_vector_dot(ctx, 3 * (size_t)matrix->rows, f, f, &square));
+    goal->start = goal->norm = sqrt(square);
+    goal->target = options->relative_residual * goal->start;
+    ost_convergence_start(&goal->convergence, goal->start);
+    if (!isfinite(goal->start))
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
+    return OST_SUCCESS;
+}
+
+void ost_goal_end_by_iterations(OstGoal *goal)
+{
+    goal->end = OST_END_ITERATIONS;
+    snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
+}
+
+int ost_goal_count(OstGoal *goal, double norm, double weight)
+{
+    const double whole = log(goal->start / goal->target);
+    goal->iterations++;
+    ost_convergence_add(&goal->convergence, norm, weight);
+    ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
+    if (norm <= goal->target)
+        return 0;
+    const double remaining = ost_convergence_remaining(&goal->convergence, goal->target);
+    if (goal->iterations >= goal->most_iterations) {
+        ost_goal_end_by_iterations(goal);
+    } else if (goal->patience > 0 && remaining > goal->patience) {
+        goal->end = OST_END_SLOW;
+        snprintf(goal->words, sizeof goal->words,
+                 "after %d iterations each still multiplies the residual by %.4f: too slow", goal->convergence.count,
+                 ost_convergence_factor(&goal->convergence));
+    }
+    return goal->end == OST_END_REACHED;
+}
+
+static const char *what_is_wrong(double value)
+{
+    return !isfinite(value) ? "is not finite" : value < 0.0 ? "is negative" : "is zero";
+}
+
+int ost_goal_accepts(OstGoal *goal, double weight)
+{
+    if (weight > 0.0 && isfinite(weight))
+        return 1;
+    goal->end = OST_END_PRECONDITIONER;
+    snprintf(goal->words, sizeof goal->words,
+             "in iteration %d r·z = %g %s: the preconditioner is not positive definite", goal->iterations + 1, weight,
+             what_is_wrong(weight));
+    return 0;
+}
+
+OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy)
+{
+    return OST_RAISE(goal->ctx, OST_NOT_CONVERGED,
+                     "iteration %d: p·Ap = %g %s: the stiffness is not positive definite; check supports and materials",
+                     goal->iterations + 1, energy, what_is_wrong(energy));
+}
+
+double ost_goal_attainable(const OstGoal *goal)
+{
+    return fmin(goal->norm, goal->limit) / goal->start;
+}
+
+OstStatus ost_goal_verdict(const OstGoal *goal)
+{
+    if (goal->end == OST_END_REACHED || (goal->end == OST_END_ROUNDING && goal->accept_attainable))
+        return OST_SUCCESS;
+    const double reached = goal->norm / goal->start;
+    const double requested = goal->target / goal->start;
+    if (goal->end == OST_END_ROUNDING)
+        return OST_RAISE(goal->ctx, OST_NOT_CONVERGED,
+                         "after %d iterations the relative residual stays at %.3g, not the requested %.3g; %s",
+                         goal->iterations, reached, requested, goal->words);
+    return OST_RAISE(goal->ctx, OST_NOT_CONVERGED, "%s; the relative residual is %.3g, not the requested %.3g",
+                     goal->words, reached, requested);
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_KRYLOV_GOAL_H
+#define ORTHOSTAT_ALGEBRA_KRYLOV_GOAL_H
+
+#include "algebra/krylov/convergence_rate.h"
+#include "algebra/matrix/block_matrix.h"
+#include "orthostat/solver.h"
+
+/* How an iterative solver ended. */
+typedef enum {
+    OST_END_REACHED,
+    OST_END_SLOW,           /* it would need more iterations than the patience allows */
+    OST_END_PRECONDITIONER, /* the preconditioner is not positive definite */
+    OST_END_STALLED,        /* solving for the residual gains nothing, and rounding is not the cause */
+    OST_END_ROUNDING,       /* double precision allows no smaller residual */
+    OST_END_ITERATIONS      /* the maximum number of iterations is reached */
+} OstEnd;
+
+/* What a solver works towards and how close it is. Norms are 2-norms of the unscaled residual. */
+typedef struct OstGoal {
+    OstContext *ctx;
+    double start;    /* ||f|| */
+    double target;   /* relative_residual × ||f|| */
+    double norm;     /* ||f - A u||, recomputed */
+    double limit;    /* estimate of the smallest norm that rounding allows; 0 if not computed */
+    int compensated; /* norm is so close to the limit that residuals are computed by ost_compensated_residual */
+    int iterations;
+    int most_iterations;
+    int patience;          /* iterations the solver may still need; 0: no limit */
+    int accept_attainable; /* a norm at the rounding limit is accepted even above the target */
+    double settled; /* also iterate until a correction changes u by no more than this, relative to u; 0: do not */
+    double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
+    OstConvergence convergence;
+    OstEnd end;
+    char words[200]; /* why it ended, unless OST_END_REACHED */
+} OstGoal;
+
+/* Collective. The goal of A u = f from u = 0. Raises OST_INVALID_INPUT if f is not finite. */
+OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal);
+
+/* Local. Counts an iteration with r·z = weight whose residual has this norm, and shows the progress. Returns whether to
+ * go on: not if the target is reached, or the iterations or the patience are used up. */
+int ost_goal_count(OstGoal *goal, double norm, double weight);
+
+/* Local. Ends with OST_END_ITERATIONS. */
+void ost_goal_end_by_iterations(OstGoal *goal);
+
+/* Local. Returns whether r·z is positive and finite; if not, ends with OST_END_PRECONDITIONER. */
+int ost_goal_accepts(OstGoal *goal, double weight);
+
+/* Local. Raises OST_NOT_CONVERGED: p·Ap = `energy` shows that the stiffness is not positive definite. */
+OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy);
+
+/* Local. Estimate of the smallest relative residual that double precision allows: the limit, or the residual reached
+ * where that is smaller. 0 if the limit was not computed. */
+double ost_goal_attainable(const OstGoal *goal);
+
+/* Local. OST_SUCCESS if the target, or an accepted rounding limit, was reached; else OST_NOT_CONVERGED with the reason
+ * and the residual reached. */
+OstStatus ost_goal_verdict(const OstGoal *goal);
+
+#endif

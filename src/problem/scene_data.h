@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PROBLEM_SCENE_DATA_H
+#define ORTHOSTAT_PROBLEM_SCENE_DATA_H
+
+#include "assembly/exact.h"
+#include "case/case_data.h"
+#include "case/plan.h"
+#include "formats/serial/formats.h"
+#include "orthostat/scene.h"
+#include "problem/result_data.h"
+
+/* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
+struct OstScene {
+    OstContext *ctx;
+    const OstCase *c;
+    OstPlan plan;           /* its effects are what the work goes by */
+    OstEffect *load_effect; /* of each load of the case */
+    OstMesh *mesh;
+    OstMaterialField *field;
+    const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
+};
+
+#endif
