@@ -33,7 +33,7 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     case OST_AXES_CURVE:
         return "axes follow a curve";
     case OST_AXES_CELLS:
-        return "axes are given tet by tet";
+        return "axes differ from tet to tet";
     case OST_AXES_GRADIENT:
         return "axes follow the gradients of two potentials";
     default:

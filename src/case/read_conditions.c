@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The word `exact`, which stands for the closed-form solution of the case (orthostat/exact.h). */
+/* The word `exact`, which stands for the closed-form solution of the case (assembly/exact.h). */
 static int is_closed_form(const OstYaml *yaml, const OstYamlNode *node)
 {
     const char *text = "";
@@ -22,7 +22,7 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
     int count;
     if (is_closed_form(yaml, node)) {
         for (int i = 0; i < 3; i++)
-            constraint->held[i] = constraint->exact[i] = 1;
+            constraint->constrained[i] = constraint->exact[i] = 1;
         return OST_SUCCESS;
     }
     OST_TRY(ost_yaml_list(yaml, node, expected, &count));
@@ -33,12 +33,12 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
         const char *text = "";
         if (ost_yaml_is(yaml, item, OST_YAML_SCALAR))
             OST_TRY(ost_yaml_text(yaml, item, &text));
-        constraint->held[i] = strcmp(text, "free") != 0;
+        constraint->constrained[i] = strcmp(text, "free") != 0;
         constraint->exact[i] = is_closed_form(yaml, item);
-        if (constraint->held[i] && !constraint->exact[i])
+        if (constraint->constrained[i] && !constraint->exact[i])
             OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
     }
-    if (!constraint->held[0] && !constraint->held[1] && !constraint->held[2])
+    if (!constraint->constrained[0] && !constraint->constrained[1] && !constraint->constrained[2])
         return ost_yaml_raise(yaml, node,
                               "every component is free, so this constraint constrains nothing; leave it out");
     return OST_SUCCESS;

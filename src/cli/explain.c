@@ -16,7 +16,8 @@
 static const char doc[] = "Say which effects a case calls for and why, how it will be solved, and how large the job "
                           "is. Nothing is assembled; the mesh is made only where it alone tells what a load acts on.";
 
-/* Some loads (on a box, on boundaries of a file) act on faces or on points, which only the mesh tells: makes it. */
+/* Makes the mesh, because some load (on a box, or on a boundary of a file) acts on faces or on vertices, and only the
+ * mesh tells which. */
 static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstMesh *mesh = NULL;

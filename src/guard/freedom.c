@@ -55,13 +55,6 @@ static OstStatus report_motions(const Freedom *freedom, double tolerance, OstFre
     return status;
 }
 
-static void count_rest(const OstFreedomReport *report, char *text, size_t size)
-{
-    text[0] = 0;
-    if (report->found > OST_FREEDOM_LINES)
-        snprintf(text, size, "\n  and %d more that can move", report->found - OST_FREEDOM_LINES);
-}
-
 static void advise(const Freedom *freedom, char *text, size_t size)
 {
     size_t used = 0;
@@ -83,8 +76,9 @@ static void advise(const Freedom *freedom, char *text, size_t size)
 
 static OstStatus refuse(const Freedom *freedom, const OstFreedomReport *report)
 {
-    char rest[64], advice[512];
-    count_rest(report, rest, sizeof rest);
+    char rest[64] = "", advice[512];
+    if (report->found > OST_FREEDOM_LINES)
+        snprintf(rest, sizeof rest, "\n  and %d more that can move", report->found - OST_FREEDOM_LINES);
     advise(freedom, advice, sizeof advice);
     return OST_RAISE(freedom->ctx, OST_INVALID_INPUT,
                      "%s: nothing constrains these motions, so there is no unique solution:%s%s\n%s", freedom->where,

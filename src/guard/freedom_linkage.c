@@ -60,7 +60,7 @@ void ost_linkage_add_conditions(const OstLinkage *linkage, const OstTie *tie, Os
         ost_rows_add(triangle, rows + 6 * r);
 }
 
-static OstStatus look_at(OstLinkage *linkage, OstLocal component)
+static OstStatus find_whether_fixed(OstLinkage *linkage, OstLocal component)
 {
     double copy[OST_ROWS], basis[OST_ROWS];
     int loose = 0;
@@ -77,7 +77,7 @@ static OstStatus fix_components(OstLinkage *linkage)
     OstLocal height = 0;
     OstStatus status = OST_NEW(linkage->ctx, &stack, linkage->components->count);
     for (OstLocal p = 0; p < linkage->components->count && status == OST_SUCCESS; p++) {
-        status = look_at(linkage, p);
+        status = find_whether_fixed(linkage, p);
         if (linkage->fixed[p])
             stack[height++] = p;
     }
@@ -89,7 +89,7 @@ static OstStatus fix_components(OstLinkage *linkage)
             if (linkage->fixed[other])
                 continue;
             ost_linkage_add_conditions(linkage, tie, other, linkage->conditions + OST_ROWS * (size_t)other);
-            status = look_at(linkage, other);
+            status = find_whether_fixed(linkage, other);
             if (status != OST_SUCCESS)
                 break;
             if (linkage->fixed[other])

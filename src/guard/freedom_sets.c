@@ -165,7 +165,7 @@ static OstStatus rank_with(Sets *sets, int more, int *rank)
     return OST_SUCCESS;
 }
 
-static OstStatus tell(Sets *sets, int leader, int count, OstFreedomReport *report)
+static OstStatus report_set(Sets *sets, int leader, int count, OstFreedomReport *report)
 {
     const int vectors = sets->free->count;
     const double *coefficients = sets->found + (size_t)sets->found_count * (size_t)vectors;
@@ -184,7 +184,7 @@ static OstStatus tell(Sets *sets, int leader, int count, OstFreedomReport *repor
 }
 
 /* Reports how the set moves by itself, unless that was reported already. */
-static OstStatus look_at_set(Sets *sets, OstFreedomReport *report)
+static OstStatus examine_set(Sets *sets, OstFreedomReport *report)
 {
     const size_t vectors = (size_t)sets->free->count;
     const int leader = leader_of_set(sets);
@@ -201,19 +201,19 @@ static OstStatus look_at_set(Sets *sets, OstFreedomReport *report)
     OST_TRY(rank_with(sets, count, &rank));
     if (rank == sets->found_rank)
         return OST_SUCCESS;
-    OST_TRY(tell(sets, leader, count, report));
+    OST_TRY(report_set(sets, leader, count, report));
     sets->found_rank = rank;
     sets->found_count += count;
     return OST_SUCCESS;
 }
 
-static void turn_to_other_side(Sets *sets)
+static void complement(Sets *sets)
 {
     for (int g = 0; g < sets->groups; g++)
         sets->in[g] = !sets->in[g];
 }
 
-static int has_still(const Sets *sets)
+static int has_still_group(const Sets *sets)
 {
     for (int g = 0; g < sets->groups; g++)
         if (sets->in[g] && sets->still[g])
@@ -223,24 +223,24 @@ static int has_still(const Sets *sets)
 
 /* If removing the edge between two groups splits the graph, examines the side that can move by itself: the one without
  * groups that do not move, or else the one without the first group. */
-static OstStatus look_beyond(Sets *sets, int a, int b, OstFreedomReport *report)
+static OstStatus examine_side(Sets *sets, int a, int b, OstFreedomReport *report)
 {
     reach(sets, b, a);
     if (sets->in[a])
         return OST_SUCCESS;
-    if (has_still(sets)) {
-        turn_to_other_side(sets);
-        if (has_still(sets))
+    if (has_still_group(sets)) {
+        complement(sets);
+        if (has_still_group(sets))
             return OST_SUCCESS;
     } else if (sets->in[0]) {
-        turn_to_other_side(sets);
-        if (has_still(sets))
-            turn_to_other_side(sets);
+        complement(sets);
+        if (has_still_group(sets))
+            complement(sets);
     }
-    return look_at_set(sets, report);
+    return examine_set(sets, report);
 }
 
-static OstStatus look_at_sides(Sets *sets, OstFreedomReport *report)
+static OstStatus examine_sides(Sets *sets, OstFreedomReport *report)
 {
     const OstLinkage *linkage = sets->linkage;
     for (int i = 0; i < sets->free->members; i++) {
@@ -251,7 +251,7 @@ static OstStatus look_at_sides(Sets *sets, OstFreedomReport *report)
             if (sets->found_rank == sets->free->count)
                 return OST_SUCCESS;
             if (other > i && sets->group[i] != sets->group[other])
-                OST_TRY(look_beyond(sets, sets->group[i], sets->group[other], report));
+                OST_TRY(examine_side(sets, sets->group[i], sets->group[other], report));
         }
     }
     return OST_SUCCESS;
@@ -295,8 +295,8 @@ OstStatus ost_freedom_report_sets(const OstLinkage *linkage, const OstFreeMotion
     find_groups(&sets);
     for (int g = 0; g < sets.groups; g++)
         sets.in[g] = !sets.still[g];
-    OST_TRY_DONE(look_at_set(&sets, report));
-    OST_TRY_DONE(look_at_sides(&sets, report));
+    OST_TRY_DONE(examine_set(&sets, report));
+    OST_TRY_DONE(examine_sides(&sets, report));
     if (sets.found_rank < free->count)
         ost_freedom_report_rest(linkage, free->members, free->member, free->count - sets.found_rank, report);
 done:

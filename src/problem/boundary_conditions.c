@@ -57,7 +57,7 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
     for (int component = 0; component < 3; component++) {
         double direction[3] = {0.0};
         direction[component] = 1.0;
-        if (constraint->held[component])
+        if (constraint->constrained[component])
             OST_TRY(ost_supports_hold(supports, node, direction, prescribed[component]));
     }
     return OST_SUCCESS;

@@ -23,7 +23,7 @@ void ost_problem_destroy(OstProblem **problem)
     OST_FREE(*problem);
 }
 
-static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports)
+static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
     if (parts->free_body)
@@ -74,7 +74,7 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
         find_material_facts(parts->field, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = hold_nodes(parts, &made->supports);
+        status = constrain_nodes(parts, &made->supports);
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);

@@ -76,9 +76,9 @@ static void the_word_exact_is_read(void **state)
              cube, steel);
     assert_success(read_text(whole, &c));
     for (int i = 0; i < 3; i++)
-        assert_true(c->constraints[0].held[i] && c->constraints[0].exact[i]);
-    assert_true(c->constraints[1].held[0] && c->constraints[1].exact[0]);
-    assert_false(c->constraints[1].held[1] || c->constraints[1].exact[1] || c->constraints[1].exact[2]);
+        assert_true(c->constraints[0].constrained[i] && c->constraints[0].exact[i]);
+    assert_true(c->constraints[1].constrained[0] && c->constraints[1].exact[0]);
+    assert_false(c->constraints[1].constrained[1] || c->constraints[1].exact[1] || c->constraints[1].exact[2]);
     assert_close(c->constraints[1].displacement[2], 2.0, 0.0);
     assert_true(c->loads[0].exact && c->loads[1].exact);
     ost_case_destroy(&c);

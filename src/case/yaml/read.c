@@ -29,12 +29,19 @@ static int is_empty(const OstYaml *yaml, const OstYamlNode *node)
 
 enum { MOST_KEYS = 32 };
 
+static int key_names(const OstYamlKey *keys, int count, const char *names[MOST_KEYS])
+{
+    const int listed = count < MOST_KEYS ? count : MOST_KEYS;
+    for (int k = 0; k < listed; k++)
+        names[k] = keys[k].name;
+    return listed;
+}
+
 static const char *list_keys(const OstYamlKey *keys, int count, char *list, size_t size)
 {
-    const char *names[MOST_KEYS] = {NULL};
-    for (int k = 0; k < count && k < MOST_KEYS; k++)
-        names[k] = keys[k].name;
-    ost_yaml_name_list(names, count < MOST_KEYS ? count : MOST_KEYS, list, size);
+    const char *names[MOST_KEYS];
+    const int listed = key_names(keys, count, names);
+    ost_yaml_name_list(names, listed, list, size);
     return list;
 }
 
@@ -43,11 +50,10 @@ static OstStatus raise_unknown_key(const OstYaml *yaml, const OstYamlNode *mappi
 {
     char place[OST_YAML_PLACE_SIZE];
     char list[OST_YAML_LIST_SIZE];
-    const char *names[MOST_KEYS] = {NULL};
-    for (int k = 0; k < count && k < MOST_KEYS; k++)
-        names[k] = keys[k].name;
+    const char *names[MOST_KEYS];
+    const int listed = key_names(keys, count, names);
     const char *word = scalar_text(yaml, key);
-    const char *nearest = ost_nearest_word(word, names, count < MOST_KEYS ? count : MOST_KEYS);
+    const char *nearest = ost_nearest_word(word, names, listed);
     return ost_yaml_raise(yaml, key, "unknown key '%.80s' in %s%s%s%s Known keys: %s", word,
                           ost_yaml_place(yaml, mapping, place, sizeof place), nearest ? "; did you mean '" : ".",
                           nearest ? nearest : "", nearest ? "'?" : "", list_keys(keys, count, list, sizeof list));
@@ -58,7 +64,7 @@ static OstStatus take_pair(const OstYaml *yaml, const OstYamlNode *mapping, cons
 {
     char place[OST_YAML_PLACE_SIZE];
     if (!ost_yaml_is(yaml, key, OST_YAML_SCALAR))
-        return ost_yaml_raise(yaml, key, "a list or mapping stands where a key is expected");
+        return ost_yaml_raise(yaml, key, "found a list or mapping, expected a key");
     const char *name = scalar_text(yaml, key);
     int found = 0;
     while (found < count && strcmp(keys[found].name, name) != 0)
