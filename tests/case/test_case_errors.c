@@ -73,8 +73,8 @@ static void numbers_are_whole_and_finite(void **state)
     (void)state;
     assert_refused(
         MATERIAL("youngs_modulus: 1e6Pa, poissons_ratio: 0.3"),
-        "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (units are "
-        "yours, and not written)");
+        "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (write no "
+        "units; use consistent ones)");
     assert_refused(MATERIAL("youngs_modulus: .nan, poissons_ratio: 0.3"),
                    "3:35: materials[0].youngs_modulus: found '.nan', expected a finite number");
     assert_refused(MATERIAL("youngs_modulus: -Infinity, poissons_ratio: 0.3"),
