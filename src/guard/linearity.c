@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-/* Four vectors whose differences are those of a linear map, up to a factor: the mean gradient of a quadratic tet's
- * shape functions has the mid-edge nodes alone in it, each as the sum of its two ends'. */
+/* Four vectors with the mean gradient of the displacement as their linear map, up to a factor: in the mean gradient of
+ * a quadratic tet's shape functions only mid-edge nodes appear, each as the sum of its two ends'. */
 static void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
 {
     if (nodes == 4) {
@@ -33,7 +33,7 @@ static void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
             edges[k][i] = corners[3 * (k + 1) + i] - corners[i];
 }
 
-/* Half the curl. The gradient is that of u's corners over x's: where u is linear it is exact, in curved tets too. */
+/* Half the curl. The gradient is that of u's corners over x's: where u is linear it is right, in curved tets too. */
 static void find_rotation(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd rotation[3])
 {
     OstSimd x[3][3], moved[3][3], inverse[3][3];
@@ -52,7 +52,7 @@ static void find_rotation(const OstBatch *batch, int nodes, const OstSimd *u, Os
     }
 }
 
-/* The largest eigenvalue of a strain, by its size; as the roots of its cubic are angles' cosines. */
+/* The eigenvalue of a strain with the largest absolute value, by the trigonometric solution of the cubic. */
 static double principal(const double e[6])
 {
     const double mean = (e[0] + e[1] + e[2]) / 3.0;
@@ -64,7 +64,7 @@ static double principal(const double e[6])
     const double determinant =
         d[0] * (d[1] * d[2] - s[1] * s[1]) - s[0] * (s[0] * d[2] - s[1] * s[2]) + s[2] * (s[0] * s[1] - d[1] * s[2]);
     const double angle = acos(fmax(fmin(0.5 * determinant / (size * size * size), 1.0), -1.0)) / 3.0;
-    const double third = 2.0943951023931957; /* of a turn */
+    const double third = 2.0943951023931957; /* 2 pi / 3 */
     return fmax(fabs(mean + 2.0 * size * cos(angle)), fabs(mean + 2.0 * size * cos(angle + third)));
 }
 
@@ -78,7 +78,7 @@ static void add_tet(const OstSimd strain[6], const OstSimd rotation[3], int slot
     for (int i = 0; i < 3; i++)
         w[i] = rotation[i][slot];
     largest->rotation = fmax(largest->rotation, ost_norm3(w));
-    if (square > largest->strain * largest->strain) /* no eigenvalue exceeds its root */
+    if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
         largest->strain = fmax(largest->strain, principal(e));
 }
 

@@ -20,7 +20,7 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     OST_FREE(*space);
 }
 
-/* Is any vertex of the body free in any direction? */
+/* Is any vertex of the body unconstrained in some direction? */
 static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
 {
     const OstMesh *mesh = space->mesh;

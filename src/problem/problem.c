@@ -23,7 +23,7 @@ void ost_problem_destroy(OstProblem **problem)
     OST_FREE(*problem);
 }
 
-static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports)
+static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
     if (parts->free_body)
@@ -75,7 +75,7 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
         find_material_facts(parts->field, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = hold_nodes(parts, &made->supports);
+        status = constrain_nodes(parts, &made->supports);
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -162,7 +162,7 @@ OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *
     return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
 }
 
-/* What is wrong with the supports is told with the place of the first. */
+/* A failure names the line of the first constraint. */
 static OstStatus make_pattern(OstProblem *problem)
 {
     const OstCase *c = problem->c;
@@ -174,7 +174,7 @@ static OstStatus make_pattern(OstProblem *problem)
 
 OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
 {
-    (void)u; /* every element there is has one stiffness for all u */
+    (void)u; /* all elements so far are linear: their stiffness does not depend on u */
     const int may_fill = problem->system && problem->system->block_of_tet;
     if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
         ost_problem_release_stiffness(problem);

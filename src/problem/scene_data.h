@@ -9,15 +9,15 @@
 #include "orthostat/scene.h"
 #include "problem/result_data.h"
 
-/* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
+/* A case on this rank: its piece of the mesh, its materials, and the plan of the work. */
 struct OstScene {
     OstContext *ctx;
     const OstCase *c;
-    OstPlan plan;           /* its effects are what the work goes by */
+    OstPlan plan;           /* its effects decide what is computed */
     OstEffect *load_effect; /* of each load of the case */
     OstMesh *mesh;
     OstMaterialField *field;
-    const OstClosedForm *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
+    const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 
 #endif

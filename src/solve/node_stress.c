@@ -11,7 +11,7 @@
 
 /* Sums over the tets around each owned node. */
 typedef struct Sums {
-    int32_t *region; /* the lowest around the node */
+    int32_t *region; /* the lowest of the tets around the node */
     double *volume;  /* of that region's tets */
     double *stress;  /* times volume, 6 × node_count */
 } Sums;

@@ -123,7 +123,7 @@ MISTAKES = [
     ("axes of a kind that is nearly one", GOOD.replace("0.3}", "0.3, axes: {cylinder: {}}}"), {},
      ["case.yaml:4:", "unknown key 'cylinder' in materials[0].axes; did you mean 'cylindrical'?"]),
     ("axes that a shape has not", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: mesh}}"), {},
-     ["case.yaml:4:76: region 'block' takes its axes from the mesh, but the program's own shapes bring none"]),
+     ["case.yaml:4:76: region 'block' takes its axes from the mesh, but built-in shapes have no axes"]),
     ("axes that the mesh file has not", with_mesh("m.veg").replace("1000,", "[10, 20, 30],").replace(
         "0.3}", "0.3, axes: {cells: mesh}}"), {"m.veg": veg()},
      ["case.yaml:4:", "but the mesh file has no cell field 'axes' of nine components"]),
@@ -131,7 +131,7 @@ MISTAKES = [
      ["case.yaml:6:16: every vertex is constrained in all directions"]),
     ("missing axes", GOOD.replace("1000,", "[10, 20, 30],").replace("0.3}", "0.3, axes: {cells: lost.txt}}"), {},
      ["case.yaml:4:76: lost.txt: cannot be read"]),
-    ("a constraint that holds nothing", GOOD.replace("[0, 0, 0]", "[free, free, free]"), {}, ["case.yaml:6:", "holds nothing"]),
+    ("a constraint that holds nothing", GOOD.replace("[0, 0, 0]", "[free, free, free]"), {}, ["case.yaml:6:", "constrains nothing"]),
     ("nothing constrained", GOOD.replace("constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), {}, ["nothing is constrained"]),
     ("indefinite material", GOOD.replace("1000, poissons_ratio: 0.3", "1000, poissons_ratio: 0.6"), {}, ["case.yaml:4:", "0.5"]),
     ("truncated mesh", with_mesh("m.veg"), {"m.veg": veg()[:60]}, ["m.veg"]),
@@ -150,7 +150,7 @@ MISTAKES = [
     ("potentials that meet", GOOD.replace("1000,", "[1000, 10, 10],").replace(
         "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmin, to: ymin}}}}"), {},
      ["case.yaml:4:78: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
-      "needs them apart"]),
+      "needs two boundaries that do not touch"]),
     ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
     ("one tet twice", with_mesh("m.veg"), {"m.veg": TWICE.replace("SECOND", "1 2 0 3")}, ["tets 0 and 1", "doubled or overlapping"]),
     ("a tet with a vertex twice", with_mesh("m.veg"), {"m.veg": veg(tet="0 1 2 2")}, ["tet 0", "same node twice"]),
