@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/apply_supports.h"
-
+#include "assembly/system.h"
 #include "core/small.h"
 
 #include <string.h>

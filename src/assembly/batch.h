@@ -53,4 +53,13 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
 /* Local. Reads the vectors of the batch's nodes: vectors[3 n + i] is component i at local node n. */
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered);
 
+/* Called with each batch of owned tets, the displacements u of their nodes, and their means. */
+typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                              const OstMeans *means);
+
+/* Local. Computes the means of strain, stress and energy of the owned tets under the displacement u (3 × node_count),
+ * batch by batch. */
+void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
+                     void *data);
+
 #endif

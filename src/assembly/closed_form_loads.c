@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/closed_form_loads.h"
-
+#include "assembly/loads.h"
 #include "core/error.h"
 #include "core/small.h"
 #include "element/element.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/force.h"
-
+#include "assembly/batch.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -8,8 +7,12 @@
 
 #include <string.h>
 
-void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel, const double *u, double scale,
-                         OstLocal owned, double *force)
+typedef void (*ForceKernel)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
+
+/* Adds scale × the kernel's forces on a batch to `force`, which has 3 numbers for each of the first `owned` local
+ * nodes. `kernel` is OstElement.force or OstElement.magnitude. */
+static void add_force(const OstBatch *batch, int nodes, ForceKernel kernel, const double *u, double scale,
+                      OstLocal owned, double *force)
 {
     OstSimd displacement[3 * OST_MAX_TET_NODES];
     OstSimd of_tets[3 * OST_MAX_TET_NODES];
@@ -40,9 +43,9 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
-        ost_batch_add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
+        add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
         if (magnitude)
-            ost_batch_add_force(&batch, element->nodes, element->magnitude, u, 1.0, mesh->owned_nodes, magnitude);
+            add_force(&batch, element->nodes, element->magnitude, u, 1.0, mesh->owned_nodes, magnitude);
     }
     return OST_SUCCESS;
 }
@@ -97,7 +100,7 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
             tets[count++] = tet;
         if (count == OST_SIMD_WIDTH || (count > 0 && tet == mesh->tet_count - 1)) {
             ost_batch_gather(&batch, element, mesh, field, count, tets);
-            ost_batch_add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
+            add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
             count = 0;
         }
     }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/laplacian.h"
 
-#include "assembly/apply_supports.h"
 #include "assembly/batch.h"
-#include "assembly/triangle.h"
+#include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"

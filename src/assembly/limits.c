@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/limits.h"
-
+#include "assembly/system.h"
 #include "core/error.h"
 
 OstStatus ost_limit_unknowns(OstContext *ctx, OstGlobal global_rows)

@@ -2,7 +2,6 @@
 #include "assembly/system.h"
 
 #include "assembly/batch.h"
-#include "assembly/limits.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/system.h"
 
-#include "assembly/limits.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/numbering.h"

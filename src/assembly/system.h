@@ -59,4 +59,25 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
 
+/* Local. Turns the filled K into P K P + s(I - P) at nodes that are constrained in one or two directions. s is the mean
+ * stiffness of the node's diagonal block along its free directions, so that the added entries have the node's own
+ * scale. Without such nodes it does nothing and enters no account. Booked to OST_EFFECT_SLIDING if that effect is on
+ * and a constrained direction is not a coordinate axis, otherwise to OST_LEDGER_SUPPORTS. */
+void ost_system_apply_supports(OstSystem *system);
+
+/* A symmetric matrix is summed in its upper triangle only: in each row from the diagonal to the end, ghost columns
+ * included (columns of ghosts come last). */
+
+/* Local. Zeroes the upper triangle. */
+void ost_triangle_clear(OstBlockMatrix *matrix);
+
+/* Local. Copies the upper triangle's owned columns, transposed, into the lower. */
+OstStatus ost_triangle_mirror(OstBlockMatrix *matrix);
+
+/* Local. Limits of the libraries, checked before memory of that size is allocated. Each raises OST_LIMIT_EXCEEDED with
+ * the count, the limit and the library. */
+OstStatus ost_limit_unknowns(OstContext *ctx, OstGlobal global_rows); /* Epetra, ML: scalar unknowns of all ranks */
+OstStatus ost_limit_nonzeros(OstContext *ctx, OstGlobal blocks);      /* ML: scalar nonzeros of a rank */
+OstStatus ost_limit_incidences(OstContext *ctx, OstGlobal tets, int nodes_per_tet); /* OstLocal: nodes of all tets */
+
 #endif

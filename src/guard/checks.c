@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/energy_error.h"
 #include "algebra/matrix/rounded_stiffness.h"
-#include "assembly/means.h"
+#include "assembly/batch.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"

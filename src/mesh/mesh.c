@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/number_set.h"
 #include "mesh/mesh_data.h"
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
-#include "mesh/names.h"
 
 #include <math.h>
 
@@ -146,4 +146,29 @@ OstLocal ost_mesh_boundary_items(const OstMesh *mesh, int boundary, int *nodes_p
     *nodes_per_item = found->nodes_per_item;
     *nodes = found->nodes;
     return found->count;
+}
+
+OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number)
+{
+    if (number >= mesh->first_node && number < mesh->first_node + mesh->owned_nodes)
+        return (OstLocal)(number - mesh->first_node);
+    const OstLocal ghost =
+        ost_numbers_find(mesh->node_count - mesh->owned_nodes, mesh->node_number + mesh->owned_nodes, number);
+    return ghost < 0 ? -1 : mesh->owned_nodes + ghost;
+}
+
+void ost_chunk_destroy(OstMeshChunk **chunk)
+{
+    OstMeshChunk *old = *chunk;
+    if (!old)
+        return;
+    OST_FREE(old->coordinates);
+    OST_FREE(old->node_label);
+    OST_FREE(old->tet_nodes);
+    OST_FREE(old->tet_label);
+    OST_FREE(old->tet_region);
+    OST_FREE(old->tet_axes);
+    ost_names_clear(&old->regions);
+    ost_boundaries_destroy(old->boundary_count, &old->boundaries);
+    OST_FREE(*chunk);
 }

@@ -101,4 +101,15 @@ typedef struct OstSurface {
 OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
 void ost_surface_destroy(OstSurface **surface);
 
+void ost_names_clear(OstNames *names);
+void ost_boundaries_destroy(int count, OstBoundary **boundaries);
+
+/* Local. Appends a copy of `text` to a list of names; ost_names_add_unique appends a number (text-2) if the list has
+ * that name already. */
+OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text);
+OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text);
+
+/* Local. The mesh's local number of a node by its global number, or -1 if it is not on this rank. */
+OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
+
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/names.h"
-
 #include "core/error.h"
 #include "core/memory.h"
+#include "mesh/mesh_data.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/boundary_conditions.h"
 
-#include "assembly/closed_form_loads.h"
 #include "assembly/loads.h"
 #include "case/select.h"
 #include "core/error.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/problem.h"
 
-#include "assembly/means.h"
+#include "assembly/batch.h"
 #include "case/plan_parts.h"
 #include "core/error.h"
 #include "core/memory.h"

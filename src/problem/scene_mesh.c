@@ -4,7 +4,7 @@
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/parallel/free_memory.h"
-#include "mesh/distribution/merge.h"
+#include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
 #include "problem/scene_partition.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/recovery.h"
 
-#include "assembly/means.h"
+#include "assembly/batch.h"
 #include "case/case_data.h"
 #include "core/error.h"
 #include "core/memory.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/limits.h"
+#include "assembly/system.h"
 #include "support.h"
 
 static void unknowns_fit_in_32_bits(void **state)

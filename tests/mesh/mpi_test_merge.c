@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "mesh/distribution/share.h"
 #include "support.h"
 
 #include "mesh/mesh_support.h"
 
 #include "mesh/coincident.h"
 #include "mesh/components/component.h"
-#include "mesh/distribution/merge.h"
 #include "mesh/lattice.h"
 
 static int count_parts(const OstMesh *mesh)

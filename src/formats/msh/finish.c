@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "formats/msh/msh.h"
 #include "formats/serial/chunk_tidy.h"
-#include "mesh/names.h"
+#include "mesh/mesh_data.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/veg/veg.h"
-#include "mesh/names.h"
+#include "mesh/mesh_data.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -5,7 +5,6 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "mesh/components/component_faces.h"
-#include "mesh/components/component_ranks.h"
 
 #include <float.h>
 #include <math.h>

@@ -14,4 +14,9 @@ typedef struct OstOverlap {
  * sides of these), and numbers the sets: set[t] in 0 .. *set_count - 1. */
 OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap);
 
+/* Collective. Joins the ranks' sets of tets into those of the whole body: two sets are one if they have a tet in
+ * common, which is owned on one rank and a ghost on the other. On entry set[t] is one of this rank's `set_count`
+ * numbers, on return one of *count numbers of all ranks. */
+OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *count);
+
 #endif

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/components/component_ranks.h"
-
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/route.h"
+#include "mesh/components/component_faces.h"
 #include "mesh/union_find.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "mesh/check/check.h"
 #include "mesh/distribution/share.h"
-#include "mesh/names.h"
+#include "mesh/mesh_data.h"
 
 #include <string.h>
 

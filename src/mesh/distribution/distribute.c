@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "mesh/check/check.h"
 #include "mesh/distribution/partition.h"
-#include "mesh/distribution/redistribute.h"
 
 static OstStatus label_all(OstMeshChunk *chunk)
 {

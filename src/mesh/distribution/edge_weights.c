@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/distribution/edge_weights.h"
-
 #include "core/error.h"
 #include "core/memory.h"
+#include "mesh/distribution/partition.h"
 
 #include <math.h>
 #include <string.h>

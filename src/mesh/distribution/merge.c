@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/distribution/merge.h"
-
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/number_set.h"
@@ -11,6 +9,7 @@
 #include "core/small.h"
 #include "mesh/check/check.h"
 #include "mesh/coincident.h"
+#include "mesh/distribution/share.h"
 #include "mesh/distribution/slab.h"
 #include "mesh/tet.h"
 

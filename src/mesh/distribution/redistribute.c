@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/distribution/redistribute.h"
-
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/number_set.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
-#include "mesh/local_number.h"
+#include "mesh/distribution/partition.h"
+#include "mesh/mesh_data.h"
 
 #include <string.h>
 
@@ -205,6 +204,52 @@ static OstStatus fill_ghosts(OstMesh *mesh)
     return ost_agree(mesh->ctx, ost_halo_import(mesh->halo, sizeof(OstGlobal), mesh->node_label));
 }
 
+/* From new global numbers to local ones. If a node is not here, no tet has all nodes of the item. */
+static OstStatus number_items(OstBoundary *boundary, const OstMesh *mesh)
+{
+    const size_t width = (size_t)boundary->nodes_per_item;
+    for (size_t i = 0; i < (size_t)boundary->count * width; i++) {
+        const OstLocal local = ost_mesh_local(mesh, boundary->nodes[i]);
+        if (local < 0)
+            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                             "boundary '%s' has a %s that is no %s of any tet; remove it or mesh the body with it",
+                             boundary->name, boundary->dimension == 1 ? "curve" : "face",
+                             boundary->dimension == 1 ? "edge" : "face");
+        boundary->nodes[i] = local;
+    }
+    return OST_SUCCESS;
+}
+
+/* Collective. Moves one boundary's items to the ranks that own their nodes, and turns these into the mesh's local
+ * numbers. `number`: new global numbers of the slab's nodes and ghosts. */
+static OstStatus redistribute_boundary(OstBoundary *boundary, const Slab *slab, const int *part,
+                                       const OstGlobal *number, const OstMesh *mesh)
+{
+    OstContext *ctx = mesh->ctx;
+    const size_t width = (size_t)boundary->nodes_per_item;
+    const size_t entries = (size_t)boundary->count * width;
+    int *to = NULL;
+    OstRoute *route = NULL;
+    OstGlobal *arrived = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, entries)));
+    for (size_t i = 0; i < entries; i++) {
+        const OstLocal local = ost_slab_local(slab, boundary->nodes[i]);
+        to[i] = part[local];
+        boundary->nodes[i] = number[local];
+    }
+    OST_TRY_DONE(ost_route_create(ctx, boundary->count, boundary->nodes_per_item, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, width * sizeof(OstGlobal), boundary->nodes, (void **)&arrived));
+    OST_FREE(boundary->nodes);
+    boundary->nodes = arrived;
+    boundary->count = route->receives;
+    OST_TRY_DONE(ost_agree(ctx, number_items(boundary, mesh)));
+done:
+    OST_FREE(to);
+    ost_route_destroy(&route);
+    return status;
+}
+
 OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int *part, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
@@ -219,7 +264,7 @@ OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int
     OST_FREE(nodes);
     OST_TRY_DONE(fill_ghosts(mesh));
     for (int b = 0; b < mesh->boundary_count; b++)
-        OST_TRY_DONE(ost_boundary_redistribute(&mesh->boundaries[b], slab, part, number, mesh));
+        OST_TRY_DONE(redistribute_boundary(&mesh->boundaries[b], slab, part, number, mesh));
 done:
     OST_FREE(number);
     OST_FREE(nodes);

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_MESH_REFINEMENT_DIVIDE_H
 #define ORTHOSTAT_MESH_REFINEMENT_DIVIDE_H
 
+#include "mesh/mesh_data.h"
 #include "mesh/refinement/mid_nodes.h"
 
 /* The children of one tet, face, curve or point: node j of child k is the parent's node[k × nodes + j], with the
@@ -25,5 +26,12 @@ extern const int ost_tet_turn[3][10];
  * caller frees: tet t is child k of the local tet p with origin[t] = p × children + k. */
 OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const unsigned char *turn, OstMesh **mesh,
                           OstLocal **origin);
+
+/* Collective. The quadratic mesh on mid-edge nodes whose positions are set. */
+OstStatus ost_mesh_raise_over(const MidNodes *mid, OstMesh **quadratic);
+
+/* Local. A mesh with the parent's regions, and its boundaries without items; all else is empty. The caller destroys it,
+ * also after a failure. */
+OstStatus ost_mesh_inherit(const OstMesh *parent, int nodes_per_tet, OstMesh **mesh);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/refinement/edge_table.h"
-
 #include "core/error.h"
 #include "core/memory.h"
+#include "mesh/refinement/mid_nodes.h"
 #include "mesh/tet.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
-#include "mesh/refinement/inherit.h"
+#include "mesh/refinement/divide.h"
 #include "mesh/tet.h"
 #include "orthostat/refine.h"
 

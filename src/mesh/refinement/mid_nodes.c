@@ -7,7 +7,7 @@
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
-#include "mesh/local_number.h"
+#include "mesh/mesh_data.h"
 
 #include <string.h>
 

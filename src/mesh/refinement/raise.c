@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/refinement/raise.h"
-
 #include "core/error.h"
 #include "mesh/check/check.h"
 #include "mesh/refinement/divide.h"

@@ -4,7 +4,6 @@
 #include "core/small.h"
 #include "mesh/check/check.h"
 #include "mesh/refinement/divide.h"
-#include "mesh/refinement/raise.h"
 #include "mesh/tet.h"
 
 /* Bey's red refinement (J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378): four tets at the vertices,
