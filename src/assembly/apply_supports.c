@@ -38,9 +38,8 @@ static void project_block(const OstSystem *system, OstLocal row, OstLocal column
     double left[9];
     double right[9];
     double product[9];
-    double prescribed[3];
-    ost_supports_get(system->supports, system->node_of_row[row], left, prescribed);
-    ost_supports_get(system->supports, system->node_of_row[column], right, prescribed);
+    ost_supports_get(system->supports, system->node_of_row[row], left, NULL);
+    ost_supports_get(system->supports, system->node_of_row[column], right, NULL);
     ost_multiply3(left, block, product);
     ost_multiply3(product, right, block);
 }
@@ -49,8 +48,7 @@ static void project_block(const OstSystem *system, OstLocal row, OstLocal column
 static void stiffen_constrained_directions(const OstSystem *system, OstLocal row, double *block)
 {
     double projector[9];
-    double prescribed[3];
-    const int constrained = ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed);
+    const int constrained = ost_supports_get(system->supports, system->node_of_row[row], projector, NULL);
     const double scale = (block[0] + block[4] + block[8]) / (3 - constrained);
     for (int i = 0; i < 9; i++)
         block[i] += scale * ((i % 4 == 0 ? 1.0 : 0.0) - projector[i]);

@@ -70,7 +70,7 @@ static int any_displaced(const OstSupports *supports)
 
 static int touches_displaced(const OstMesh *mesh, const OstSupports *supports, OstLocal tet)
 {
-    const OstLocal *nodes = mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     for (int a = 0; a < mesh->nodes_per_tet; a++) {
         const OstLocal index = supports->index[nodes[a]];
         if (index >= 0 && is_displaced(&supports->support[index]))
@@ -125,10 +125,9 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
         const size_t node = (size_t)system->node_of_row[row];
         double total[3];
         double projector[9];
-        double prescribed[3];
         for (size_t i = 0; i < 3; i++)
             total[i] = force[3 * node + i] + (of_prescribed ? of_prescribed[3 * node + i] : 0.0);
-        ost_supports_get(system->supports, (OstLocal)node, projector, prescribed);
+        ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
         ost_apply3(projector, total, rhs + 3 * (size_t)row);
     }
     OST_FREE(of_prescribed);

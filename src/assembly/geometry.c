@@ -62,8 +62,7 @@ static void project_modes(const OstSystem *system, double *modes)
     const size_t length = 3 * (size_t)system->matrix->rows;
     for (OstLocal row = 0; row < system->matrix->rows; row++) {
         double projector[9];
-        double prescribed[3];
-        if (ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed) == 0)
+        if (ost_supports_get(system->supports, system->node_of_row[row], projector, NULL) == 0)
             continue;
         for (size_t m = 0; m < 6; m++) {
             double *mode = modes + m * length + 3 * (size_t)row;

@@ -57,8 +57,7 @@ static void project(const OstSystem *system, double *rhs)
         double *at = rhs + 3 * (size_t)row;
         const double whole[3] = {at[0], at[1], at[2]};
         double projector[9];
-        double prescribed[3];
-        ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed);
+        ost_supports_get(system->supports, system->node_of_row[row], projector, NULL);
         ost_apply3(projector, whole, at);
     }
 }

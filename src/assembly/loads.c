@@ -63,10 +63,13 @@ static OstStatus find_element(const OstMesh *mesh, int nodes_per_face, const Ost
 }
 
 /* Adds to each owned node traction × its share of the area, minus pressure × its share of the area vector. */
-static void load_faces(const OstMesh *mesh, const OstElement *element, OstLocal face_count, const OstLocal *faces,
-                       const double traction[3], double pressure, double *force)
+static OstStatus load_faces(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
+                            const double traction[3], double pressure, double *force)
 {
+    const OstElement *element;
+    OST_TRY(find_element(mesh, nodes_per_face, &element));
     const int n = element->nodes_per_face;
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
     for (OstLocal f = 0; f < face_count; f++) {
         const OstLocal *nodes = faces + (size_t)n * (size_t)f;
         double x[3 * OST_MAX_FACE_NODES];
@@ -81,29 +84,20 @@ static void load_faces(const OstMesh *mesh, const OstElement *element, OstLocal 
             add_scaled(force, nodes[a], -pressure, area_vectors + 3 * a);
         }
     }
+    ost_ledger_leave(mesh->ctx);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_load_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
                             const double traction[3], double *force)
 {
-    const OstElement *element;
-    OST_TRY(find_element(mesh, nodes_per_face, &element));
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
-    load_faces(mesh, element, face_count, faces, traction, 0.0, force);
-    ost_ledger_leave(mesh->ctx);
-    return OST_SUCCESS;
+    return load_faces(mesh, face_count, faces, nodes_per_face, traction, 0.0, force);
 }
 
 OstStatus ost_load_pressure(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
                             double pressure, double *force)
 {
-    const OstElement *element;
-    const double no_traction[3] = {0.0, 0.0, 0.0};
-    OST_TRY(find_element(mesh, nodes_per_face, &element));
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
-    load_faces(mesh, element, face_count, faces, no_traction, pressure, force);
-    ost_ledger_leave(mesh->ctx);
-    return OST_SUCCESS;
+    return load_faces(mesh, face_count, faces, nodes_per_face, (const double[3]){0.0, 0.0, 0.0}, pressure, force);
 }
 
 /* Area of the faces that this rank owns: a face's owner is that of its node with the lowest global number. */

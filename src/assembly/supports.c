@@ -199,11 +199,13 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
     const int constrained = support ? support->constrained : 0;
     for (int i = 0; i < 9; i++)
         projector[i] = i % 4 == 0 && constrained < 3 ? 1.0 : 0.0;
-    prescribed[0] = prescribed[1] = prescribed[2] = 0.0;
+    for (int i = 0; i < 3 && prescribed; i++)
+        prescribed[i] = 0.0;
     for (int k = 0; k < constrained; k++)
         for (int i = 0; i < 3; i++) {
             const double *along = support->direction + 3 * k;
-            prescribed[i] += support->prescribed[k] * along[i];
+            if (prescribed)
+                prescribed[i] += support->prescribed[k] * along[i];
             for (int j = 0; j < 3 && constrained < 3; j++)
                 projector[3 * i + j] -= along[i] * along[j];
         }

@@ -40,7 +40,8 @@ OstStatus ost_supports_complete(OstSupports *supports);
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                    OstSupports **supports);
 
-/* Local. P (9 numbers) and g of a node; returns the number of constrained directions (0: P is the identity). */
+/* Local. P (9 numbers) and g (NULL: not asked for) of a node; returns the number of constrained directions (0: P is the
+ * identity). */
 int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3]);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/element.h"
 
-#include "element/tet10.h"
 #include "element/tet4.h"
 
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #include "orthostat/axes.h"
 
 #include "core/error.h"
-#include "material/curve.h"
+#include "material/axes_formula.h"
 #include "material/frame.h"
 
 #include <string.h>
@@ -155,6 +155,22 @@ int ost_axes_vary(const OstAxesSpec *spec)
     return 0;
 }
 
+OstStatus ost_frame_in_order(OstContext *ctx, const OstCylindricalDirection order[3], const double frame[9],
+                             double axes[9])
+{
+    const int a = (int)order[0], b = (int)order[1], c = (int)order[2];
+    if (a < 0 || a > 2 || b < 0 || b > 2 || c < 0 || c > 2 || a == b || b == c || c == a)
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "order of the axes %d %d %d; axial, radial and tangential, each once, are expected", a, b, c);
+    const double sign = (b - a + 3) % 3 == 1 ? 1.0 : -1.0;
+    for (int i = 0; i < 3; i++) {
+        axes[i] = frame[3 * a + i];
+        axes[3 + i] = frame[3 * b + i];
+        axes[6 + i] = sign * frame[3 * c + i];
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus cylindrical_axes(OstContext *ctx, const OstAxesSpec *spec, const double point[3], double axes[9])
 {
     double frame[9], offset[3];
@@ -179,10 +195,10 @@ static OstStatus cylindrical_axes(OstContext *ctx, const OstAxesSpec *spec, cons
 
 static OstStatus curve_axes(OstContext *ctx, const OstAxesSpec *spec, const double point[3], double axes[9])
 {
-    OstCurve *curve = NULL;
-    OST_TRY(ost_curve_create(ctx, spec, &curve));
-    const OstStatus status = ost_curve_axes(curve, point, axes);
-    ost_curve_destroy(&curve);
+    OstAxesFormula *curve = NULL;
+    OST_TRY(ost_axes_formula_create(ctx, spec, &curve));
+    const OstStatus status = ost_axes_formula_at(curve, point, axes);
+    ost_axes_formula_destroy(&curve);
     return status;
 }
 

@@ -2,13 +2,14 @@
 #ifndef ORTHOSTAT_MATERIAL_AXES_FORMULA_H
 #define ORTHOSTAT_MATERIAL_AXES_FORMULA_H
 
-#include "material/curve.h"
+#include "orthostat/axes.h"
 
 /* Axes that vary by a formula, with a copy of their specification and what need be computed only once. */
 typedef struct OstAxesFormula {
     OstContext *ctx;
     OstAxesSpec spec; /* owns its points */
-    OstCurve *curve;  /* of OST_AXES_CURVE, otherwise NULL */
+    double *tangent;  /* of OST_AXES_CURVE: point_count × 3, at each vertex of the polyline; otherwise NULL */
+    double *normal;   /* the same; NULL if the normal comes from `up` */
 } OstAxesFormula;
 
 /* Do axes of this kind vary by a formula? */
@@ -17,7 +18,8 @@ static inline int ost_axes_have_formula(const OstAxesSpec *spec)
     return spec->kind == OST_AXES_CYLINDRICAL || spec->kind == OST_AXES_CURVE;
 }
 
-/* Local. Copies the spec. */
+/* Local. Copies the spec. Raises OST_INVALID_INPUT for a curve of fewer than two points, of points that are not finite
+ * or repeat, and one that turns back on itself. */
 OstStatus ost_axes_formula_create(OstContext *ctx, const OstAxesSpec *spec, OstAxesFormula **formula);
 void ost_axes_formula_destroy(OstAxesFormula **formula);
 

@@ -196,7 +196,7 @@ static OstStatus find_shortest_edge(const OstMesh *mesh, double *shortest)
 {
     *shortest = DBL_MAX;
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
-        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
         for (int e = 0; e < 6; e++) {
             const double *a = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][0]];
             const double *b = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][1]];

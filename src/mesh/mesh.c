@@ -36,6 +36,14 @@ int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes)
     return lowest >= mesh->first_node && lowest < mesh->first_node + mesh->owned_nodes;
 }
 
+OstStatus ost_mesh_connect(OstMesh *mesh)
+{
+    OST_TRY(ost_halo_create(mesh->ctx, mesh->owned_nodes, mesh->first_node, mesh->node_count - mesh->owned_nodes,
+                            mesh->node_number + mesh->owned_nodes, &mesh->halo));
+    OST_TRY(ost_agree(mesh->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), mesh->coordinates)));
+    return ost_agree(mesh->ctx, ost_halo_import(mesh->halo, sizeof(OstGlobal), mesh->node_label));
+}
+
 OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3])
 {
     double outer[6]; /* -low and high, so that one maximum over the ranks gives both */
@@ -171,4 +179,14 @@ void ost_chunk_destroy(OstMeshChunk **chunk)
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     OST_FREE(*chunk);
+}
+
+OstStatus ost_chunk_label_nodes(OstMeshChunk *chunk)
+{
+    if (chunk->node_label)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
+    for (OstLocal i = 0; i < chunk->node_count; i++)
+        chunk->node_label[i] = chunk->first_node + i + 1;
+    return OST_SUCCESS;
 }

@@ -69,6 +69,12 @@ struct OstMesh {
     struct OstHalo *halo; /* over nodes */
 };
 
+/* The local numbers of a tet's nodes. */
+static inline const OstLocal *ost_mesh_nodes_of(const OstMesh *mesh, OstLocal tet)
+{
+    return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
+}
+
 /* Gives the material metric, by which the partition avoids cutting stiff couplings: `fill` (local; called with more
  * than one rank) computes it for each of the chunk's tets (6 numbers, 11 22 33 12 23 31, largest eigenvalue 1) from the
  * centroids (3 numbers each). */
@@ -76,6 +82,9 @@ typedef struct OstTetMetric {
     const void *data;
     OstStatus (*fill)(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric);
 } OstTetMetric;
+
+/* Local. Gives the chunk the node labels 1, 2, 3, ... if it has none. */
+OstStatus ost_chunk_label_nodes(OstMeshChunk *chunk);
 
 /* Collective. As ost_mesh_distribute, with the graph's edges weighted by the material metric (`tets` NULL: not
  * weighted).
@@ -89,6 +98,9 @@ void ost_mesh_list_boundaries(const OstMesh *mesh, char *text, size_t size);
 
 /* Local. Does this rank own the item with these local nodes? (The owner of its lowest global number does.) */
 int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes);
+
+/* Collective. Makes the halo from node_number; ghosts take their coordinates and labels from their owners. */
+OstStatus ost_mesh_connect(OstMesh *mesh);
 
 /* Collective. Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edge nodes.
  * `tet` is the tet behind each face. */

@@ -20,11 +20,6 @@ static double distance(const double a[3], const double b[3])
     return ost_norm3(d);
 }
 
-static const OstLocal *corners_of(const OstMesh *mesh, OstLocal tet)
-{
-    return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
-}
-
 static void keep_nearer(const OstMesh *mesh, const double place[3], OstLocal node, OstNearest *vertex)
 {
     const double away = distance(point_of(mesh, node), place);
@@ -60,7 +55,7 @@ OstStatus ost_mesh_nearest(const OstMesh *mesh, const double place[3], OstNeares
     vertex->distance = DBL_MAX;
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (int k = 0; k < 4; k++) {
-            const OstLocal node = corners_of(mesh, t)[k];
+            const OstLocal node = ost_mesh_nodes_of(mesh, t)[k];
             if (node < mesh->owned_nodes)
                 keep_nearer(mesh, place, node, vertex);
         }
@@ -74,7 +69,7 @@ OstStatus ost_mesh_edges_at(const OstMesh *mesh, const OstNearest *vertex, doubl
 {
     double edge[2] = {DBL_MAX, 0.0};
     for (OstLocal t = 0; vertex->node >= 0 && t < mesh->tet_count; t++) { /* its owner holds all its tets */
-        const OstLocal *corner = corners_of(mesh, t);
+        const OstLocal *corner = ost_mesh_nodes_of(mesh, t);
         if (corner[0] != vertex->node && corner[1] != vertex->node && corner[2] != vertex->node &&
             corner[3] != vertex->node)
             continue;

@@ -78,11 +78,6 @@ static int touches_owned(const OstMesh *mesh, const OstLocal *tet, int opposite)
     return 0;
 }
 
-static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
-{
-    return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
-}
-
 /* Lists the faces that touch an owned node: this rank has the tets on both sides of these. */
 static OstStatus list_faces(const OstMesh *mesh, FaceTable *table)
 {
@@ -92,16 +87,16 @@ static OstStatus list_faces(const OstMesh *mesh, FaceTable *table)
     Face face = {0};
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (int o = 0; o < 4; o++)
-            if (touches_owned(mesh, nodes_of(mesh, t), o))
-                next[sort_face(nodes_of(mesh, t), o, &face) + 1]++;
+            if (touches_owned(mesh, ost_mesh_nodes_of(mesh, t), o))
+                next[sort_face(ost_mesh_nodes_of(mesh, t), o, &face) + 1]++;
     for (OstLocal n = 0; n < table->rows; n++)
         next[n + 1] += next[n];
     OST_TRY(OST_NEW(mesh->ctx, &table->face, next[table->rows]));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         for (int o = 0; o < 4; o++) {
-            if (!touches_owned(mesh, nodes_of(mesh, t), o))
+            if (!touches_owned(mesh, ost_mesh_nodes_of(mesh, t), o))
                 continue;
-            const OstLocal low = sort_face(nodes_of(mesh, t), o, &face);
+            const OstLocal low = sort_face(ost_mesh_nodes_of(mesh, t), o, &face);
             face.tet = t;
             table->face[next[low]++] = face;
         }
@@ -158,7 +153,7 @@ static OstStatus keep_surface_faces(const OstMesh *mesh, const FaceTable *table,
         const Face *face = &table->face[f];
         if (face->twins > 0)
             continue;
-        write_face(nodes_of(mesh, face->tet), face->opposite, surface->nodes_per_face,
+        write_face(ost_mesh_nodes_of(mesh, face->tet), face->opposite, surface->nodes_per_face,
                    surface->nodes + (size_t)surface->count * width);
         surface->tet[surface->count++] = face->tet;
     }

@@ -46,7 +46,7 @@ double ost_tet_quality(const double *coordinates, const OstLocal *nodes)
 OstStatus ost_mesh_tet_centroids(const OstMesh *mesh, double *centroids)
 {
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
         for (size_t d = 0; d < 3; d++) {
             double sum = 0.0;
             for (int v = 0; v < 4; v++)

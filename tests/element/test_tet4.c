@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "element/tet10.h"
 #include "element/tet4.h"
 #include "element_support.h"
 

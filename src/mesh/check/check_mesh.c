@@ -56,7 +56,7 @@ static OstStatus check_volumes(const OstMesh *mesh)
     OstLocal worst = -1;
     OstGlobal bad = 0;
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
-        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
         if (ost_tet_volume(mesh->coordinates, nodes) > flat_volume(mesh->coordinates, nodes))
             continue;
         bad++;
@@ -70,7 +70,7 @@ static OstStatus check_volumes(const OstMesh *mesh)
     OST_TRY(ost_sum_numbers(mesh->ctx, 1, &bad));
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && lowest == first) {
-        const OstLocal *nodes = mesh->tet_nodes + (size_t)worst * (size_t)mesh->nodes_per_tet;
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, worst);
         status = raise_bad_tet(mesh, lowest, ost_tet_volume(mesh->coordinates, nodes),
                                flat_volume(mesh->coordinates, nodes), bad);
     }
@@ -150,7 +150,7 @@ static int is_part_of_a_tet(const OstMesh *mesh, const Incidence *incidence, int
         owned++;
     const OstGlobal node = nodes[owned];
     for (OstGlobal p = incidence->start[node]; p < incidence->start[node + 1]; p++) {
-        const OstLocal *tet = mesh->tet_nodes + (size_t)incidence->tet[p] * (size_t)mesh->nodes_per_tet;
+        const OstLocal *tet = ost_mesh_nodes_of(mesh, incidence->tet[p]);
         int found = 0;
         while (found < count && has_node(tet, mesh->nodes_per_tet, nodes[found]))
             found++;

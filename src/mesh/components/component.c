@@ -45,7 +45,7 @@ static void widen(const double *x, OstComponent *component)
 
 static void widen_by_tet(const OstMesh *mesh, OstLocal tet, OstComponent *component)
 {
-    const OstLocal *nodes = mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     for (int v = 0; v < 4; v++)
         widen(mesh->coordinates + 3 * (size_t)nodes[v], component);
 }

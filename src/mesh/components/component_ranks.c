@@ -47,16 +47,11 @@ static int compare_links(const void *a, const void *b)
     return (x->b > y->b) - (x->b < y->b);
 }
 
-static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
-{
-    return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
-}
-
 static SharedTet describe(const OstMesh *mesh, OstLocal tet, OstLocal set)
 {
     SharedTet shared = {.set = set};
     for (int v = 0; v < 4; v++) {
-        const OstGlobal number = mesh->node_number[nodes_of(mesh, tet)[v]];
+        const OstGlobal number = mesh->node_number[ost_mesh_nodes_of(mesh, tet)[v]];
         int i = v;
         for (; i > 0 && shared.vertex[i - 1] > number; i--)
             shared.vertex[i] = shared.vertex[i - 1];
@@ -77,7 +72,7 @@ static int owner_of_ghost(const OstMesh *mesh, OstLocal node)
 /* The owner of a tet is that of its node with the lowest global number. */
 static int owner_of_tet(const OstMesh *mesh, OstLocal tet)
 {
-    const OstLocal *nodes = nodes_of(mesh, tet);
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     OstLocal lowest = nodes[0];
     for (int v = 1; v < mesh->nodes_per_tet; v++)
         if (mesh->node_number[nodes[v]] < mesh->node_number[lowest])
@@ -115,7 +110,7 @@ done:
 static int is_shared(const OstMesh *mesh, OstLocal tet)
 {
     for (int v = 0; v < mesh->nodes_per_tet; v++)
-        if (nodes_of(mesh, tet)[v] >= mesh->owned_nodes)
+        if (ost_mesh_nodes_of(mesh, tet)[v] >= mesh->owned_nodes)
             return 1;
     return 0;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/numbering.h"
 #include "mesh/check/check.h"
 #include "mesh/distribution/share.h"
 #include "mesh/mesh_data.h"
@@ -123,22 +124,10 @@ static OstStatus create_share(OstContext *ctx, const OstMeshArrays *arrays, OstM
 /* Numbers the shares contiguously over ranks. */
 static OstStatus number_share(OstContext *ctx, OstMeshChunk *chunk)
 {
-    OstGlobal mine[2] = {0, 0};
-    OstGlobal all[2] = {0, 0};
-    OstGlobal before[2] = {0, 0};
-    if (chunk) {
-        mine[0] = chunk->node_count;
-        mine[1] = chunk->tet_count;
-    }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(mine, all, 2, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    OST_TRY(OST_MPI(ctx, MPI_Exscan(mine, before, 2, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    if (!chunk)
-        return OST_SUCCESS;
-    chunk->global_nodes = all[0];
-    chunk->global_tets = all[1];
-    chunk->first_node = ost_rank(ctx) == 0 ? 0 : before[0];
-    chunk->first_tet = ost_rank(ctx) == 0 ? 0 : before[1];
-    return OST_SUCCESS;
+    OstMeshChunk none = {0}; /* of a rank without arrays */
+    OstMeshChunk *mine = chunk ? chunk : &none;
+    OST_TRY(ost_number_from(ctx, mine->node_count, &mine->first_node, &mine->global_nodes));
+    return ost_number_from(ctx, mine->tet_count, &mine->first_tet, &mine->global_tets);
 }
 
 OstStatus ost_chunk_create_from_arrays(OstContext *ctx, const OstMeshArrays *arrays, OstMeshChunk **chunk)

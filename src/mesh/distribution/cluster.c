@@ -8,7 +8,6 @@
 enum {
     CLUSTERS_PER_RANK = 64,  /* enough to balance the parts to a few percent */
     SMALLEST_CLUSTER = 4,    /* with fewer nodes on average, each node is a cluster of its own */
-    PART_IMBALANCE = 30,     /* per mille above the mean: METIS' default */
     CLUSTER_IMBALANCE = 300, /* unequal clusters balance out within a part, and cut fewer heavy edges */
     METIS_SEED = 20140721    /* any fixed number: the same mesh always has the same partition */
 };
@@ -28,7 +27,7 @@ static int partition_without_metis(const Graph *graph, idx_t parts, idx_t *part)
     return 1;
 }
 
-static OstStatus partition_by_metis(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part)
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part)
 {
     if (partition_without_metis(graph, parts, part))
         return OST_SUCCESS;
@@ -49,11 +48,6 @@ static OstStatus partition_by_metis(OstContext *ctx, const Graph *graph, idx_t p
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "METIS_PartGraphKway returned %d for %lld rows and %lld parts",
                          result, (long long)rows, (long long)parts);
     return OST_SUCCESS;
-}
-
-OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
-{
-    return partition_by_metis(ctx, graph, parts, PART_IMBALANCE, part);
 }
 
 /* The number of clusters for this rank's nodes. */
@@ -102,7 +96,7 @@ static OstStatus cluster_slab(const Slab *slab, const Graph *nodes, Clusters *cl
         OST_TRY_DONE(drop_ghosts(slab->ctx, nodes, &inner));
     else
         inner.rows = nodes->rows;
-    OST_TRY_DONE(partition_by_metis(slab->ctx, &inner, target, CLUSTER_IMBALANCE, clusters->of_node));
+    OST_TRY_DONE(ost_metis_partition(slab->ctx, &inner, target, CLUSTER_IMBALANCE, clusters->of_node));
 done:
     ost_graph_clear(&inner);
     return status;

@@ -20,7 +20,9 @@ void ost_clusters_clear(Clusters *clusters);
  * over the edges between its clusters' nodes, the weight of a row the number of nodes. */
 OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters *clusters, Graph *graph);
 
-/* Local. Partitions a graph: METIS_PartGraphKway with a fixed seed, or directly for graphs that METIS refuses. */
-OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part);
+/* Local. Partitions a graph: METIS_PartGraphKway with a fixed seed, or directly for graphs that METIS refuses. A part
+ * may be heavier than the mean by `imbalance` per mille. */
+enum { PART_IMBALANCE = 30 }; /* METIS' default */
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part);
 
 #endif

@@ -6,11 +6,7 @@
 
 static OstStatus label_all(OstMeshChunk *chunk)
 {
-    if (!chunk->node_label) {
-        OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
-        for (OstLocal i = 0; i < chunk->node_count; i++)
-            chunk->node_label[i] = chunk->first_node + i + 1;
-    }
+    OST_TRY(ost_chunk_label_nodes(chunk));
     if (!chunk->tet_label) {
         OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_label, chunk->tet_count));
         for (OstLocal t = 0; t < chunk->tet_count; t++)

@@ -171,16 +171,6 @@ static void renumber_all(const Merge *merge)
     }
 }
 
-static OstStatus keep_labels(OstMeshChunk *chunk)
-{
-    if (chunk->node_label)
-        return OST_SUCCESS;
-    OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
-    for (OstLocal i = 0; i < chunk->node_count; i++)
-        chunk->node_label[i] = chunk->first_node + i + 1;
-    return OST_SUCCESS;
-}
-
 static void drop_merged(Merge *merge)
 {
     OstMeshChunk *chunk = merge->chunk;
@@ -205,7 +195,7 @@ static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merge
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count);
     if (status == OST_SUCCESS)
-        status = keep_labels(chunk);
+        status = ost_chunk_label_nodes(chunk);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_coincident_find(&merge->points, tolerance, merge->lowest));
     OST_TRY(number_kept(merge));

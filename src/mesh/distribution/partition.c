@@ -11,7 +11,7 @@
 /* Rank 0's graph of all ranks' rows, with the number of rows and entries of each rank. The arrays are NULL elsewhere.
  */
 typedef struct Gathering {
-    int *row_count, *row_start;
+    int *row_count, *row_start; /* one block of memory with the two below */
     int *entry_count, *entry_start;
     Graph whole;
 } Gathering;
@@ -24,9 +24,6 @@ static MPI_Datatype idx_type(void)
 static void gathering_clear(Gathering *gathering)
 {
     OST_FREE(gathering->row_count);
-    OST_FREE(gathering->row_start);
-    OST_FREE(gathering->entry_count);
-    OST_FREE(gathering->entry_start);
     ost_graph_clear(&gathering->whole);
 }
 
@@ -42,10 +39,10 @@ static OstStatus make_room(OstContext *ctx, OstGlobal rows, OstGlobal entries, G
     const size_t size = (size_t)ost_size(ctx);
     Graph *whole = &gathering->whole;
     whole->rows = (OstLocal)rows;
-    OST_TRY(OST_NEW(ctx, &gathering->row_count, size));
-    OST_TRY(OST_NEW(ctx, &gathering->row_start, size));
-    OST_TRY(OST_NEW(ctx, &gathering->entry_count, size));
-    OST_TRY(OST_NEW(ctx, &gathering->entry_start, size));
+    OST_TRY(OST_NEW(ctx, &gathering->row_count, 4 * size));
+    gathering->row_start = gathering->row_count + size;
+    gathering->entry_count = gathering->row_start + size;
+    gathering->entry_start = gathering->entry_count + size;
     OST_TRY(OST_NEW(ctx, &whole->start, (size_t)rows + 1));
     OST_TRY(OST_NEW(ctx, &whole->row_weight, rows));
     OST_TRY(OST_NEW(ctx, &whole->neighbour, entries));
@@ -145,7 +142,7 @@ static OstStatus partition_on_rank_0(const Slab *slab, Gathering *gathering, int
         ost_graph_shrink_weights(gathering->whole.start[gathering->whole.rows], gathering->whole.edge_weight);
         status = OST_NEW(ctx, &part, gathering->whole.rows);
         if (status == OST_SUCCESS)
-            status = ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), part);
+            status = ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), PART_IMBALANCE, part);
         if (status == OST_SUCCESS)
             status = fill_empty_parts(slab, &gathering->whole, part);
     }

@@ -196,14 +196,6 @@ static OstStatus number_locally(OstMesh *mesh, OstGlobal **nodes)
     return OST_RESIZE(mesh->ctx, &mesh->node_label, mesh->node_count);
 }
 
-static OstStatus fill_ghosts(OstMesh *mesh)
-{
-    OST_TRY(ost_halo_create(mesh->ctx, mesh->owned_nodes, mesh->first_node, mesh->node_count - mesh->owned_nodes,
-                            mesh->node_number + mesh->owned_nodes, &mesh->halo));
-    OST_TRY(ost_agree(mesh->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), mesh->coordinates)));
-    return ost_agree(mesh->ctx, ost_halo_import(mesh->halo, sizeof(OstGlobal), mesh->node_label));
-}
-
 /* From new global numbers to local ones. If a node is not here, no tet has all nodes of the item. */
 static OstStatus number_items(OstBoundary *boundary, const OstMesh *mesh)
 {
@@ -262,7 +254,7 @@ OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int
     OST_TRY_DONE(send_tets(chunk, slab, part, number, mesh, &nodes));
     OST_TRY_DONE(ost_agree(ctx, number_locally(mesh, &nodes)));
     OST_FREE(nodes);
-    OST_TRY_DONE(fill_ghosts(mesh));
+    OST_TRY_DONE(ost_mesh_connect(mesh));
     for (int b = 0; b < mesh->boundary_count; b++)
         OST_TRY_DONE(redistribute_boundary(&mesh->boundaries[b], slab, part, number, mesh));
 done:

@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/halo.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -296,15 +295,6 @@ static OstStatus make_piece(Making *making)
     return OST_SUCCESS;
 }
 
-/* Ghosts take their coordinates and labels from their owners. */
-static OstStatus connect(OstMesh *mesh)
-{
-    OST_TRY(ost_halo_create(mesh->ctx, mesh->owned_nodes, mesh->first_node, mesh->node_count - mesh->owned_nodes,
-                            mesh->node_number + mesh->owned_nodes, &mesh->halo));
-    OST_TRY(ost_agree(mesh->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), mesh->coordinates)));
-    return ost_agree(mesh->ctx, ost_halo_import(mesh->halo, sizeof(OstGlobal), mesh->node_label));
-}
-
 OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const unsigned char *turn, OstMesh **mesh,
                           OstLocal **origin)
 {
@@ -312,7 +302,7 @@ OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const u
     OstStatus status = ost_agree(mid->mesh->ctx, make_piece(&making));
     OST_FREE(making.local);
     if (status == OST_SUCCESS)
-        status = connect(making.mesh);
+        status = ost_mesh_connect(making.mesh);
     if (status != OST_SUCCESS)
         ost_mesh_destroy(&making.mesh);
     if (status != OST_SUCCESS || !origin)

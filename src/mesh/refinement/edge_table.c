@@ -24,7 +24,7 @@ static void sort_ends(const OstMesh *mesh, OstLocal a, OstLocal b, OstLocal *low
 
 static void edge_ends(const OstMesh *mesh, OstLocal tet, int edge, OstLocal *low, OstLocal *high)
 {
-    const OstLocal *nodes = mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     sort_ends(mesh, nodes[ost_tet_edge[edge][0]], nodes[ost_tet_edge[edge][1]], low, high);
 }
 
@@ -113,7 +113,7 @@ OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)
         for (OstLocal e = table->start[n]; e < table->start[n + 1]; e++)
             table->low[e] = n;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        const OstLocal *nodes = mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet;
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
         for (int e = 0; e < 6; e++)
             table->of_tet[6 * (size_t)t + (size_t)e] =
                 ost_edge_find(table, mesh, nodes[ost_tet_edge[e][0]], nodes[ost_tet_edge[e][1]]);
