@@ -70,7 +70,7 @@ static double output_bytes(const OstCase *c, const OstPlan *plan)
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 
-/* Fewest ranks by the limits of assembly/limits.h: nonzeros of K, and nodes of tets, on one rank. Assumes equal parts.
+/* Fewest ranks by the limits of assembly/limits.c: nonzeros of K, and nodes of tets, on one rank. Assumes equal parts.
  */
 static int least_ranks(double blocks, double tet_nodes)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/element.h"
 
-#include "element/tet4.h"
+#include "element/tets.h"
 
 #include <stddef.h>
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "element/tets.h"
 
 #include "core/small.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 #include "element/strain_batch.h"
-#include "element/tet4.h"
 
 #include <string.h>
 

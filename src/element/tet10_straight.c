@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "element/tet4.h"
+#include "element/tets.h"
 
 #include <string.h>
 

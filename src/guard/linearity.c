@@ -5,7 +5,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/strain_batch.h"
-#include "mesh/tet.h"
+#include "mesh/mesh_data.h"
 
 #include <string.h>
 

@@ -7,7 +7,6 @@
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
 #include "core/small.h"
-#include "mesh/tet.h"
 
 #include <float.h>
 #include <stdlib.h>

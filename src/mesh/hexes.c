@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "mesh/tet.h"
 
 /* The paths from corner 000 to corner 111 along the edges of a cell: one tet for each order of the three directions.
  * Odd orders have their second and last vertices swapped, so that every tet is positively oriented. This keeps the pair

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "core/number_set.h"
 #include "mesh/mesh_data.h"
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 

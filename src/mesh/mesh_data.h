@@ -124,4 +124,12 @@ OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *tex
 /* Local. The mesh's local number of a node by its global number, or -1 if it is not on this rank. */
 OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
 
+/* Vertices of the face opposite each vertex, seen counter-clockwise from outside; and the ends of the edges, in the
+ * order of the mid-edge nodes 4-9. */
+extern const int ost_tet_face[4][3];
+extern const int ost_tet_edge[6][2];
+
+/* The mid-edge node (4-9) between two different vertices. */
+int ost_tet_mid_node(int a, int b);
+
 #endif

@@ -2,7 +2,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "mesh/mesh_data.h"
-#include "mesh/tet.h"
 
 void ost_surface_destroy(OstSurface **surface)
 {
@@ -28,13 +27,6 @@ typedef struct FaceTable {
     Face *face;
 } FaceTable;
 
-static void swap(OstLocal *a, OstLocal *b)
-{
-    const OstLocal c = *a;
-    *a = *b;
-    *b = c;
-}
-
 /* Vertices in ascending order; the number of swaps decides the turn. */
 static OstLocal sort_face(const OstLocal *tet, int opposite, Face *face)
 {
@@ -45,7 +37,9 @@ static OstLocal sort_face(const OstLocal *tet, int opposite, Face *face)
     for (int pass = 0; pass < 3; pass++) {
         const int i = pass % 2;
         if (v[i] > v[i + 1]) {
-            swap(&v[i], &v[i + 1]);
+            const OstLocal larger = v[i];
+            v[i] = v[i + 1];
+            v[i + 1] = larger;
             face->turn = (int8_t)-face->turn;
         }
     }

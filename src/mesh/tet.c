@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/tet.h"
-
 #include "core/small.h"
 #include "mesh/mesh_data.h"
 

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
-#include "mesh/tet.h"
+#include "mesh/mesh_data.h"
 #include "orthostat/refine.h"
 
 #include <float.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
-#include "element/tet4.h"
+#include "element/tets.h"
 #include "element_support.h"
 
 enum { NODES = 10, WIDTH = 30, PAIRS = 55, GAUSS = 8 };

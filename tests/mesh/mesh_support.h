@@ -5,7 +5,6 @@
 /* Include after support.h: meshes to test with. */
 #include "core/memory.h"
 #include "mesh/mesh_data.h"
-#include "mesh/tet.h"
 
 /* The tube of Li and Barbič's Fig. 6. */
 static const OstTubeShape paper_tube = {1, {0.0, 0.0, 0.0}, 10.0, {0.9, 1.5}, 60, 6, 60};

@@ -3,7 +3,6 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "mesh/check/check.h"
-#include "mesh/tet.h"
 
 static const double *node_at(const OstMesh *mesh, OstLocal tet, int node)
 {

@@ -6,7 +6,6 @@
 #include "core/small.h"
 #include "mesh/check/check.h"
 #include "mesh/incidence.h"
-#include "mesh/tet.h"
 
 #include <float.h>
 #include <stdio.h>

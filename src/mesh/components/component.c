@@ -43,13 +43,6 @@ static void widen(const double *x, OstComponent *component)
     }
 }
 
-static void widen_by_tet(const OstMesh *mesh, OstLocal tet, OstComponent *component)
-{
-    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-    for (int v = 0; v < 4; v++)
-        widen(mesh->coordinates + 3 * (size_t)nodes[v], component);
-}
-
 /* Number of tets, lowest label and box of each component, from the tets that this rank owns. */
 static void measure(const OstMesh *mesh, OstComponents *components)
 {
@@ -60,8 +53,8 @@ static void measure(const OstMesh *mesh, OstComponents *components)
         OstComponent *component = &components->component[components->of_tet[t]];
         component->tets++;
         component->first_tet = mesh->tet_label[t] < component->first_tet ? mesh->tet_label[t] : component->first_tet;
-        if (components->count > 1)
-            widen_by_tet(mesh, t, component);
+        for (int v = 0; v < 4 && components->count > 1; v++)
+            widen(mesh->coordinates + 3 * (size_t)ost_mesh_nodes_of(mesh, t)[v], component);
     }
     for (OstLocal n = 0; components->count == 1 && n < mesh->owned_nodes; n++)
         widen(mesh->coordinates + 3 * (size_t)n, &components->component[0]);

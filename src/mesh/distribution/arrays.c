@@ -4,7 +4,6 @@
 #include "core/parallel/numbering.h"
 #include "mesh/check/check.h"
 #include "mesh/distribution/share.h"
-#include "mesh/mesh_data.h"
 
 #include <string.h>
 

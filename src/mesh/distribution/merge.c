@@ -11,7 +11,6 @@
 #include "mesh/coincident.h"
 #include "mesh/distribution/share.h"
 #include "mesh/distribution/slab.h"
-#include "mesh/tet.h"
 
 #include <float.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
 #include "mesh/distribution/partition.h"
-#include "mesh/mesh_data.h"
 
 #include <string.h>
 

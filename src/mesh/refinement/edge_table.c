@@ -2,7 +2,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "mesh/refinement/mid_nodes.h"
-#include "mesh/tet.h"
 
 #include <stdlib.h>
 

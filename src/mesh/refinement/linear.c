@@ -4,7 +4,6 @@
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "mesh/refinement/divide.h"
-#include "mesh/tet.h"
 #include "orthostat/refine.h"
 
 #include <string.h>

@@ -7,7 +7,6 @@
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
-#include "mesh/mesh_data.h"
 
 #include <string.h>
 

@@ -4,7 +4,6 @@
 #include "core/small.h"
 #include "mesh/check/check.h"
 #include "mesh/refinement/divide.h"
-#include "mesh/tet.h"
 
 /* Bey's red refinement (J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378): four tets at the vertices,
  * and four around the inner octahedron's diagonal between the middles of edges 02 and 13. With his order of the
@@ -154,11 +153,13 @@ done:
     return status;
 }
 
-static OstStatus refine(const OstMesh *coarse, const OstShapeSurface *shape, OstMesh **fine)
+OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, OstMesh **fine)
 {
     Refinement refinement = {coarse, NULL, shape, NULL, NULL, NULL};
     OstMesh *skeleton = NULL;
     OstStatus status = OST_SUCCESS;
+    *fine = NULL;
+    ost_ledger_enter(coarse->ctx, OST_LEDGER_MESH);
     if (coarse->nodes_per_tet == 10) {
         OST_TRY_DONE(ost_mesh_linear(coarse, &skeleton, NULL));
         refinement.linear = skeleton;
@@ -174,14 +175,6 @@ done:
     OST_FREE(refinement.origin);
     ost_mesh_destroy(&refinement.fine);
     ost_mesh_destroy(&skeleton);
-    return status;
-}
-
-OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, OstMesh **fine)
-{
-    *fine = NULL;
-    ost_ledger_enter(coarse->ctx, OST_LEDGER_MESH);
-    const OstStatus status = refine(coarse, shape, fine);
     ost_ledger_leave(coarse->ctx);
     return status;
 }

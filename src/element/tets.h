@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ELEMENT_TET4_H
-#define ORTHOSTAT_ELEMENT_TET4_H
+#ifndef ORTHOSTAT_ELEMENT_TETS_H
+#define ORTHOSTAT_ELEMENT_TETS_H
 
 #include "element/element.h"
 
