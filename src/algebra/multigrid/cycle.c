@@ -17,12 +17,12 @@ static const double careful = 1.2; /* safety factor of an eigenvalue estimate th
 
 typedef struct Level {
     const OstLevelMatrix *matrix;
-    OstSmoother *smoother;                 /* NULL where the level is solved by factors */
-    const OstProlongator *prolongator;     /* from the next level; or */
-    const OstInterpolation *interpolation; /* from the linear tets; neither on the coarsest level */
-    OstCoarsest *coarsest;                 /* its factors; NULL if it is smoothed */
-    double *own;                           /* a vector of this level with room for ghosts */
-    double *coarse;                        /* a vector of the next level with room for the prolongator's ghosts */
+    OstSmoother *smoother;             /* NULL where the level is solved by factors */
+    const OstProlongator *prolongator; /* from the next level; or */
+    OstQuadraticLevel *quadratic;      /* which interpolates from the linear tets; neither on the coarsest level */
+    OstCoarsest *coarsest;             /* its factors; NULL if it is smoothed */
+    double *own;                       /* a vector of this level with room for ghosts */
+    double *coarse;                    /* a vector of the next level with room for the prolongator's ghosts */
 } Level;
 
 struct OstCycle {
@@ -82,7 +82,7 @@ static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
     const Level *level = data;
     if (level->coarsest)
         return ost_coarsest_solve(level->coarsest, b, x);
-    const int is_last = !level->prolongator && !level->interpolation;
+    const int is_last = !level->prolongator && !level->quadratic;
     for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
         OST_TRY(ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0));
     return OST_SUCCESS;
@@ -91,8 +91,8 @@ static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
 static OstStatus restrict_to(void *data, const double *fine, double *coarse)
 {
     const Level *level = data;
-    if (level->interpolation)
-        return ost_interpolation_restrict(level->interpolation, fine, coarse);
+    if (level->quadratic)
+        return ost_quadratic_level_restrict(level->quadratic, fine, coarse);
     OST_TRY(ost_prolongator_restrict(level->prolongator, fine, level->coarse));
     const size_t n = ost_level_unknowns(level[1].matrix);
     if (n > 0)
@@ -104,10 +104,10 @@ static OstStatus prolong(void *data, const double *coarse, double *fine)
 {
     const Level *level = data;
     const size_t n = ost_level_unknowns(level->matrix), coarse_n = ost_level_unknowns(level[1].matrix);
+    if (level->quadratic)
+        return ost_quadratic_level_prolong(level->quadratic, coarse, fine);
     if (n > 0)
         memset(fine, 0, n * sizeof *fine);
-    if (level->interpolation)
-        return ost_interpolation_add(level->interpolation, coarse, fine);
     if (coarse_n > 0)
         memcpy(level->coarse, coarse, coarse_n * sizeof *coarse);
     return ost_prolongator_add(level->prolongator, level->coarse, fine);
@@ -117,12 +117,11 @@ static OstStatus prolong(void *data, const double *coarse, double *fine)
 static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
 {
     const OstLevels *levels = &cycle->levels;
-    const OstQuadraticLevel *quadratic = cycle->quadratic;
+    OstQuadraticLevel *quadratic = cycle->quadratic;
     const int finest = quadratic ? 1 : 0; /* level of the linear tets */
     cycle->count = levels->count + finest;
     if (quadratic)
-        cycle->level[0] = (Level){
-            .matrix = quadratic->matrix, .smoother = quadratic->smoother, .interpolation = quadratic->interpolation};
+        cycle->level[0] = (Level){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
     for (int l = 0; l < levels->count; l++)
         cycle->level[finest + l] = (Level){
             .matrix = levels->matrix[l], .smoother = levels->smoother[l], .prolongator = levels->prolongator[l]};

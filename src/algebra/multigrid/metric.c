@@ -9,7 +9,6 @@
 #include "core/memory.h"
 
 #include <stdio.h>
-#include <string.h>
 
 struct OstMetric {
     OstContext *ctx;
@@ -170,15 +169,4 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
     report->operator_complexity = metric->operator_complexity;
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML cycle of %d levels", metric->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
-}
-
-OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
-{
-    OstGoal goal;
-    OST_TRY(ost_goal_set(metric->matrix, f, &metric->options, &goal));
-    memset(u, 0, 3 * (size_t)metric->matrix->rows * sizeof *u);
-    const OstStatus status = ost_metric_improve(metric, f, u, &goal, report);
-    report->iterations = goal.iterations;
-    report->relative_residual = goal.start > 0.0 ? goal.norm / goal.start : 0.0;
-    return status == OST_SUCCESS ? ost_goal_verdict(&goal) : status;
 }

@@ -23,8 +23,4 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
 /* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
-/* Collective. Solves from u = 0 to the residual that the options request; also fills the report's iterations and
- * relative_residual. Raises OST_NOT_CONVERGED if it is not reached. */
-OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report);
-
 #endif

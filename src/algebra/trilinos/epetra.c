@@ -65,16 +65,6 @@ done:
     return status;
 }
 
-OstGlobal ost_epetra_map_size(const OstEpetraMap *map)
-{
-    return epetra_map_numglobalelements(map->map);
-}
-
-OstGlobal ost_epetra_map_first(const OstEpetraMap *map)
-{
-    return epetra_map_nummyelements(map->map) > 0 ? epetra_map_myglobalelements(map->map)[0] : 0;
-}
-
 OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm)
 {
     /* The wrappers have no const; the norm does not write. */
