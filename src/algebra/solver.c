@@ -179,21 +179,16 @@ static OstStatus measure_residual(const OstSolver *solver, const double *f, cons
 {
     OstContext *ctx = solver->ctx;
     const size_t n = 3 * (size_t)solver->matrix->rows;
-    double *vector = NULL;
-    double *residual = NULL;
-    double norm = 0.0;
-    double f_norm = 0.0;
-    OstStatus status = OST_NEW(ctx, &vector, 3 * (size_t)solver->matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &residual, n);
-    OST_TRY_DONE(ost_agree(ctx, status));
+    double *residual = NULL, norm = 0.0, f_norm = 0.0;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &residual, n + 3 * (size_t)solver->matrix->columns)));
+    double *vector = residual + n;
     memcpy(vector, u, n * sizeof *u);
     OST_TRY_DONE(ost_residual(solver->matrix, f, vector, compensated, residual));
     OST_TRY_DONE(ost_epetra_norm(solver->map, residual, &norm));
     OST_TRY_DONE(ost_epetra_norm(solver->map, f, &f_norm));
     *relative = f_norm > 0.0 ? norm / f_norm : norm;
 done:
-    OST_FREE(vector);
     OST_FREE(residual);
     return status;
 }

@@ -42,7 +42,7 @@ static OstStatus build(const OstBlockMatrix *matrix, const OstSolverGeometry *ge
     case OST_METHOD_DIRECT:
         return ost_direct_create(matrix, options->factor_memory, &strategy->direct);
     default:
-        return ost_metric_create(matrix->ctx, matrix, geometry, options, &strategy->metric);
+        return ost_metric_create(matrix, geometry, options, &strategy->metric);
     }
 }
 

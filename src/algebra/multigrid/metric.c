@@ -118,16 +118,15 @@ done:
     return status;
 }
 
-OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstMetric **metric)
 {
+    OstContext *ctx = matrix->ctx;
     OstMetric *made = NULL;
     OstLevels levels = {0};
     OstQuadraticLevel *quadratic = NULL;
-    *metric = NULL;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
-    if (status != OST_SUCCESS)
-        goto done;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
     made->ctx = ctx;
     made->options = *options;
     made->matrix = matrix;

@@ -12,7 +12,7 @@ typedef struct OstMetric OstMetric;
 
 /* Collective. The matrix stays the caller's and must outlive the solver. Raises OST_INVALID_INPUT if a coordinate or
  * metric is not usable or a diagonal block is not positive definite. */
-OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstMetric **metric);
 void ost_metric_destroy(OstMetric **metric);
 
