@@ -297,8 +297,9 @@ OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScalin
     return status;
 }
 
-OstStatus ost_mumps_solve(OstMumps *mumps, const double *b, double *x)
+OstStatus ost_mumps_solve(void *data, const double *b, double *x)
 {
+    OstMumps *mumps = data;
     OstContext *ctx = mumps->ctx;
     OST_TRY(OST_MPI(ctx, MPI_Gatherv(b, mumps->unknowns, MPI_DOUBLE, mumps->vector, mumps->counts, mumps->starts,
                                      MPI_DOUBLE, 0, ost_comm(ctx))));

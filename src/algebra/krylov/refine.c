@@ -2,7 +2,6 @@
 #include "algebra/krylov/refine.h"
 
 #include "algebra/matrix/compensated_step.h"
-#include "algebra/matrix/residual.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"

@@ -173,8 +173,9 @@ done:
     return status;
 }
 
-OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z)
+OstStatus ost_cycle_apply(void *data, const double *r, double *z)
 {
+    OstCycle *cycle = data;
     return cycle->ml ? ost_ml_cycle_apply(cycle->ml, r, z) : smooth(&cycle->level[0], r, z, 1);
 }
 

@@ -145,11 +145,6 @@ done:
     return status;
 }
 
-static OstStatus apply_cycle(void *data, const double *r, double *z)
-{
-    return ost_cycle_apply(data, r, z);
-}
-
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 {
     ost_cycle_strengthen(metric->cycle, options->smoother_degree - metric->options.smoother_degree,
@@ -160,7 +155,7 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner cycle = {.data = metric->cycle, .apply = apply_cycle};
+    const OstPreconditioner cycle = {.data = metric->cycle, .apply = ost_cycle_apply};
     const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
