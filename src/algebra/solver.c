@@ -307,17 +307,6 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
     return OST_SUCCESS;
 }
 
-static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
-{
-    report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
-    report->iterations = goal->iterations;
-    if (goal->start > 0.0) {
-        report->relative_residual = goal->norm / goal->start;
-        report->attainable_residual = ost_goal_attainable(goal);
-        report->rounding_limited = goal->end == OST_END_ROUNDING;
-    }
-}
-
 /* Solves with f scaled to order 1. */
 static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
@@ -330,7 +319,13 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
-    report_goal(solver, &goal, report);
+    report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
+    report->iterations = goal.iterations;
+    if (goal.start > 0.0) {
+        report->relative_residual = goal.norm / goal.start;
+        report->attainable_residual = ost_goal_attainable(&goal);
+        report->rounding_limited = goal.end == OST_END_ROUNDING;
+    }
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)

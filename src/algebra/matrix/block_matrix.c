@@ -23,9 +23,7 @@ void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *restr
 {
     const OstLocal *restrict column = matrix->column;
     for (OstLocal i = 0; i < matrix->rows; i++) {
-        double y0 = 0.0;
-        double y1 = 0.0;
-        double y2 = 0.0;
+        double y0 = 0.0, y1 = 0.0, y2 = 0.0;
         const OstLocal end = matrix->row_start[i + 1];
         const double *restrict a = matrix->value + 9 * (size_t)matrix->row_start[i];
         for (OstLocal k = matrix->row_start[i]; k < end; k++, a += 9) {

@@ -5,6 +5,7 @@
 #include "algebra/trilinos/cycle.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <string.h>
 
@@ -55,7 +56,7 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
     OstLevels *levels = &cycle->levels;
     const int last = levels->count - 1;
     OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
-    OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+    OstStatus status = ost_sum_numbers(ctx, 1, &unknowns);
     if (status == OST_SUCCESS && (unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels))
         status = ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest);
     else if (status == OST_SUCCESS)

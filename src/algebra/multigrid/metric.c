@@ -7,6 +7,7 @@
 #include "algebra/multigrid/quadratic.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <stdio.h>
 
@@ -56,8 +57,7 @@ static OstStatus measure_levels(OstMetric *metric, const OstLevels *levels)
         size[2 * l] = (OstGlobal)ost_level_unknowns(levels->matrix[l]);
         size[2 * l + 1] = levels->matrix[l]->nonzeros;
     }
-    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, size, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM,
-                                               ost_comm(metric->ctx))));
+    OST_TRY(ost_sum_numbers(metric->ctx, 2 * OST_MAX_LEVELS, size));
     OstGlobal nonzeros = 0;
     metric->levels = levels->count;
     for (int l = 0; l < levels->count; l++) {
@@ -89,7 +89,7 @@ done:
 static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear)
 {
     OstGlobal blocks[2] = {metric->matrix->row_start[metric->matrix->rows], linear->row_start[linear->rows]};
-    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, blocks, 2, MPI_INT64_T, MPI_SUM, ost_comm(metric->ctx))));
+    OST_TRY(ost_sum_numbers(metric->ctx, 2, blocks));
     if (metric->levels < OST_MAX_LEVELS)
         metric->levels++;
     for (int l = metric->levels - 1; l > 0; l--)

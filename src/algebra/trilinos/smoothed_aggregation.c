@@ -5,6 +5,7 @@
 #include "algebra/trilinos/ml.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <limits.h>
 #include <string.h>
@@ -141,33 +142,26 @@ static OstStatus set_aggregation(OstSmoothedAggregation *hierarchy, const double
     return OST_SUCCESS;
 }
 
+/* Also counts the levels' unknowns and nonzeros over all ranks. */
 static OstStatus coarsen(OstSmoothedAggregation *hierarchy)
 {
     OstContext *ctx = hierarchy->matrix->ctx;
-    hierarchy->levels =
-        ML_Gen_MultiLevelHierarchy_UsingAggregation(hierarchy->ml, FINEST, ML_INCREASING, hierarchy->aggregates);
+    OstGlobal counts[2 * OST_MAX_LEVELS] = {0}, nonzeros = 0;
+    ML *ml = hierarchy->ml;
+    hierarchy->levels = ML_Gen_MultiLevelHierarchy_UsingAggregation(ml, FINEST, ML_INCREASING, hierarchy->aggregates);
     OST_TRY(ost_agree(ctx, hierarchy->status));
     if (hierarchy->levels < 1)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML made no hierarchy (%d levels)", hierarchy->levels);
-    return OST_SUCCESS;
-}
-
-/* Unknowns and nonzeros of the levels over all ranks. */
-static OstStatus measure(OstSmoothedAggregation *hierarchy)
-{
-    OstContext *ctx = hierarchy->matrix->ctx;
-    OstGlobal counts[2][OST_MAX_LEVELS] = {{0}};
-    OstGlobal nonzeros = 0;
     for (int level = 0; level < hierarchy->levels; level++) {
-        counts[0][level] = hierarchy->ml->Amat[level].outvec_leng;
-        counts[1][level] = hierarchy->ml->Amat[level].N_nonzeros;
+        counts[2 * level] = ml->Amat[level].outvec_leng;
+        counts[2 * level + 1] = ml->Amat[level].N_nonzeros;
     }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, counts, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum_numbers(ctx, 2 * OST_MAX_LEVELS, counts));
     for (int level = 0; level < hierarchy->levels; level++) {
-        hierarchy->level_unknowns[level] = counts[0][level];
-        nonzeros += counts[1][level];
+        hierarchy->level_unknowns[level] = counts[2 * level];
+        nonzeros += counts[2 * level + 1];
     }
-    hierarchy->operator_complexity = (double)nonzeros / (double)counts[1][FINEST];
+    hierarchy->operator_complexity = (double)nonzeros / (double)counts[1];
     return OST_SUCCESS;
 }
 
@@ -218,7 +212,6 @@ OstStatus ost_smoothed_aggregation_create(const OstBlockMatrix *matrix, const Os
     OST_TRY_DONE(set_matrix(made));
     OST_TRY_DONE(ost_agree(ctx, set_aggregation(made, geometry->modes, options)));
     OST_TRY_DONE(coarsen(made));
-    OST_TRY_DONE(measure(made));
     OST_TRY_DONE(ost_agree(ctx, set_smoothers(made, options)));
 done:
     if (status != OST_SUCCESS)
