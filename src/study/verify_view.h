@@ -9,7 +9,7 @@
 typedef struct OstVerifyView {
     const OstMesh *mesh;
     const OstResult *result;
-    const OstExactField *exact;
+    const OstClosedForm *exact;
     const OstVerifyQuantity *quantity;
 } OstVerifyView;
 
