@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 
-#include <argp.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -62,6 +62,27 @@ int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **arg
     if (failure == 0)
         return 1;
     *exit_code = ost_status_exit_code(OST_INVALID_USAGE);
+    return 0;
+}
+
+error_t ost_cli_take(int key, char *value, struct argp_state *state)
+{
+    OstArguments *arguments = state->input;
+    const char *path = arguments->case_path;
+    if (key == ARGP_KEY_ARG && path) {
+        argp_error(state, "one case at a time: '%s' came after '%s'", value, path);
+        return EINVAL;
+    }
+    if (key == ARGP_KEY_ARG) {
+        arguments->case_path = value;
+    } else if (key == ARGP_KEY_END && !path) {
+        argp_error(state, "which case? Give the path of its YAML file");
+        return EINVAL;
+    } else if (key > 0 && key <= 'z') {
+        arguments->text[key] = value ? value : "";
+    } else {
+        return ARGP_ERR_UNKNOWN;
+    }
     return 0;
 }
 

@@ -148,9 +148,9 @@ static OstStatus check_file(const OstCase *c, const char *path, char **target)
     return check_folder(c->ctx, *target);
 }
 
-static int is_stdout(const char *path)
+int ost_cli_is_stdout(const char *path)
 {
-    return strcmp(path, "-") == 0;
+    return path && strcmp(path, "-") == 0;
 }
 
 /* Paths that are NULL are not written. */
@@ -161,14 +161,15 @@ static OstStatus check_files(const OstCase *c, int count, const char *const *pat
     for (int i = 0; i < count && status == OST_SUCCESS; i++) {
         if (!paths[i])
             continue;
-        if (!is_stdout(paths[i]))
+        if (!ost_cli_is_stdout(paths[i]))
             status = check_file(c, paths[i], &target[i]);
         for (int j = 0; j < i && status == OST_SUCCESS; j++)
-            if (is_stdout(paths[i]) ? paths[j] && is_stdout(paths[j])
-                                    : target[j] && is_same_place(target[i], target[j]))
+            if (ost_cli_is_stdout(paths[i]) ? ost_cli_is_stdout(paths[j])
+                                            : target[j] && is_same_place(target[i], target[j]))
                 status = OST_RAISE(c->ctx, OST_INVALID_USAGE, "two outputs cannot both go to %s%s%s",
-                                   is_stdout(paths[i]) ? "" : "'", is_stdout(paths[i]) ? "standard output" : paths[i],
-                                   is_stdout(paths[i]) ? "" : "'");
+                                   ost_cli_is_stdout(paths[i]) ? "" : "'",
+                                   ost_cli_is_stdout(paths[i]) ? "standard output" : paths[i],
+                                   ost_cli_is_stdout(paths[i]) ? "" : "'");
     }
     for (int i = 0; i < count; i++)
         OST_FREE(target[i]);

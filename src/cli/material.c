@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "orthostat/axes.h"
 
-#include <argp.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "cli/material_report.h"
 
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/small.h"
 
 #include <stdio.h>
@@ -89,4 +90,65 @@ void ost_material_report_print(const OstMaterialReport *report)
     print_numbers("Ex Ey Ez", 3, report->turned_constants.youngs_modulus);
     print_numbers("nuxy nuyz nuzx", 3, report->turned_constants.poissons_ratio);
     print_numbers("Gxy Gyz Gzx", 3, report->turned_constants.shear_modulus);
+}
+
+/* --- JSON --- */
+
+static json_t *numbers(int count, const double *values)
+{
+    json_t *array = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(array, ost_json_number(values[i]));
+    return array;
+}
+
+static json_t *matrix(const double values[36])
+{
+    json_t *array = json_array();
+    for (int i = 0; i < 6; i++)
+        json_array_append_new(array, numbers(6, values + 6 * i));
+    return array;
+}
+
+/* Three numbers by their names, which blanks separate. */
+static json_t *add_named(json_t *object, const char *names, const double values[3])
+{
+    char name[3][8] = {"", "", ""};
+    sscanf(names, "%7s %7s %7s", name[0], name[1], name[2]);
+    for (int i = 0; i < 3; i++)
+        json_object_set_new(object, name[i], ost_json_number(values[i]));
+    return object;
+}
+
+static json_t *report_json(const OstMaterialReport *report)
+{
+    const OstOrthotropic *own = &report->material.constants, *world = &report->turned_constants;
+    const double *low = report->low, *high = report->high;
+    json_t *ratios = add_named(json_object(), "nu12 nu23 nu31", own->poissons_ratio);
+    json_t *range =
+        json_pack("{s:o, s:[ff], s:[ff], s:[ff], s:[ff]}", "scale", ost_json_number(report->scale), "nu12", low[0],
+                  high[0], "nu23", low[1], high[1], "nu31", low[2], high[2], "family_nu", -1.0, 0.5);
+    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", report->kind,
+                             "youngs_modulus", add_named(json_object(), "E1 E2 E3", own->youngs_modulus),
+                             "poissons_ratio", add_named(ratios, "nu21 nu32 nu13", report->reverse_ratio),
+                             "shear_modulus", add_named(json_object(), "G12 G23 G31", own->shear_modulus), "stiffness",
+                             matrix(report->material.stiffness), "compliance", matrix(report->material.compliance),
+                             "stiffness_eigenvalues", numbers(6, report->stiffness_eigenvalues),
+                             "normalised_eigenvalues", numbers(3, report->block_eigenvalues), "condition",
+                             ost_json_number(report->material.condition), "stable_range", range);
+    if (root && report->turned)
+        json_object_set_new(root, "world",
+                            json_pack("{s:o, s:o, s:o, s:o, s:o}", "axes", numbers(9, report->axes), "stiffness",
+                                      matrix(report->turned_stiffness), "youngs_modulus",
+                                      add_named(json_object(), "Ex Ey Ez", world->youngs_modulus), "poissons_ratio",
+                                      add_named(json_object(), "nuxy nuyz nuzx", world->poissons_ratio),
+                                      "shear_modulus", add_named(json_object(), "Gxy Gyz Gzx", world->shear_modulus)));
+    return root;
+}
+
+OstStatus ost_material_report_print_json(OstContext *ctx, const OstMaterialReport *report)
+{
+    json_t *root = report_json(report);
+    return root ? ost_json_write(ctx, root, "-")
+                : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made");
 }

@@ -10,14 +10,6 @@
 
 enum { POINTS = 360 };
 
-static void write_curve(FILE *file, double nu, const double *ratios)
-{
-    for (int i = 0; i <= POINTS; i++) { /* the last is the first: a closed curve */
-        const double *point = ratios + 2 * (i % POINTS);
-        fprintf(file, "%.12g,%.12g,%.12g\n", nu, point[0], point[1]);
-    }
-}
-
 typedef struct Curves {
     int count;
     const double *nu, *ratios;
@@ -28,7 +20,10 @@ static OstStatus write_curves(FILE *file, const void *content)
     const Curves *curves = content;
     fputs("nu,E1_over_E2,E3_over_E2\n", file);
     for (int k = 0; k < curves->count; k++)
-        write_curve(file, curves->nu[k], curves->ratios + 2 * (size_t)POINTS * (size_t)k);
+        for (int i = 0; i <= POINTS; i++) { /* the last is the first: a closed curve */
+            const double *point = curves->ratios + 2 * ((size_t)POINTS * (size_t)k + (size_t)(i % POINTS));
+            fprintf(file, "%.12g,%.12g,%.12g\n", curves->nu[k], point[0], point[1]);
+        }
     return OST_SUCCESS;
 }
 

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <argp.h>
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -19,9 +18,7 @@
 enum { MOST_CASES = 256 };
 
 typedef struct Arguments {
-    int quick;
-    const char *json;
-    const char *picture;
+    OstArguments common;
     int name_count;
     const char *name[MOST_CASES];
 } Arguments;
@@ -38,18 +35,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
     switch (key) {
-    case 'Q':
-        arguments->quick = 1;
-        return 0;
     case 'H':
         argp_error(state, "the hard grid is a study of its own, in the source: scripts/hard-grid");
         return EINVAL;
-    case 'j':
-        arguments->json = value;
-        return 0;
-    case 'p':
-        arguments->picture = value;
-        return 0;
     case ARGP_KEY_ARG:
         if (arguments->name_count == MOST_CASES) {
             argp_error(state, "at most %d cases at a time", MOST_CASES);
@@ -57,8 +45,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         }
         arguments->name[arguments->name_count++] = value;
         return 0;
+    case ARGP_KEY_END: /* no name: all cases */
+        return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return ost_cli_take(key, value, state);
     }
 }
 
@@ -168,87 +158,76 @@ typedef struct PicturePaths {
     char picture[OST_LONGEST_PATH];
 } PicturePaths;
 
-static OstStatus name_picture(OstContext *ctx, const char *folder, PicturePaths *paths)
+/* No report may replace a file of a case. */
+static OstStatus check_paths(OstContext *ctx, const CaseList *list, int count, const char *const *paths)
 {
-    const int length = snprintf(paths->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
-    if (length < 0 || length >= OST_LONGEST_PATH)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
-    snprintf(paths->picture, OST_LONGEST_PATH, "%.4000s/verify.png", folder);
-    return OST_SUCCESS;
-}
-
-static OstStatus make_folder(OstContext *ctx, const char *folder)
-{
-    return mkdir(folder, 0777) == 0 || errno == EEXIST
-               ? OST_SUCCESS
-               : OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
-}
-
-static OstStatus check_case_is_safe(OstContext *ctx, const char *case_path, int count, const char *const *paths)
-{
-    OstCase *c = NULL;
-    OstStatus status = ost_case_read(ctx, case_path, &c);
-    if (status == OST_SUCCESS)
-        status = ost_check_outputs(c, count, paths);
-    ost_case_destroy(&c);
+    OstStatus status = OST_SUCCESS;
+    for (int i = 0; i < list->count && status == OST_SUCCESS; i++) {
+        OstCase *c = NULL;
+        status = ost_case_read(ctx, list->path[i], &c);
+        if (status == OST_SUCCESS)
+            status = ost_check_outputs(c, count, paths);
+        ost_case_destroy(&c);
+    }
     return status;
 }
 
-/* Checked before anything runs. No report may replace a case; the readings beside the picture may be the file of
- * --json. */
-static OstStatus check_destinations(OstContext *ctx, const Arguments *arguments, const CaseList *list)
+/* Checked before anything runs. The readings beside the picture may be the file of --json. */
+static OstStatus choose_destinations(OstContext *ctx, const OstArguments *arguments, const CaseList *list,
+                                     PicturePaths *beside)
 {
-    PicturePaths beside;
-    const char *const drawn[] = {beside.readings, beside.picture};
-    for (int i = 0; arguments->json && i < list->count; i++)
-        OST_TRY(check_case_is_safe(ctx, list->path[i], 1, &arguments->json));
-    if (!arguments->picture)
+    const char *folder = arguments->text['p'];
+    const char *const drawn[] = {beside->readings, beside->picture};
+    OstStatus made = OST_SUCCESS;
+    if (arguments->text['j'])
+        OST_TRY(check_paths(ctx, list, 1, &arguments->text['j']));
+    if (!folder)
         return OST_SUCCESS;
-    OST_TRY(name_picture(ctx, arguments->picture, &beside));
-    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? make_folder(ctx, arguments->picture) : OST_SUCCESS));
-    for (int i = 0; i < list->count; i++)
-        OST_TRY(check_case_is_safe(ctx, list->path[i], 2, drawn));
-    return OST_SUCCESS;
+    const int length = snprintf(beside->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
+    if (length < 0 || length >= OST_LONGEST_PATH)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
+    snprintf(beside->picture, OST_LONGEST_PATH, "%.4000s/verify.png", folder);
+    if (ost_rank(ctx) == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
+        made = OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
+    OST_TRY(ost_agree(ctx, made));
+    return check_paths(ctx, list, 2, drawn);
 }
 
 /* --- the runs --- */
 
-static OstStatus draw(OstContext *ctx, int count, OstVerifyReport *const *reports, const Arguments *arguments)
+static OstStatus run_all(OstContext *ctx, const OstArguments *arguments, const CaseList *list,
+                         const PicturePaths *beside, OstVerifyReport **reports)
 {
-    PicturePaths paths;
-    if (ost_rank(ctx) != 0)
-        return OST_SUCCESS;
-    OST_TRY(name_picture(ctx, arguments->picture, &paths));
-    OST_TRY(ost_verify_write_json(ctx, count, reports, arguments->quick, paths.readings));
-    return ost_cli_run_script(ctx, "plot-verify", paths.readings, arguments->picture);
-}
-
-static OstStatus run_all(OstContext *ctx, const Arguments *arguments, const CaseList *list, OstVerifyReport **reports)
-{
-    const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !(arguments->json && strcmp(arguments->json, "-") == 0);
+    const int quick = arguments->text['Q'] != NULL;
+    const char *json = arguments->text['j'], *folder = arguments->text['p'];
+    const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json);
     for (int i = 0; i < list->count; i++) {
-        OST_TRY(ost_verify_case(ctx, list->path[i], arguments->quick, &reports[i]));
+        OST_TRY(ost_verify_case(ctx, list->path[i], quick, &reports[i]));
         if (prints)
             ost_verify_print(reports[i], ost_log_level(ctx) == OST_LOG_VERBOSE);
     }
     if (prints)
         ost_verify_print_summary(list->count, reports);
-    if (arguments->json)
-        OST_TRY(ost_agree(ctx, ost_verify_write_json(ctx, list->count, reports, arguments->quick, arguments->json)));
-    return arguments->picture ? ost_agree(ctx, draw(ctx, list->count, reports, arguments)) : OST_SUCCESS;
+    OstStatus status = json ? ost_verify_write_json(ctx, list->count, reports, quick, json) : OST_SUCCESS;
+    OST_TRY(ost_agree(ctx, status));
+    if (folder)
+        status = ost_verify_write_json(ctx, list->count, reports, quick, beside->readings);
+    if (folder && status == OST_SUCCESS && ost_rank(ctx) == 0)
+        status = ost_cli_run_script(ctx, "plot-verify", beside->readings, folder);
+    return ost_agree(ctx, status);
 }
 
 static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_passed)
 {
     CaseList list = {0, NULL};
+    PicturePaths beside;
     OstVerifyReport **reports = NULL;
-    OstStatus status = find_cases(ctx, arguments, &list);
-    if (status == OST_SUCCESS)
-        status = check_destinations(ctx, arguments, &list);
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, OST_NEW(ctx, &reports, list.count));
-    if (status == OST_SUCCESS)
-        status = run_all(ctx, arguments, &list, reports);
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(find_cases(ctx, arguments, &list));
+    OST_TRY_DONE(choose_destinations(ctx, &arguments->common, &list, &beside));
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &reports, list.count)));
+    status = run_all(ctx, &arguments->common, &list, &beside, reports);
+done:
     *all_passed = status == OST_SUCCESS;
     for (int i = 0; reports && i < list.count; i++) {
         *all_passed &= reports[i] != NULL && reports[i]->passed;
