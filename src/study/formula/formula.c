@@ -2,6 +2,7 @@
 #include "study/formula/formula.h"
 
 #include "core/error.h"
+#include "core/small.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -117,11 +118,7 @@ static OstStatus exact_stress(const void *data, const double point[3], double st
     OST_TRY(exact_gradient(data, point, g));
     OST_TRY(exact_stiffness(data, point, c));
     const double strain[6] = {g[0], g[4], g[8], g[1] + g[3], g[5] + g[7], g[6] + g[2]};
-    for (int i = 0; i < 6; i++) {
-        stress[i] = 0.0;
-        for (int j = 0; j < 6; j++)
-            stress[i] += c[6 * i + j] * strain[j];
-    }
+    ost_apply6(c, strain, stress);
     return OST_SUCCESS;
 }
 
