@@ -111,20 +111,6 @@ static void announce(const OstCost *cost, const OstCostRun *run, int number)
     ost_progress(cost->ctx, line, (double)number / cost->run_count);
 }
 
-static OstStatus try_run(OstCost *cost, OstCostRun *run)
-{
-    OstCase variant = *cost->c;
-    variant.order = run->order;
-    variant.refinement = run->refinement;
-    variant.solver.relative_residual = run->tolerance;
-    variant.output_fields = 0;
-    const OstStatus status = cost->measure(cost, &variant, run);
-    run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
-    if (status != OST_SUCCESS)
-        snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(cost->ctx));
-    return status;
-}
-
 OstStatus ost_cost_run(OstCost *cost)
 {
     OstContext *ctx = cost->ctx;
@@ -140,9 +126,18 @@ OstStatus ost_cost_run(OstCost *cost)
             continue;
         }
         announce(cost, run, i);
-        const OstStatus status = try_run(cost, run);
-        last_failure = status == OST_SUCCESS ? last_failure : status;
+        OstCase variant = *cost->c;
+        variant.order = run->order;
+        variant.refinement = run->refinement;
+        variant.solver.relative_residual = run->tolerance;
+        variant.output_fields = 0;
+        const OstStatus status = cost->measure(cost, &variant, run);
+        run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
         done += status == OST_SUCCESS;
+        if (status != OST_SUCCESS) {
+            last_failure = status;
+            snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(ctx));
+        }
     }
     ost_progress(ctx, "", -1.0);
     cost->seconds = ost_seconds() - start;

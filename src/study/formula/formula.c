@@ -14,28 +14,12 @@ static const OstFormula *const formulas[] = {
 };
 enum { FORMULA_COUNT = sizeof formulas / sizeof *formulas };
 
-const OstFormula *ost_formula_find(const char *name)
-{
-    for (int f = 0; f < FORMULA_COUNT; f++)
-        if (strcmp(formulas[f]->name, name) == 0)
-            return formulas[f];
-    return NULL;
-}
-
 static void list_names(const char *const *names, int count, char *text, size_t size)
 {
     size_t length = 0;
     text[0] = 0;
     for (int i = 0; i < count && names[i] && length < size; i++)
         length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", names[i]);
-}
-
-void ost_formula_list(char *text, size_t size)
-{
-    const char *names[FORMULA_COUNT];
-    for (int f = 0; f < FORMULA_COUNT; f++)
-        names[f] = formulas[f]->name;
-    list_names(names, FORMULA_COUNT, text, size);
 }
 
 int ost_formula_find_value(const OstFormula *formula, const char *name)
@@ -168,16 +152,20 @@ static OstStatus take_parameters(const OstCase *c, const OstFormula *formula, do
 
 static OstStatus find_formula(const OstCase *c, const OstFormula **formula)
 {
-    char names[512];
+    const char *names[FORMULA_COUNT];
+    char list[512];
     if (!c->verify)
         return OST_RAISE(c->ctx, OST_INVALID_INPUT,
                          "%s: the case has no verify section, so there is no formula to compare it with", c->path);
-    *formula = ost_formula_find(c->verify->formula);
-    if (*formula)
-        return OST_SUCCESS;
-    ost_formula_list(names, sizeof names);
+    for (int f = 0; f < FORMULA_COUNT; f++) {
+        *formula = formulas[f];
+        names[f] = formulas[f]->name;
+        if (strcmp(names[f], c->verify->formula) == 0)
+            return OST_SUCCESS;
+    }
+    list_names(names, FORMULA_COUNT, list, sizeof list);
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s:%d: there is no formula '%s'; there are: %s", c->path,
-                     c->verify->line, c->verify->formula, names);
+                     c->verify->line, c->verify->formula, list);
 }
 
 OstStatus ost_exact_create(const OstCase *c, OstExact *exact)

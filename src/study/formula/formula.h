@@ -34,10 +34,6 @@ extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_un
     ost_formula_hanging_bar, ost_formula_strip, ost_formula_cylinder, ost_formula_sphere, ost_formula_uniform_stress,
     ost_formula_waves, ost_formula_polynomial;
 
-/* Local. The formula of this name, or NULL; and the names of all, for messages. */
-const OstFormula *ost_formula_find(const char *name);
-void ost_formula_list(char *text, size_t size);
-
 /* Local. Number of a value by name, or -1. */
 int ost_formula_find_value(const OstFormula *formula, const char *name);
 

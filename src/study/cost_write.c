@@ -1,7 +1,105 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/cost.h"
+
 #include "core/error.h"
 #include "core/json_file.h"
-#include "study/cost.h"
+#include "core/write_aside.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Numbers of a run that is done, by their names in CSV and JSON, which are those of OstCostRun, and what makes them
+ * JSON. Phases and memory follow. */
+#define RUN_NUMBER_TABLE(X)     \
+    X(unknowns, json_integer)   \
+    X(tets, json_integer)       \
+    X(iterations, json_integer) \
+    X(residual, json_real)      \
+    X(repeats, json_integer)    \
+    X(seconds, json_real)
+
+/* --- CSV --- */
+
+/* In quotes; quotes within the text are doubled. */
+static void write_text(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        if (*text == '"')
+            fputc('"', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+/* An empty field where there is no number. */
+static void write_number(FILE *file, int known, double number)
+{
+    fputc(',', file);
+    if (known && isfinite(number))
+        fprintf(file, "%.17g", number);
+}
+
+static void write_heading(FILE *file, const OstCost *cost)
+{
+#define HEADING(name, make_json) "," #name
+    fputs("order,refinement,tolerance,state,reason,predicted_seconds" RUN_NUMBER_TABLE(HEADING), file);
+#undef HEADING
+    for (int p = 0; p < OST_COST_PHASES; p++)
+        fprintf(file, ",%s_seconds", ost_cost_phase_label[p]);
+    fputs(",bytes", file);
+    for (int q = 0; q < cost->quantity_count; q++) {
+        static const char *const columns[] = {"",       " reference", " reference uncertainty", " reference kind",
+                                              " error", " claim"};
+        for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
+            char name[256];
+            snprintf(name, sizeof name, "%.200s%s", cost->quantity[q].name, columns[c]);
+            fputc(',', file);
+            write_text(file, name);
+        }
+    }
+    fputc('\n', file);
+}
+
+static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
+{
+    const int done = run->state == OST_COST_DONE;
+    fprintf(file, "%d,%d,%g,%s,", run->order, run->refinement, run->tolerance, ost_cost_state_word[run->state]);
+    write_text(file, run->reason);
+    write_number(file, run->predicted_seconds > 0.0, run->predicted_seconds);
+#define CELL(name, make_json) write_number(file, done, (double)run->name);
+    RUN_NUMBER_TABLE(CELL)
+#undef CELL
+    for (int p = 0; p < OST_COST_PHASES; p++)
+        write_number(file, done, run->phase[p]);
+    write_number(file, done, run->bytes);
+    for (int q = 0; q < cost->quantity_count; q++) {
+        const OstCostReference *reference = &cost->quantity[q].reference;
+        write_number(file, done, run->watched[q].value);
+        write_number(file, reference->kind != OST_REFERENCE_NONE, reference->value);
+        write_number(file, reference->kind != OST_REFERENCE_NONE, reference->uncertainty);
+        fprintf(file, ",%s", ost_reference_kind_word(reference->kind));
+        write_number(file, done, run->error[q]);
+        write_number(file, done, ost_cost_claim(cost, run, q));
+    }
+    fputc('\n', file);
+}
+
+static OstStatus write_csv(FILE *file, const void *content)
+{
+    const OstCost *cost = content;
+    write_heading(file, cost);
+    for (int i = 0; i < cost->run_count; i++)
+        write_run(file, cost, &cost->run[i]);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cost_write_csv(const OstCost *cost, const char *path)
+{
+    return ost_rank(cost->ctx) == 0 ? ost_write_aside(cost->ctx, path, write_csv, cost) : OST_SUCCESS;
+}
+
+/* --- JSON --- */
 
 static json_t *index_json(int index)
 {
@@ -25,7 +123,7 @@ static json_t *cheapest_json(const OstCost *cost, int quantity)
 {
     json_t *list = json_array();
     for (int t = 0; t < OST_COST_TARGETS; t++) {
-        const double target = ost_cost_target(t);
+        const double target = ost_cost_target[t];
         json_array_append_new(list, json_pack("{s:f, s:o, s:o}", "error", target, "run",
                                               index_json(ost_cost_cheapest(cost, quantity, target)), "run_for_a_tenth",
                                               index_json(ost_cost_cheapest(cost, quantity, 0.1 * target))));
@@ -67,19 +165,19 @@ static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
 static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 {
     json_t *item = json_pack("{s:i, s:i, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
-                             "tolerance", run->tolerance, "state", ost_cost_state_word(run->state), "reason",
+                             "tolerance", run->tolerance, "state", ost_cost_state_word[run->state], "reason",
                              run->reason, "predicted_seconds", run->predicted_seconds);
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
     for (int p = 0; p < OST_COST_PHASES; p++)
-        json_object_set_new(phases, ost_cost_phase_label((OstCostPhase)p), json_real(run->phase[p]));
-    json_t *more = json_pack("{s:I, s:I, s:i, s:f, s:i, s:f, s:o, s:f, s:o}", "unknowns", (json_int_t)run->unknowns,
-                             "tets", (json_int_t)run->tets, "iterations", run->iterations, "residual", run->residual,
-                             "repeats", run->repeats, "seconds", run->seconds, "phase_seconds", phases, "bytes",
-                             run->bytes, "answers", answers_json(cost, run));
-    json_object_update(item, more);
-    json_decref(more);
+        json_object_set_new(phases, ost_cost_phase_label[p], json_real(run->phase[p]));
+#define KEY(name, make_json) json_object_set_new(item, #name, make_json(run->name));
+    RUN_NUMBER_TABLE(KEY)
+#undef KEY
+    json_object_set_new(item, "phase_seconds", phases);
+    json_object_set_new(item, "bytes", json_real(run->bytes));
+    json_object_set_new(item, "answers", answers_json(cost, run));
     return item;
 }
 
