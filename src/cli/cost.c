@@ -134,8 +134,9 @@ static OstStatus report(const OstCost *cost, const char *csv, const char *json, 
 }
 
 /* Where reports go is checked before anything runs. */
-static OstStatus run_study(OstContext *ctx, Arguments *arguments)
+static OstStatus run_study(OstContext *ctx, void *input)
 {
+    Arguments *arguments = input;
     const char *const *text = arguments->common.text;
     const char *const paths[] = {text['c'], text['j'], text['p']};
     OstCase *c = NULL;
@@ -158,8 +159,5 @@ done:
 int ost_cli_cost(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {.variants = ost_cost_default_variants()};
-    int exit_code = 0;
-    if (!ost_cli_parse(ctx, &cost_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    return ost_cli_finish(ctx, run_study(ctx, &arguments));
+    return ost_cli_run(ctx, &cost_argp, argc, argv, &arguments, run_study);
 }

@@ -62,28 +62,20 @@ static void folder_of(const char *path, char folder[OST_LONGEST_PATH])
     snprintf(folder, OST_LONGEST_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
 }
 
-static int same_inode(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
 static int is_same_existing_file(const char *path, const char *other)
 {
     struct stat a, b;
-    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && same_inode(&a, &b);
+    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 /* The same file, or the same name in the same folder where there is none yet. */
 static int is_same_place(const char *path, const char *other)
 {
     char one[OST_LONGEST_PATH], two[OST_LONGEST_PATH];
-    struct stat a, b;
-    if (is_same_existing_file(path, other))
-        return 1;
     folder_of(path, one);
     folder_of(other, two);
-    return strcmp(name_in_folder(path), name_in_folder(other)) == 0 && stat(one, &a) == 0 && stat(two, &b) == 0 &&
-           same_inode(&a, &b);
+    return is_same_existing_file(path, other) ||
+           (strcmp(name_in_folder(path), name_in_folder(other)) == 0 && is_same_existing_file(one, two));
 }
 
 static int is_list_of(const OstSelection *on, const char *path)

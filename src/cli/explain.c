@@ -160,25 +160,29 @@ static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
     return failed;
 }
 
+static OstStatus explain(OstContext *ctx, void *input)
+{
+    const OstArguments *arguments = input;
+    OstCase *c = NULL;
+    OstPlan plan;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(make_plan(ctx, c, &plan));
+    if (ost_rank(ctx) == 0 && arguments->text['j']) {
+        if (print_json(c, &plan, ost_size(ctx)))
+            status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
+                               c->path);
+    } else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET) {
+        print_plan(c, &plan, ost_size(ctx));
+    }
+    status = ost_agree(ctx, status);
+done:
+    ost_case_destroy(&c);
+    return status;
+}
+
 int ost_cli_explain(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    OstCase *c = NULL;
-    OstPlan plan;
-    int exit_code;
-    if (!ost_cli_parse(ctx, &explain_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    OstStatus status = ost_case_read(ctx, arguments.case_path, &c);
-    if (status == OST_SUCCESS)
-        status = make_plan(ctx, c, &plan);
-    if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
-        if (arguments.text['j'] && print_json(c, &plan, ost_size(ctx)))
-            status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
-                               c->path);
-        if (!arguments.text['j'] && ost_log_level(ctx) != OST_LOG_QUIET)
-            print_plan(c, &plan, ost_size(ctx));
-    }
-    status = ost_agree(ctx, status);
-    ost_case_destroy(&c);
-    return ost_cli_finish(ctx, status);
+    return ost_cli_run(ctx, &explain_argp, argc, argv, &arguments, explain);
 }

@@ -69,8 +69,9 @@ static OstStatus keep_result(const OstScene *scene, const OstResult *result, con
     return written == OST_SUCCESS ? OST_RAISE(ctx, failure, "%s", text) : written;
 }
 
-static OstStatus solve(OstContext *ctx, const OstArguments *arguments)
+static OstStatus solve(OstContext *ctx, void *input)
 {
+    const OstArguments *arguments = input;
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;
@@ -96,8 +97,5 @@ done:
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    int exit_code = 0;
-    if (!ost_cli_parse(ctx, &solve_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    return ost_cli_finish(ctx, solve(ctx, &arguments));
+    return ost_cli_run(ctx, &solve_argp, argc, argv, &arguments, solve);
 }

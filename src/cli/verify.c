@@ -21,6 +21,7 @@ typedef struct Arguments {
     OstArguments common;
     int name_count;
     const char *name[MOST_CASES];
+    int all_passed; /* did all cases that were run? */
 } Arguments;
 
 static const struct argp_option options[] = {
@@ -217,8 +218,9 @@ static OstStatus run_all(OstContext *ctx, const OstArguments *arguments, const C
     return ost_agree(ctx, status);
 }
 
-static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_passed)
+static OstStatus verify(OstContext *ctx, void *input)
 {
+    Arguments *arguments = input;
     CaseList list = {0, NULL};
     PicturePaths beside;
     OstVerifyReport **reports = NULL;
@@ -228,9 +230,8 @@ static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_pa
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &reports, list.count)));
     status = run_all(ctx, &arguments->common, &list, &beside, reports);
 done:
-    *all_passed = status == OST_SUCCESS;
     for (int i = 0; reports && i < list.count; i++) {
-        *all_passed &= reports[i] != NULL && reports[i]->passed;
+        arguments->all_passed &= reports[i] != NULL && reports[i]->passed;
         ost_verify_report_destroy(&reports[i]);
     }
     OST_FREE(reports);
@@ -240,10 +241,7 @@ done:
 
 int ost_cli_verify(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {0};
-    int exit_code = 0, all_passed = 0;
-    if (!ost_cli_parse(ctx, &verify_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    exit_code = ost_cli_finish(ctx, verify(ctx, &arguments, &all_passed));
-    return exit_code == 0 && !all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
+    Arguments arguments = {.all_passed = 1};
+    const int exit_code = ost_cli_run(ctx, &verify_argp, argc, argv, &arguments, verify);
+    return exit_code == 0 && !arguments.all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
 }

@@ -38,9 +38,14 @@ OstStatus ost_formula_wants(const OstCase *c, int holds, const char *wanted)
                      c->verify->formula, wanted);
 }
 
-int ost_formula_is_aligned(const OstCase *c)
+OstStatus ost_formula_wants_bar(const OstCase *c, int along, const char *wanted)
 {
-    return c->materials[0].axes.kind == OST_AXES_NONE;
+    const OstBlockShape *block = &c->block;
+    int placed = c->mesh_kind == OST_MESH_BLOCK && block->origin[along] == 0.0;
+    for (int i = 0; i < 3; i++)
+        placed &= i == along || fabs(block->origin[i] + 0.5 * block->size[i]) <= 1e-12 * block->size[i];
+    OST_TRY(ost_formula_wants(c, placed, wanted));
+    return ost_formula_wants(c, c->materials[0].axes.kind == OST_AXES_NONE, "a material without axes of its own");
 }
 
 /* --- the closed-form field --- */

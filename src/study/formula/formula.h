@@ -56,7 +56,8 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact);
 /* Local. For formulas: raises OST_INVALID_INPUT unless the condition `holds`; `wanted` names it. */
 OstStatus ost_formula_wants(const OstCase *c, int holds, const char *wanted);
 
-/* Local. Are the axes of the case's (first) material the world's? */
-int ost_formula_is_aligned(const OstCase *c);
+/* Local. For formulas of bars: raises OST_INVALID_INPUT unless the body is a block from 0 along one axis and centred on
+ * the others (`wanted` says so), of a material whose axes are the world's. */
+OstStatus ost_formula_wants_bar(const OstCase *c, int along, const char *wanted);
 
 #endif
