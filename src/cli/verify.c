@@ -77,45 +77,33 @@ static int is_case(const struct dirent *entry)
     return length > 5 && strcmp(entry->d_name + length - 5, ".yaml") == 0;
 }
 
-static OstStatus list_folder(OstContext *ctx, const char *folder, CaseList *list)
-{
-    struct dirent **entries = NULL;
-    const int count = scandir(folder, &entries, is_case, alphasort);
-    if (count < 0)
-        return OST_RAISE(ctx, OST_FILE_FAILED,
-                         "cannot read the folder '%s': %s; say where the cases are: ORTHOSTAT_CASES=/path/to/cases",
-                         folder, strerror(errno));
-    OstStatus status = OST_SUCCESS;
-    if (count == 0 || count > MOST_CASES)
-        status = OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
-    for (int i = 0; i < count; i++) {
-        if (status == OST_SUCCESS)
-            snprintf(list->path[list->count++], OST_LONGEST_PATH, "%.3000s/%.1000s", folder, entries[i]->d_name);
-        free(entries[i]);
-    }
-    free(entries);
-    return status;
-}
-
-/* Refuses the name of a case that does not exist, and lists those that do. */
-static OstStatus check_name(OstContext *ctx, const char *folder, const char *name, const char *path)
+/* All cases of a folder; where `missing` is a name, refuses it and lists those that there are. */
+static OstStatus list_folder(OstContext *ctx, const char *folder, const char *missing, CaseList *list)
 {
     struct dirent **entries = NULL;
     char names[OST_LONGEST_PATH] = "";
     size_t length = 0;
-    if (access(path, F_OK) == 0)
-        return OST_SUCCESS;
     const int count = scandir(folder, &entries, is_case, alphasort);
+    if (count < 0 && !missing)
+        return OST_RAISE(ctx, OST_FILE_FAILED,
+                         "cannot read the folder '%s': %s; say where the cases are: ORTHOSTAT_CASES=/path/to/cases",
+                         folder, strerror(errno));
     for (int i = 0; i < count; i++) {
-        const int stem = (int)strlen(entries[i]->d_name) - 5;
+        const char *name = entries[i]->d_name;
+        if (!missing && count <= MOST_CASES)
+            snprintf(list->path[list->count++], OST_LONGEST_PATH, "%.3000s/%.1000s", folder, name);
         if (length < sizeof names)
-            length += (size_t)snprintf(names + length, sizeof names - length, "%s%.*s", i > 0 ? ", " : "", stem,
-                                       entries[i]->d_name);
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%.*s", i > 0 ? ", " : "",
+                                       (int)strlen(name) - 5, name);
         free(entries[i]);
     }
     free(entries);
-    return OST_RAISE(ctx, OST_FILE_FAILED, "there is no case '%s' in '%s', which has: %s", name, folder,
-                     count > 0 ? names : "none");
+    if (missing)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "there is no case '%s' in '%s', which has: %s", missing, folder,
+                         count > 0 ? names : "none");
+    return list->count > 0
+               ? OST_SUCCESS
+               : OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
 }
 
 static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
@@ -125,7 +113,7 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
     ost_cli_cases_folder(cases, sizeof cases);
     snprintf(folder, sizeof folder, "%s/verify", cases);
     if (arguments->name_count == 0)
-        return list_folder(ctx, folder, list);
+        return list_folder(ctx, folder, NULL, list);
     for (int i = 0; i < arguments->name_count; i++) {
         const char *name = arguments->name[i];
         const int is_path = strchr(name, '/') != NULL || strstr(name, ".yaml") != NULL;
@@ -134,8 +122,8 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
             snprintf(path, OST_LONGEST_PATH, "%s", name);
         else
             snprintf(path, OST_LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
-        if (!is_path)
-            OST_TRY(check_name(ctx, folder, name, path));
+        if (!is_path && access(path, F_OK) != 0)
+            return list_folder(ctx, folder, name, list);
     }
     return OST_SUCCESS;
 }

@@ -308,18 +308,6 @@ done:
     return status;
 }
 
-/* The mean, or the sum of reactions; and the root mean square of the distance over the selection, because a mean can
- * come out right by accident, where errors of both signs cancel, and then says nothing of the order of convergence. */
-static OstStatus measure_selection(const View *view, const OstCase *c, double *value, double *distance)
-{
-    double sums[SUMS] = {0.0};
-    OST_TRY(sum_selection(view, c, sums));
-    const double size = view->quantity->kind == OST_MEASURE_REACTION ? 1.0 : sums[SIZE];
-    *value = sums[VALUE] / size;
-    *distance = sqrt(sums[SQUARE] / size);
-    return OST_SUCCESS;
-}
-
 /* --- over the body --- */
 
 /* Squares of the formula's field and of the answer's distance from it, integrated over the body. */
@@ -419,20 +407,24 @@ static OstStatus find_expected(const OstCase *c, const OstExact *exact, const Os
     return OST_SUCCESS;
 }
 
+/* Over a selection: the mean, or the sum of reactions; and the root mean square of the distance, because a mean can
+ * come out right by accident, where errors of both signs cancel, and then says nothing of the order of convergence. */
 OstStatus ost_verify_measure(const OstScene *scene, const OstResult *result, const OstExact *exact,
                              const OstVerifyQuantity *quantity, OstVerifyReading *reading)
 {
     const View view = {scene->mesh, result, &exact->field, quantity};
-    double distance = 0.0;
+    double sums[SUMS] = {0.0};
     if (quantity->kind == OST_MEASURE_FIELD)
         return measure_field(&view, reading);
     OST_TRY(find_expected(scene->c, exact, quantity, &reading->expected));
     if (quantity->kind == OST_MEASURE_ENERGY)
-        reading->obtained = result->checks.strain_energy;
+        sums[VALUE] = result->checks.strain_energy;
     else
-        OST_TRY(measure_selection(&view, scene->c, &reading->obtained, &distance));
-    reading->obtained *= quantity->scale;
-    distance *= fabs(quantity->scale);
+        OST_TRY(sum_selection(&view, scene->c, sums));
+    const double size =
+        quantity->kind == OST_MEASURE_ENERGY || quantity->kind == OST_MEASURE_REACTION ? 1.0 : sums[SIZE];
+    const double distance = sqrt(sums[SQUARE] / size) * fabs(quantity->scale);
+    reading->obtained = sums[VALUE] / size * quantity->scale;
     reading->error = fmax(fabs(reading->obtained - reading->expected), distance) / fabs(reading->expected);
     return OST_SUCCESS;
 }

@@ -107,19 +107,6 @@ static OstStatus run_all_meshes(OstVerifyReport *report, const OstExact *exact, 
 
 /* --- what the readings say --- */
 
-static void find_last_runs(const OstVerifyReport *report, int step, int *last, int *before, int *count)
-{
-    *last = *before = -1;
-    *count = 0;
-    for (int r = 0; r < report->run_count; r++) {
-        if (report->run[r].step != step)
-            continue;
-        *before = *last;
-        *last = r;
-        (*count)++;
-    }
-}
-
 /* Locking as expected: the program warned of it, the error falls with each refinement and from the stiff side, and (on
  * all meshes: `whole`) it ends within its limits. */
 static int is_locked(const OstVerifyReport *report, int quantity, int step, const OstVerifyVerdict *verdict, int whole)
@@ -151,8 +138,13 @@ static void judge(const OstVerifyReport *report, int quantity, int step, OstVeri
 {
     const OstVerifyQuantity *stated = &report->c->verify->quantity[quantity];
     const double order = stated->rate[step];
-    int last, before, count;
-    find_last_runs(report, step, &last, &before, &count);
+    int last = -1, before = -1, count = 0;
+    for (int r = 0; r < report->run_count; r++)
+        if (report->run[r].step == step) {
+            before = last;
+            last = r;
+            count++;
+        }
     *verdict = (OstVerifyVerdict){last, NAN, stated->error[step], order, 1};
     if (last < 0)
         return;
