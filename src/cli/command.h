@@ -6,14 +6,8 @@
 
 #include <argp.h>
 
-/* A command of the program. `run` parses its own arguments (argp; argv[0] is "orthostat NAME"), does the work on all
+/* The commands of the program. Each parses its own arguments (argp; argv[0] is "orthostat NAME"), does the work on all
  * ranks, and returns the program's exit code. */
-typedef struct OstCommand {
-    const char *name;
-    const char *summary;
-    int (*run)(OstContext *ctx, int argc, char **argv);
-} OstCommand;
-
 int ost_cli_solve(OstContext *ctx, int argc, char **argv);
 int ost_cli_check(OstContext *ctx, int argc, char **argv);
 int ost_cli_explain(OstContext *ctx, int argc, char **argv);

@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const OstCommand commands[] = {
+static const struct {
+    const char *name, *summary;
+    int (*run)(OstContext *ctx, int argc, char **argv);
+} commands[] = {
     {"solve", "solve a case and write its fields for ParaView", ost_cli_solve},
     {"check", "read a case and its mesh, and report what is wrong with them", ost_cli_check},
     {"explain", "list the effects that a case calls for, and what it will cost", ost_cli_explain},

@@ -242,22 +242,16 @@ static OstStatus report_material(const Request *request)
     OstContext *ctx = request->ctx;
     OstOrthotropic constants;
     OstMaterial material;
-    OstMaterialReport report = {0};
+    const char *kind = NULL;
     double axes[9];
     int turned = 0;
-    OST_TRY(read_constants(request, &constants, &report.kind));
+    const int json = request->text[OPTION_JSON] != NULL;
+    OST_TRY(read_constants(request, &constants, &kind));
     OST_TRY(read_axes(request, axes, &turned));
     OST_TRY(ost_material_create(ctx, "as given", &constants, 0.0, &material));
-    OST_TRY(ost_material_report_fill(ctx, &material, turned ? axes : NULL, &report));
-    if (material.isotropic)
-        report.kind = "isotropic";
-    if (ost_rank(ctx) != 0)
+    if (ost_rank(ctx) != 0 || (!json && ost_log_level(ctx) == OST_LOG_QUIET))
         return OST_SUCCESS;
-    if (request->text[OPTION_JSON])
-        return ost_material_report_print_json(ctx, &report);
-    if (ost_log_level(ctx) != OST_LOG_QUIET)
-        ost_material_report_print(&report);
-    return OST_SUCCESS;
+    return ost_material_report(ctx, &material, material.isotropic ? "isotropic" : kind, turned ? axes : NULL, json);
 }
 
 /* --- the stability region of the naive choice --- */

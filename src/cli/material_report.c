@@ -8,8 +8,22 @@
 #include <stdio.h>
 #include <string.h>
 
-OstStatus ost_material_report_fill(OstContext *ctx, const OstMaterial *material, const double axes[9],
-                                   OstMaterialReport *report)
+/* What `orthostat material` says of a material. */
+typedef struct Report {
+    OstMaterial material;
+    const char *kind;                /* "isotropic", "transversely isotropic", "orthotropic" */
+    double reverse_ratio[3];         /* nu21 nu32 nu13 */
+    double block_eigenvalues[3];     /* of the normalised normal block */
+    double stiffness_eigenvalues[6]; /* of C */
+    double scale;                    /* all Poisson's ratios may be multiplied by less than this */
+    double low[3], high[3];          /* open range of each of nu12 nu23 nu31 with the others as they are */
+    int turned;                      /* were axes given? The rest is filled only then. */
+    double axes[9];
+    double turned_stiffness[36];
+    OstOrthotropic turned_constants; /* Ex Ey Ez, nuxy nuyz nuzx, Gxy Gyz Gzx */
+} Report;
+
+static OstStatus fill(OstContext *ctx, const OstMaterial *material, const double axes[9], Report *report)
 {
     const OstOrthotropic *constants = &material->constants;
     report->material = *material;
@@ -53,7 +67,7 @@ static void print_numbers(const char *title, int count, const double *values)
     putchar('\n');
 }
 
-static void print_stable_range(const OstMaterialReport *report)
+static void print_stable_range(const Report *report)
 {
     static const char *const names[3] = {"nu12", "nu23", "nu31"};
     puts("stable range (open), the others as they are");
@@ -64,7 +78,7 @@ static void print_stable_range(const OstMaterialReport *report)
     puts("  one nu for all (the stable family): nu in (-1, 0.5)");
 }
 
-void ost_material_report_print(const OstMaterialReport *report)
+static void print(const Report *report)
 {
     const OstOrthotropic *constants = &report->material.constants;
     printf("%s material\n", report->kind);
@@ -120,7 +134,7 @@ static json_t *add_named(json_t *object, const char *names, const double values[
     return object;
 }
 
-static json_t *report_json(const OstMaterialReport *report)
+static json_t *report_json(const Report *report)
 {
     const OstOrthotropic *own = &report->material.constants, *world = &report->turned_constants;
     const double *low = report->low, *high = report->high;
@@ -146,9 +160,15 @@ static json_t *report_json(const OstMaterialReport *report)
     return root;
 }
 
-OstStatus ost_material_report_print_json(OstContext *ctx, const OstMaterialReport *report)
+OstStatus ost_material_report(OstContext *ctx, const OstMaterial *material, const char *kind, const double axes[9],
+                              int json)
 {
-    json_t *root = report_json(report);
-    return root ? ost_json_write(ctx, root, "-")
-                : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made");
+    Report report = {.kind = kind};
+    OST_TRY(fill(ctx, material, axes, &report));
+    json_t *root = json ? report_json(&report) : NULL;
+    if (!json)
+        print(&report);
+    else if (!root)
+        return OST_RAISE(ctx, OST_LIBRARY_FAILED, "the material's JSON could not be made");
+    return json ? ost_json_write(ctx, root, "-") : OST_SUCCESS;
 }

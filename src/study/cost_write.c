@@ -78,7 +78,7 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
         write_number(file, done, run->watched[q].value);
         write_number(file, reference->kind != OST_REFERENCE_NONE, reference->value);
         write_number(file, reference->kind != OST_REFERENCE_NONE, reference->uncertainty);
-        fprintf(file, ",%s", ost_reference_kind_word(reference->kind));
+        fprintf(file, ",%s", ost_reference_kind_word[reference->kind]);
         write_number(file, done, run->error[q]);
         write_number(file, done, ost_cost_claim(cost, run, q));
     }
@@ -111,7 +111,7 @@ static json_t *reference_json(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
     const int is_formula = reference->kind == OST_REFERENCE_FORMULA;
-    return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word(reference->kind),
+    return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word[reference->kind],
                      "value", reference->value, "uncertainty", ost_json_number(reference->uncertainty), "rate",
                      reference->rate, "order", index_json(is_formula ? -1 : reference->order), "finest_refinement",
                      index_json(is_formula ? -1 : reference->finest), "note", reference->note, "source",
