@@ -39,13 +39,13 @@ OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **pat
     return OST_SUCCESS;
 }
 
-/* Only a .veg file brings materials. */
+/* Only a .veg file contains materials. */
 static OstStatus check_materials(const OstYaml *yaml, const OstCase *c)
 {
     if (c->material_count > 0 || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
         return OST_SUCCESS;
     return ost_yaml_raise(yaml, yaml->node,
-                          "the case has no materials, and its mesh brings none; add materials (region, "
+                          "the case has no materials, and its mesh has none; add materials (region, "
                           "youngs_modulus, poissons_ratio)");
 }
 
@@ -59,7 +59,7 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
     for (int i = 0; i < c->load_count; i++)
         if (c->loads[i].kind == OST_LOAD_GRAVITY)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: gravity pulls on mass, but no material has a density; add one, or state the force "
+                             "%s:%d: gravity acts on mass, but no material has a density; add one, or state the force "
                              "per volume as body_force",
                              yaml->path, c->loads[i].line);
     return OST_SUCCESS;
@@ -146,7 +146,7 @@ static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
-    (*c)->solver.accept_attainable = 1; /* nobody has asked for a residual yet */
+    (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     return ost_copy_string(ctx, path, &(*c)->path);
 }

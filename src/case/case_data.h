@@ -16,7 +16,7 @@ typedef enum {
     OST_SELECT_PLANE,    /* |(x - point)·normal| <= tolerance */
     OST_SELECT_BOX,
     OST_SELECT_SPHERE,
-    OST_SELECT_CYLINDER, /* an endless cylinder's inside, or its shell between inner and outer radius */
+    OST_SELECT_CYLINDER, /* inside an infinite cylinder, or between two radii */
     OST_SELECT_VERTICES, /* labels, or a .bou file */
     OST_SELECT_NEAREST   /* the one vertex nearest to a point */
 } OstSelectionKind;
@@ -27,10 +27,11 @@ typedef struct OstSelection {
     OstNames boundaries; /* BOUNDARY */
     double point[3];     /* PLANE, SPHERE centre, CYLINDER origin, NEAREST; BOX minimum */
     double direction[3]; /* PLANE normal, CYLINDER axis; BOX maximum */
-    double radii[2];     /* SPHERE, CYLINDER: inner (0 unless given) and outer */
+    double radii[2];     /* SPHERE, CYLINDER: inner (default 0) and outer */
     double
         tolerance; /* PLANE, BOX, SPHERE, CYLINDER: how far outside still counts; negative: 1e-6 of the body's size */
-    OstGlobal range_count; /* VERTICES: labels, ranges ascending and apart; of vertices_file where that is named */
+    OstGlobal range_count; /* VERTICES: labels, as ascending ranges that do not touch; read from vertices_file if there
+                              is one */
     OstLabelRange *ranges;
     char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
@@ -41,9 +42,9 @@ typedef struct OstConstraint {
     OstConstraintKind kind;
     int line;
     OstSelection on;
-    int held[3];            /* DISPLACEMENT: is the component held? (false: the word free) */
-    int exact[3];           /* DISPLACEMENT: held to the formula's (the word exact), see orthostat/exact.h */
-    double displacement[3]; /* DISPLACEMENT */
+    int constrained[3];     /* DISPLACEMENT: is the component constrained? (0: the word free) */
+    int exact[3];           /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/exact.h */
+    double displacement[3]; /* DISPLACEMENT: the prescribed value */
     double normal[3];       /* SLIDE: the plane's normal */
 } OstConstraint;
 
@@ -66,7 +67,7 @@ typedef struct OstLoad {
     OstPlace region_place;
     double vector[3];
     double pressure;
-    int exact;      /* TRACTION, BODY_FORCE: the formula's (the word exact) */
+    int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
@@ -79,7 +80,7 @@ typedef struct OstCaseMaterial {
     OstAxesSpec axes;
 } OstCaseMaterial;
 
-/* A number that a person wants of the answer; `orthostat cost` prices its error. */
+/* A quantity of interest; `orthostat cost` finds what its error costs. */
 typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
 
 enum {
@@ -93,8 +94,8 @@ typedef struct OstWatch {
     int line;
     OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
     int component;   /* 0 to 2, or OST_WATCH_LENGTH */
-    double expected; /* by a formula; NaN: not known */
-    char *source;    /* of that formula; or NULL */
+    double expected; /* NAN if not known */
+    char *source;    /* where `expected` is from, or NULL */
 } OstWatch;
 
 typedef enum {
@@ -103,12 +104,12 @@ typedef enum {
     OST_MESH_SECTOR,
     OST_MESH_OCTANT,
     OST_MESH_FILE,
-    OST_MESH_FROM_PROGRAM /* the word from_program: whoever creates the scene brings the mesh */
+    OST_MESH_FROM_PROGRAM /* the word from_program: who creates the scene passes the mesh */
 } OstMeshKind;
 
 struct OstCase {
     OstContext *ctx;
-    char *path; /* of the case file, as given */
+    char *path; /* of the case file */
     char *title;
     OstMeshKind mesh_kind;
     OstTubeShape tube;
@@ -118,29 +119,29 @@ struct OstCase {
     char *mesh_file; /* resolved path */
     OstPlace mesh_place;
     double merge;   /* FILE: vertices no farther apart than this are joined; 0: none are */
-    int refinement; /* uniform refinements of the mesh as given: each cuts a tet in eight */
+    int refinement; /* uniform refinements; each splits a tet into eight */
     int order;      /* of the elements: 1 or 2; 0: as the mesh has it */
     int material_count;
     OstCaseMaterial *materials;
-    int free_body; /* the word free_body instead of constraints: loads balance each other, and nothing is held */
+    int free_body; /* the word free_body in place of constraints: loads balance each other */
     int constraint_count;
     OstConstraint *constraints;
     int load_count;
     OstLoad *loads;
     int watch_count;
     OstWatch *watches;
-    struct OstVerify *verify; /* orthostat/verify.h; NULL: the case has no such section */
-    OstSolverOptions solver;  /* accuracy and solver sections over the defaults */
+    struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */
+    OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
 };
 
-/* Local. Puts the place in front of a failure raised further down, as "path:line:column: text"; passes success. */
+/* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
 
 /* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from
  * the context, the caller's to free. Raises OST_INVALID_INPUT with the case's line if a name does not exist (naming
- * those that do), a label is not in the mesh, or nothing at all is selected. */
+ * those that do), a label is not in the mesh, or nothing is selected. */
 OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
                            OstLocal **nodes);
 

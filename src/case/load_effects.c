@@ -3,7 +3,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-/* The boundaries of shapes are faces; those of a file may be points, and so may what a box or a plane selects. */
+/* Boundaries of shapes consist of faces. Those of a file, and what a box or a plane selects, may be vertices alone:
+ * only the mesh tells. */
 OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
 {
     switch (load->kind) {

@@ -67,10 +67,10 @@ static OstGlobal bounded(double count)
     return count < (double)OST_PLAN_MOST ? (OstGlobal)count : OST_PLAN_MOST;
 }
 
-/* Doubles hold all counts that are of use exactly, and no product of divisions is too large for them. */
+/* Computed in double precision, which is exact for all counts in use and cannot overflow. */
 void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
 {
-    /* A refinement doubles a shape's divisions, and so does, for the nodes, a node on every edge. */
+    /* A refinement doubles a shape's divisions. For the nodes, so does a node on every edge. */
     const double fine = (double)(1 << c->refinement);
     const double nodal = c->order == 2 ? 2.0 * fine : fine;
     const OstTubeShape *tube = &c->tube;
@@ -101,8 +101,8 @@ OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
     if (c->mesh_kind == OST_MESH_FROM_PROGRAM)
         return ost_case_located(c, c->mesh_place,
                                 OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                                          "the case leaves its mesh to a program (ost_scene_create_on), and there is "
-                                          "none here; name a shape or a file"));
+                                          "the case expects its mesh from a program (ost_scene_create_on), and there "
+                                          "is none here; name a shape or a file"));
     if (nodes <= most)
         return OST_SUCCESS;
     return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,
@@ -113,8 +113,8 @@ OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
 
 void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets)
 {
-    /* A tet mesh has about 7/6 edges a tet; a refinement or a rise in order puts a node on each, a refinement of
-     * quadratic tets is one of its vertices, raised. */
+    /* A tet mesh has about 7/6 edges a tet. A refinement, or order 2, puts a node on each edge. Quadratic tets are
+     * refined by refining their vertices' mesh and raising its order. */
     int quadratic = nodes_per_tet == 10;
     if (quadratic)
         *nodes -= 7 * *tets / 6;

@@ -33,7 +33,7 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     case OST_AXES_CURVE:
         return "axes follow a curve";
     case OST_AXES_CELLS:
-        return "axes are given tet by tet";
+        return "axes differ from tet to tet";
     case OST_AXES_GRADIENT:
         return "axes follow the gradients of two potentials";
     default:
@@ -67,7 +67,7 @@ static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
         facts->gradient_region = stated->region;
 }
 
-/* `stated` is NULL for a material of the mesh file, whose axes are fixed. */
+/* `stated` is NULL for a material of the mesh file, which has fixed axes. */
 static void add_material(OstContext *ctx, const char *region, const OstMaterial *material,
                          const OstCaseMaterial *stated, OstEffectFacts *facts)
 {
@@ -83,7 +83,7 @@ static void add_material(OstContext *ctx, const char *region, const OstMaterial 
         add_axes(stated, facts);
 }
 
-/* Without regions there is one, which every entry fits. */
+/* A mesh without regions has one region, which every entry is for. */
 static int is_in_use(const OstCase *c, const OstNames *regions, int entry)
 {
     for (int r = 0; regions && r < regions->count; r++)

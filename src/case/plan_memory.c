@@ -4,22 +4,24 @@
 
 #include <math.h>
 
-/* What each part holds, in bytes; the fields are those of mesh.h, block_matrix.h, system.h and result.h. */
+/* Bytes of each structure; the fields are those of mesh.h, block_matrix.h, system.h and result.h. */
 static const double mesh_node_bytes = 24.0 + 8.0 + 8.0;      /* coordinates, number, label */
 static const double mesh_tet_bytes = 8.0 + 8.0 + 4.0;        /* label, index, region; its nodes come on top */
 static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
 static const double row_bytes = 8.0 + 4.0 + 4.0 + 4.0 + 4.0; /* label, start, diagonal, both maps of nodes and rows */
-static const double pair_bytes = 4.0;                        /* where the block of two of a tet's nodes goes */
+static const double pair_bytes = 4.0;                        /* place of the block of a pair of a tet's nodes */
 static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
 
-/* Times the matrix, measured on the paper's tube: level 0 in float, the smoother's factors, and the levels below, which
- * stand on a linear space of their own under quadratic tets (OST_EFFECT_LINEAR_SPACE). */
+/* Multigrid's memory over the matrix', measured on the tube of the paper: level 0 in single precision, the smoother's
+ * factors, and the coarse levels. Under quadratic tets the levels are of the linear tets, which are counted apart
+ * (OST_EFFECT_LINEAR_SPACE). */
 static const double multigrid_copies = 1.9;
 static const double quadratic_copies = 1.0;
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
-/* Nodes and tets that ranks hold beside their own: a layer of nodes around each part. A part of n nodes has about
- * 6 n^(2/3) of them on its faces; half of the faces, in the middle of cuts, meet another part. */
+/* All nodes and tets that ranks hold, over those they own: each holds a layer of ghost nodes around its part of the
+ * partition. A part of n nodes has about 6 n^(2/3) nodes on its faces; about half of its faces border on another part.
+ */
 static double halo_factor(double nodes, int ranks)
 {
     if (ranks <= 1 || nodes <= 0.0)
@@ -27,10 +29,10 @@ static double halo_factor(double nodes, int ranks)
     return 1.0 + fmin(3.0 * cbrt((double)ranks / nodes), (double)ranks - 1.0);
 }
 
-/* Blocks of K: one for each node, and two for each pair of nodes that share a tet. By Euler's formula a mesh of V
- * vertices, T tets and B faces on its surface has E = V + T + B/2 edges (less a number that is small); B is about
- * 12 V^(2/3) for a compact body. Quadratic tets have a node on each edge, whose tets have two vertices at its ends and
- * 6 T / E more; an edge shares a face with 12 T / E others and lies opposite 6 T / E. */
+/* Number of blocks of K: one for each node, and two for each pair of nodes that share a tet. By Euler's formula a mesh
+ * of V vertices, T tets and B surface faces has about E = V + T + B/2 edges; B is about 12 V^(2/3) for a compact body.
+ * With quadratic tets an edge's node is paired with the vertices of the tets around it: the edge's two ends and 6 T / E
+ * more; and with the nodes of other edges: 12 T / E share a face with it, 6 T / E lie opposite in a tet. */
 static double matrix_blocks(double nodes, double tets, int quadratic)
 {
     const double vertices = quadratic ? fmax(nodes - 7.0 / 6.0 * tets, 0.0) : nodes;
@@ -56,7 +58,6 @@ int ost_plan_writes(const OstCase *c, OstOutputFieldBit field)
     return (c->output_fields >> field & 1U) != 0;
 }
 
-/* Points, cells and fields as the file holds them. */
 static double output_bytes(const OstCase *c, const OstPlan *plan)
 {
     const double node = 24.0 + 24.0 * ost_plan_writes(c, OST_FIELD_DISPLACEMENT) +
@@ -69,7 +70,8 @@ static double output_bytes(const OstCase *c, const OstPlan *plan)
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 
-/* See assembly/limits.h: nonzeros of K, and nodes of tets, on a rank. Parts are alike, but for their halos. */
+/* Fewest ranks by the limits of assembly/limits.h: nonzeros of K, and nodes of tets, on one rank. Assumes equal parts.
+ */
 static int least_ranks(double blocks, double tet_nodes)
 {
     return (int)fmin(fmax(ceil(fmax(9.0 * blocks, tet_nodes) / INT32_MAX), 1.0), INT32_MAX);

@@ -44,7 +44,7 @@ static OstStatus read_quaternion(const OstYaml *yaml, const OstYamlNode *node, c
     return ost_yaml_located(yaml, node, ost_axes_from_quaternion(yaml->ctx, quaternion, axes->fixed));
 }
 
-/* Which direction of the frame e1, e2 and e3 take: each of the three once. */
+/* Which direction of the cylindrical frame each of e1, e2 and e3 is; every direction once. */
 static OstStatus read_order(const OstYaml *yaml, const OstYamlNode *node, OstCylindricalDirection order[3])
 {
     static const char *const words[] = {
@@ -65,7 +65,7 @@ static OstStatus read_order(const OstYaml *yaml, const OstYamlNode *node, OstCyl
         int which;
         OST_TRY(ost_yaml_word(yaml, item, "direction", words, 3, &which));
         if (seen & (1U << which))
-            return ost_yaml_raise(yaml, item, "direction '%s' stands twice; e1, e2 and e3 take a different one each",
+            return ost_yaml_raise(yaml, item, "direction '%s' occurs twice; e1, e2 and e3 need a different one each",
                                   words[which]);
         seen |= 1U << which;
         order[i] = (OstCylindricalDirection)which;
@@ -101,7 +101,8 @@ static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAx
         double *point = axes->points + 3 * (size_t)i;
         OST_TRY(ost_yaml_numbers(yaml, item, 3, point));
         if (i > 0 && memcmp(point, point - 3, 3 * sizeof *point) == 0)
-            return ost_yaml_raise(yaml, item, "this point is the one before it again; a curve moves on");
+            return ost_yaml_raise(yaml, item,
+                                  "this point repeats the one before it; neighbouring points of a curve must differ");
     }
     return OST_SUCCESS;
 }
@@ -141,8 +142,8 @@ static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, con
         OST_TRY(ost_read_string(yaml, ends[0].value, &axes->from[i]));
         OST_TRY(ost_read_string(yaml, ends[1].value, &axes->to[i]));
         if (strcmp(axes->from[i], axes->to[i]) == 0)
-            return ost_yaml_raise(yaml, ends[1].value,
-                                  "'%s' is both from and to; a gradient runs between two boundaries", axes->to[i]);
+            return ost_yaml_raise(yaml, ends[1].value, "'%s' is both from and to; a gradient needs two boundaries",
+                                  axes->to[i]);
     }
     return OST_SUCCESS;
 }

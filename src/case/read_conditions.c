@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* The word that stands for what the case's formula says (orthostat/exact.h). */
-static int is_exact(const OstYaml *yaml, const OstYamlNode *node)
+/* The word `exact`, which stands for the closed-form solution of the case (assembly/exact.h). */
+static int is_closed_form(const OstYaml *yaml, const OstYamlNode *node)
 {
     const char *text = "";
     return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
@@ -20,9 +20,9 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
 {
     static const char expected[] = "a list of three, each a number or the word free";
     int count;
-    if (is_exact(yaml, node)) {
+    if (is_closed_form(yaml, node)) {
         for (int i = 0; i < 3; i++)
-            constraint->held[i] = constraint->exact[i] = 1;
+            constraint->constrained[i] = constraint->exact[i] = 1;
         return OST_SUCCESS;
     }
     OST_TRY(ost_yaml_list(yaml, node, expected, &count));
@@ -33,13 +33,14 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
         const char *text = "";
         if (ost_yaml_is(yaml, item, OST_YAML_SCALAR))
             OST_TRY(ost_yaml_text(yaml, item, &text));
-        constraint->held[i] = strcmp(text, "free") != 0;
-        constraint->exact[i] = is_exact(yaml, item);
-        if (constraint->held[i] && !constraint->exact[i])
+        constraint->constrained[i] = strcmp(text, "free") != 0;
+        constraint->exact[i] = is_closed_form(yaml, item);
+        if (constraint->constrained[i] && !constraint->exact[i])
             OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
     }
-    if (!constraint->held[0] && !constraint->held[1] && !constraint->held[2])
-        return ost_yaml_raise(yaml, node, "every component is free, so this constraint holds nothing; leave it out");
+    if (!constraint->constrained[0] && !constraint->constrained[1] && !constraint->constrained[2])
+        return ost_yaml_raise(yaml, node,
+                              "every component is free, so this constraint constrains nothing; leave it out");
     return OST_SUCCESS;
 }
 
@@ -61,7 +62,7 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
                                                    : read_displacement(yaml, keys[kind].value, constraint);
 }
 
-/* The word free_body instead of a list. */
+/* The word free_body in place of a list. */
 static int is_free_body(const OstYaml *yaml, const OstYamlNode *node)
 {
     const char *text = "";
@@ -95,8 +96,8 @@ static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoa
     return OST_SUCCESS;
 }
 
-/* What the kind of load does not know of. */
-static OstStatus refuse_strangers(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
+/* Refuses keys that the kind of load does not have, and asks for those it needs. */
+static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
 {
     const int on_volume = kind == OST_LOAD_GRAVITY || kind == OST_LOAD_BODY_FORCE;
     if (on_volume && keys[ON].value)
@@ -130,7 +131,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, LOAD_KEYS));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, LOAD_KINDS, &kind));
-    OST_TRY(refuse_strangers(yaml, node, keys, kind));
+    OST_TRY(check_keys(yaml, node, keys, kind));
     load->kind = (OstLoadKind)kind;
     load->line = ost_yaml_line(node);
     if (keys[ON].value)
@@ -147,7 +148,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         OST_FREE(load->region);
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
-    load->exact = (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && is_exact(yaml, keys[kind].value);
+    load->exact = (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && is_closed_form(yaml, keys[kind].value);
     return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
 }
 

@@ -12,7 +12,7 @@ typedef enum { YOUNGS_NUMBER, YOUNGS_THREE, YOUNGS_PLANE } YoungsForm;
 typedef enum { POISSONS_NUMBER, POISSONS_NAMED, POISSONS_PLANE } PoissonsForm;
 typedef enum { SHEAR_RULE, SHEAR_NAMED, SHEAR_AXIS } ShearForm;
 
-/* The constants as the file states them, before they are nine. */
+/* The constants as the case states them, before they become nine. */
 typedef struct Stated {
     YoungsForm youngs_form;
     PoissonsForm poissons_form;
@@ -22,7 +22,7 @@ typedef struct Stated {
     double nu_axis;  /* PLANE: from the plane to the axis, or NAN */
     double named[6]; /* NAMED: 12 21 23 32 31 13, or NAN */
     OstShearRule rule;
-    int rule_given;
+    int has_rule;
     double shear[3]; /* NAMED: 12 23 31, or NAN */
     double g_axis;   /* AXIS */
 } Stated;
@@ -101,7 +101,7 @@ static OstStatus read_shear(const OstYaml *yaml, const OstYamlNode *node, Stated
         int rule;
         OST_TRY(ost_yaml_word(yaml, node, "shear rule", rules, OST_COUNT_OF(rules), &rule));
         stated->rule = (OstShearRule)rule;
-        stated->rule_given = 1;
+        stated->has_rule = 1;
         return OST_SUCCESS;
     }
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
@@ -109,7 +109,7 @@ static OstStatus read_shear(const OstYaml *yaml, const OstYamlNode *node, Stated
     for (int k = 0; k < NAMED; k++) {
         named += keys[k].value != NULL;
         if (keys[k].value && keys[k ^ 1].value)
-            return ost_yaml_raise(yaml, keys[k ^ 1].value, "'%s' and '%s' are the same modulus; give one of them",
+            return ost_yaml_raise(yaml, keys[k ^ 1].value, "'%s' and '%s' are the same modulus; state one of them",
                                   keys[k].name, keys[k ^ 1].name);
         if (keys[k].value)
             OST_TRY(ost_yaml_positive(yaml, keys[k].value, &stated->shear[k / 2]));
@@ -120,7 +120,8 @@ static OstStatus read_shear(const OstYaml *yaml, const OstYamlNode *node, Stated
     return ost_yaml_raise(yaml, node, "expected either G12, G23 and G31 (or G13), or axis alone");
 }
 
-/* Young's moduli of plane and axis; nu one number, or of plane and axis; shear by a rule, or of the axis. */
+/* A transversely isotropic material: Young's moduli of plane and axis; one nu, or two of plane and axis; shear by a
+ * rule, or of the axis. */
 static OstStatus resolve_transverse(const OstYaml *yaml, const OstYamlNode *node, const Stated *stated,
                                     OstOrthotropic *constants)
 {
@@ -133,7 +134,7 @@ static OstStatus resolve_transverse(const OstYaml *yaml, const OstYamlNode *node
         return ost_yaml_raise(yaml, node,
                               "with youngs_modulus {plane, axis}, shear_modulus is a rule or {axis: G}; the "
                               "plane's follows from its modulus and ratio");
-    if (stated->rule_given) {
+    if (stated->has_rule) {
         double shear[3];
         ost_orthotropic_shear(stated->youngs, stated->nu, stated->rule, shear);
         g_axis = shear[1];
@@ -148,12 +149,12 @@ static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node,
     if (stated->youngs_form == YOUNGS_PLANE)
         return resolve_transverse(yaml, node, stated, constants);
     if (stated->poissons_form == POISSONS_PLANE)
-        return ost_yaml_raise(yaml, node, "poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
+        return ost_yaml_raise(yaml, node, "poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}");
     if (stated->shear_form == SHEAR_AXIS)
-        return ost_yaml_raise(yaml, node, "shear_modulus {axis} wants youngs_modulus {plane, axis}");
+        return ost_yaml_raise(yaml, node, "shear_modulus {axis} needs youngs_modulus {plane, axis}");
     if (stated->poissons_form == POISSONS_NAMED && stated->shear_form != SHEAR_NAMED)
         return ost_yaml_raise(yaml, node,
-                              "nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; the shear rules belong "
+                              "nu12, nu23 and nu31 need shear_modulus {G12, G23, G31}; the shear rules belong "
                               "to the stable family, which is stated by one number as poissons_ratio");
     if (stated->poissons_form == POISSONS_NAMED)
         return ost_yaml_located(

@@ -4,10 +4,10 @@
 
 #include <string.h>
 
-/* 6 × this³ tets still have 64-bit numbers. */
+/* 6 × this³ tets can still be numbered in 64 bits. */
 static const int64_t most_divisions = 1000000;
 
-/* 8 to this power is already 16 million times the tets. */
+/* 8 to this power is 16 million. */
 static const int64_t most_refinements = 8;
 
 static OstStatus read_divisions(const OstYaml *yaml, const OstYamlNode *node, int64_t least, OstLocal *divisions)
@@ -61,7 +61,6 @@ static OstStatus read_tube(const OstYaml *yaml, const OstYamlNode *node, OstCase
     return read_tube_divisions(yaml, keys[DIVISIONS].value, 3, &tube->around, &tube->radial, &tube->axial);
 }
 
-/* A tube with an angle. */
 static OstStatus read_sector(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const axis_words[] = {"x", "y", "z"};

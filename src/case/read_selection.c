@@ -133,7 +133,7 @@ static OstStatus read_vertices(const OstYaml *yaml, const OstYamlNode *node, Ost
     ost_ranges_sort(count, ranges);
     for (int i = 1; i < count; i++)
         if (ranges[i].first == ranges[i - 1].first)
-            return ost_yaml_raise(yaml, node, "vertex %lld stands twice in the list", (long long)ranges[i].first);
+            return ost_yaml_raise(yaml, node, "vertex %lld occurs twice in the list", (long long)ranges[i].first);
     selection->range_count = ost_ranges_join(count, ranges);
     return OST_SUCCESS;
 }

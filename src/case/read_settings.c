@@ -36,7 +36,7 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
     return OST_SUCCESS;
 }
 
-/* The solver's own bounds (ost_solver_check_options), where a line can still be named. */
+/* The bounds of ost_solver_check_options, tested here to name the line. */
 static const double most_aggregate = 1e6, most_block = 1e3, most_ratio = 1e6, most_mebibytes = 1e12;
 
 static OstStatus read_aggregate(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
@@ -107,8 +107,8 @@ static OstStatus read_memory(const OstYaml *yaml, const OstYamlKey *key, double 
                : ost_yaml_raise_type(yaml, key->value, "a number of MiB above 0, at most 1e12", "");
 }
 
-/* What plan and ladder are to leave alone. */
-static unsigned given(const OstYamlKey *keys)
+/* Which settings the case fixes, so that plan and strategies keep them. */
+static unsigned fixed_settings(const OstYamlKey *keys)
 {
     return (keys[AGGREGATE].value ? OST_GIVEN_AGGREGATE : 0U) | (keys[COARSE].value ? OST_GIVEN_COARSE_AGGREGATE : 0U) |
            (keys[BLOCK].value ? OST_GIVEN_BLOCK : 0U) | (keys[DEGREE].value ? OST_GIVEN_DEGREE : 0U) |
@@ -143,7 +143,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));
     OST_TRY(read_count(yaml, &keys[LEVELS], OST_MAX_LEVELS, &solver->most_levels));
     OST_TRY(read_memory(yaml, &keys[MEMORY], &solver->factor_memory));
-    solver->given = given(keys);
+    solver->given = fixed_settings(keys);
     return OST_SUCCESS;
 }
 

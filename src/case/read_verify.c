@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Items of a mapping: a name and its value, in the order of the file. */
+/* The pairs of a mapping, names and values, in the order of the file. */
 static int pair_count(const OstYaml *yaml, const OstYamlNode *node)
 {
     return (int)ost_yaml_follow(yaml, node)->value;
@@ -129,8 +129,8 @@ static OstStatus read_norm(const OstYaml *yaml, const OstYamlNode *node, OstVeri
     return OST_SUCCESS;
 }
 
-/* One positive number for each step of the ladder; where words are allowed, `exact` stands for NAN and `locks` for
- * OST_RATE_LOCKED. */
+/* One positive number for each step of the ladder. If words are allowed, `exact` is read as NAN (the elements contain
+ * the solution) and `locks` as OST_RATE_LOCKED. */
 static OstStatus read_limits(const OstYaml *yaml, const OstYamlNode *node, const OstVerify *verify, int words_allowed,
                              double *limits)
 {
@@ -161,7 +161,7 @@ static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *node, Ost
 
 enum { MEASURES = OST_MEASURE_FIELD + 1, ON = MEASURES, EXPECTED, SCALE, ERROR, RATE, QUANTITY_KEYS };
 
-/* What a measure needs, or has no use for. */
+/* Refuses keys that the measure does not have, and asks for those it needs. */
 static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, OstMeasureKind kind)
 {
     const int whole = kind == OST_MEASURE_FIELD || kind == OST_MEASURE_ENERGY;
@@ -172,7 +172,7 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
         return ost_yaml_raise(yaml, node, "'%s' needs 'on': where it is measured", keys[kind].name);
     if (kind == OST_MEASURE_FIELD && (keys[EXPECTED].value || keys[SCALE].value))
         return ost_yaml_raise(yaml, node,
-                              "'field' is measured against the formula's, and has no 'expected' or 'scale'");
+                              "'field' is compared with the formula's field, and has no 'expected' or 'scale'");
     if (kind != OST_MEASURE_FIELD && !keys[EXPECTED].value)
         return ost_yaml_raise(yaml, node, "'%s' needs 'expected': a value of the formula by name, or a number",
                               keys[kind].name);

@@ -14,18 +14,18 @@ static OstStatus read_component(const OstYaml *yaml, const OstYamlKey *key, OstW
                       : OST_SUCCESS;
 }
 
-/* Only a vertex is the same in every refinement of a mesh; of what lies between them the mean would not be. */
+/* A quantity must be the same at every refinement: a vertex is, the mean over selected vertices is not. */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
     OST_TRY(ost_read_selection(yaml, node, &watch->on));
     return watch->on.kind == OST_SELECT_NEAREST
                ? OST_SUCCESS
                : ost_yaml_raise(yaml, node,
-                                "the displacement of a place is watched, as in {nearest: [1, 0, 0]}; found another "
+                                "a displacement is taken at one vertex, as in {nearest: [1, 0, 0]}; found another "
                                 "selection");
 }
 
-/* The short form: a word. */
+/* The short form of a quantity: one word. */
 static OstStatus read_word(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
     const char *word;
@@ -37,7 +37,7 @@ static OstStatus read_word(const OstYaml *yaml, const OstYamlNode *node, OstWatc
     return OST_SUCCESS;
 }
 
-/* The energy has no component, and is that of the whole body. */
+/* The strain energy has no component, and is of the whole body. */
 static OstStatus read_energy(const OstYaml *yaml, const OstYamlNode *node, const OstYamlNode *component)
 {
     static const char *const words[] = {"all"};
@@ -53,7 +53,7 @@ static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *expected,
     if (expected)
         OST_TRY(ost_yaml_number(yaml, expected, &watch->expected));
     else if (source)
-        return ost_yaml_raise(yaml, source, "found a source of no number; give the number too, as expected: 0.25");
+        return ost_yaml_raise(yaml, source, "found a source but no value; give it too, as expected: 0.25");
     return source ? ost_read_string(yaml, source, &watch->source) : OST_SUCCESS;
 }
 
@@ -89,7 +89,7 @@ static OstStatus check_new_name(const OstYaml *yaml, const OstYamlNode *key, con
 {
     for (int w = 0; w < c->watch_count; w++)
         if (c->watches[w].name && strcmp(c->watches[w].name, name) == 0)
-            return ost_yaml_raise(yaml, key, "'%.80s' is watched twice, the first time in line %d; keep one", name,
+            return ost_yaml_raise(yaml, key, "quantity '%.80s' occurs twice, the first time in line %d; keep one", name,
                                   c->watches[w].line);
     return OST_SUCCESS;
 }
@@ -102,7 +102,7 @@ OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase
     const int count = (int)ost_yaml_follow(yaml, node)->value;
     if (count < 1)
         return ost_yaml_raise(yaml, node,
-                              "nothing is named to watch; leave 'watch' out, or name a quantity, as in tip: "
+                              "'watch' names no quantity; leave it out, or name one, as in tip: "
                               "{displacement: {nearest: [1, 0, 0]}}");
     if (count > OST_MOST_WATCHES)
         return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);

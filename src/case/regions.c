@@ -8,7 +8,7 @@ int ost_is_every_region(const char *name)
     return strcmp(name, "all") == 0;
 }
 
-/* An entry for `stated` fits wherever one for `region` does. */
+/* Does an entry for the region `stated` count for `region` too? */
 static int fits(const char *stated, const char *region)
 {
     return ost_is_every_region(stated) || strcmp(stated, region) == 0;

@@ -4,7 +4,7 @@
 
 #include "case/case_data.h"
 
-/* Materials by region: "all" fits every region, and later entries override earlier ones. Local. */
+/* Materials by region: "all" stands for every region, and later entries override earlier ones. Local. */
 
 int ost_is_every_region(const char *name);
 

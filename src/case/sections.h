@@ -5,7 +5,7 @@
 #include "case/case_data.h"
 #include "case/yaml/read.h"
 
-/* The sections of a case file, each read from its node into the case. All are local; what they allocate belongs to the
+/* The sections of a case file, each read from its node into the case. All are local. What they allocate belongs to the
  * case at once, so a failure leaks nothing. */
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
@@ -22,11 +22,11 @@ OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase 
 OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
 
-/* A text of its own; a path, made relative to the case file's folder. */
+/* Copies a text, or a path, which is made relative to the case file's folder. */
 OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text);
 OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **path);
 
-/* Does a file's name end so, in any case of letters? */
+/* Does a path end in `ending`, in upper or lower case? */
 int ost_has_ending(const char *path, const char *ending);
 
 void ost_axes_spec_release(OstAxesSpec *axes);

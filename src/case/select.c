@@ -36,7 +36,7 @@ static OstStatus raise_unknown_boundary(const OstCase *c, const OstMesh *mesh, c
     char list[1024];
     if (mesh->boundary_count == 0)
         return ost_select_raise(c, selection,
-                                "there is no boundary '%.80s': the mesh names none; select by plane, box, "
+                                "there is no boundary '%.80s': the mesh has none; select by plane, box, "
                                 "sphere, cylinder, vertices or nearest",
                                 name);
     const char *nearest = NULL;
@@ -135,7 +135,7 @@ static int everywhere(const OstSelection *selection, const double d[3], double t
     return 1;
 }
 
-/* Shapes in space: is the node at distance d from the shape's point in it? */
+/* Flags the nodes in a shape; d is a node's position relative to the shape's point. */
 static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
 {
     int (*inside)(const OstSelection *, const double[3], double) = everywhere;
@@ -189,7 +189,7 @@ OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const Os
     return OST_SUCCESS;
 }
 
-/* Is a label up to `last` missing from a range, of those on all ranks? */
+/* Is a label of the range first to last missing, over all ranks? */
 static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last, int *missing)
 {
     OstGlobal found = 0;
@@ -200,7 +200,7 @@ static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last
     return OST_SUCCESS;
 }
 
-/* The first label of a range that no vertex has, where there is one: by halving. */
+/* The first label of a range that no vertex has, if there is one, by bisection. */
 static OstStatus first_missing(const OstMesh *mesh, OstLabelRange range, OstGlobal *label)
 {
     OstGlobal low = range.first, high = range.last;
@@ -214,7 +214,7 @@ static OstStatus first_missing(const OstMesh *mesh, OstLabelRange range, OstGlob
     return OST_SUCCESS;
 }
 
-/* `found`: vertices in each range, on all ranks. */
+/* `found`: vertices in each range, over all ranks. */
 static OstStatus check_all_found(const OstCase *c, const OstMesh *mesh, const OstSelection *selection,
                                  const OstGlobal *found)
 {

@@ -4,22 +4,22 @@
 
 #include "case/case_data.h"
 
-/* Collective. One flag for each local node, alike on owners and ghosts; memory from the context. Raises as
- * ost_select_nodes does, but an empty selection is no error here. */
+/* Collective. One flag for each local node, equal on owners and ghosts; memory from the context. Raises as
+ * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
-/* Local. Is a boundary one of the selection's? Does every boundary of the selection exist? */
+/* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */
 int ost_selection_names(const OstSelection *selection, const char *boundary);
 OstStatus ost_select_check_names(const OstCase *c, const OstMesh *mesh, const OstSelection *selection);
 
-/* Collective. Warns of a nearest vertex farther from its place than the body's edges are long there: likely a slip. */
+/* Collective. Warns if the vertex nearest to a place is farther away than the edges there are long: probably a mistake.
+ */
 OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const OstSelection *selection);
 
-/* Local. Raises OST_INVALID_INPUT: no region has this name, with those that the mesh has and the one that may be meant.
- */
+/* Local. Raises OST_INVALID_INPUT for an unknown region, with the mesh's regions and the one that is probably meant. */
 OstStatus ost_raise_no_region(const OstCase *c, OstPlace place, const OstNames *regions, const char *name);
 
-/* Local. Raises with the selection's line of the case in front. */
+/* Local. Raises OST_INVALID_INPUT at the selection's line of the case. */
 OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The body's surface and which of its faces are selected; each is found by its vertices. */
+/* The body's surface, the selected ones of its faces, and an index that finds a face by its vertices. */
 typedef struct Faces {
     const OstMesh *mesh;
     OstSurface *surface;
@@ -64,7 +64,7 @@ static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
-/* Faces all of whose nodes are selected; for boundaries of points and curves too. */
+/* Selects faces all of whose nodes are selected; also used for boundaries of points and curves. */
 static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, Faces *faces)
 {
     unsigned char *flags = NULL;
@@ -80,8 +80,8 @@ static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
-/* Beside a boundary of faces, one of points or curves would add none, and not be missed. */
-static OstStatus check_all_of_faces(const OstCase *c, const OstSelection *selection, const OstMesh *mesh)
+/* Refuses a list of boundaries of faces with others of points or curves, which would add no face and go unnoticed. */
+static OstStatus check_all_are_faces(const OstCase *c, const OstSelection *selection, const OstMesh *mesh)
 {
     static const char *const kind[] = {"points", "curves"};
     OST_TRY(ost_select_check_names(c, mesh, selection));
@@ -96,7 +96,7 @@ static OstStatus check_all_of_faces(const OstCase *c, const OstSelection *select
     return OST_SUCCESS;
 }
 
-/* Marks the surface's selected faces; the same decisions on every rank. */
+/* Flags the selected faces of the surface; all ranks take the same branches. */
 static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Faces *faces)
 {
     const OstMesh *mesh = faces->mesh;
@@ -107,7 +107,7 @@ static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Fac
     if (!of_faces)
         return flag_by_nodes(c, selection, faces);
     OST_TRY(ost_agree(ctx, fill_index(faces)));
-    OstStatus status = check_all_of_faces(c, selection, mesh);
+    OstStatus status = check_all_are_faces(c, selection, mesh);
     for (int b = 0; b < mesh->boundary_count && status == OST_SUCCESS; b++)
         if (mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name))
             status = flag_boundary(c, selection, &mesh->boundaries[b], faces);

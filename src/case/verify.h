@@ -4,18 +4,18 @@
 
 #include "case/case_data.h"
 
-/* The `verify` section of a case: a formula, what of the answer it foretells, the ladder of meshes on which that is
- * measured, and what counts as passed. Plain data, owned by the case. */
+/* The `verify` section of a case: a formula, the quantities that it predicts, the ladder of meshes on which these are
+ * measured, and the limits to pass. Plain data, owned by the case. */
 
 typedef enum {
     OST_MEASURE_DISPLACEMENT, /* mean over faces (over vertices if there is no whole face) along a direction */
     OST_MEASURE_STRESS,       /* mean of a component over faces */
     OST_MEASURE_REACTION,     /* sum along a direction */
     OST_MEASURE_ENERGY,       /* strain energy of the body */
-    OST_MEASURE_FIELD         /* distance of the whole field from the formula's */
+    OST_MEASURE_FIELD         /* norm of the difference from the formula's field */
 } OstMeasureKind;
 
-/* Directions that turn with the place: away from the z axis, and away from the origin. */
+/* Directions that depend on the place: away from the z axis, and away from the origin. */
 typedef enum { OST_ALONG_FIXED, OST_ALONG_CYLINDER_RADIUS, OST_ALONG_SPHERE_RADIUS } OstAlong;
 
 /* Components of stress in world axes, and in cylindrical coordinates about the z axis. */
@@ -45,7 +45,7 @@ typedef struct OstVerifyQuantity {
     double direction[3]; /* along FIXED */
     OstStressComponent component;
     OstFieldNorm norm;
-    double scale;                        /* what is measured is multiplied by this */
+    double scale;                        /* factor on the measured value */
     char *expected_name;                 /* a value of the formula, or NULL */
     double expected;                     /* unless expected_name or FIELD */
     double error[OST_MOST_VERIFY_STEPS]; /* relative, on the finest mesh; one for each step of the ladder */
@@ -55,7 +55,7 @@ typedef struct OstVerifyQuantity {
                                             and the error falls to within half its limit and its limit */
 } OstVerifyQuantity;
 
-/* One order of elements, on ever finer meshes. */
+/* One order of elements, on successively refined meshes. */
 typedef struct OstVerifyStep {
     int order;
     int level_count, quick_count;           /* all, and how many of them --quick runs */

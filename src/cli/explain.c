@@ -22,7 +22,8 @@ static const struct argp explain_argp = {
            "assembled; the mesh is made only where it alone tells what a load acts on.",
 };
 
-/* Of the mesh that will be solved on, where only that tells what a load acts on. */
+/* Makes the mesh, because some load (on a box, or on a boundary of a file) acts on faces or on vertices, and only the
+ * mesh tells which. */
 static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstMesh *mesh = NULL;
@@ -49,7 +50,7 @@ done:
     return status;
 }
 
-/* A file is read for its counts, regions and materials. */
+/* Reads the mesh file for its counts, regions and materials. */
 static OstStatus plan_with_file(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstMeshChunk *chunk = NULL;
@@ -71,7 +72,7 @@ done:
     return status;
 }
 
-/* Shapes are known by their divisions. */
+/* A shape's divisions give its size. */
 static OstStatus plan_with_shape(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstPlanMesh facts = {.quadratic = c->order == 2};
@@ -129,17 +130,17 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
     if (plan->least_ranks > ranks)
-        printf("  %-20s %14d at least: one holds 2^31 - 1 nonzeros of the stiffness, or nodes of tets, at most\n",
-               "ranks", plan->least_ranks);
-    printf("\nMemory foreseen, over %d rank%s\n", ranks, ranks == 1 ? "" : "s");
+        printf("  %-20s %14d at least: a rank can hold 2^31 - 1 nonzeros of the stiffness, or nodes of tets\n", "ranks",
+               plan->least_ranks);
+    printf("\nPredicted memory, over %d rank%s\n", ranks, ranks == 1 ? "" : "s");
     print_bytes("mesh", plan->bytes_mesh);
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
     print_bytes("effects", plan->bytes_effects);
-    print_bytes("in all", total_bytes(plan));
+    print_bytes("total", total_bytes(plan));
     print_bytes("free now", plan->facts.free_memory);
     if (total_bytes(plan) > plan->facts.free_memory)
-        puts("  This does not fit: take a coarser mesh, or more machines.");
+        puts("  This does not fit: use a coarser mesh, or more machines.");
     print_bytes("output file", plan->bytes_output);
 }
 

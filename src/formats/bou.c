@@ -14,7 +14,7 @@ typedef struct RangeList {
 
 enum { FIRST_CAPACITY = 64 };
 
-/* A full list is joined before it grows, so that a file cannot fill it with the same few numbers again and again. */
+/* A full list is first merged, so that a file cannot fill it with the same few numbers again and again. */
 static OstStatus make_room(OstLineReader *reader, RangeList *list)
 {
     if (list->count < list->capacity)

@@ -4,7 +4,7 @@
 
 #include "formats/serial/formats.h"
 
-/* Collective. Gives rank 0's materials to all. */
+/* Collective. Broadcasts rank 0's materials. */
 OstStatus ost_file_materials_share(OstContext *ctx, OstFileMaterials **materials);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum { PIECE_ROWS = 16384, TABLE_TAG = 701 };
 
-/* The table on rank 0, and a piece of the rows that a rank asks for. */
+/* The table on rank 0, and the buffers of one request. */
 typedef struct Table {
     int width;
     OstGlobal lines;
@@ -71,7 +71,7 @@ static OstLocal piece_length(OstLocal count, OstLocal done)
     return count - done < PIECE_ROWS ? count - done : PIECE_ROWS;
 }
 
-/* Rank 0's side: answers a rank's questions, piece by piece. */
+/* Rank 0 answers one rank's requests. */
 static OstStatus serve(OstContext *ctx, const Table *table, int rank, OstLocal count)
 {
     for (OstLocal done = 0; done < count; done += PIECE_ROWS) {
@@ -128,7 +128,7 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
     Table table = {.width = width, .lines = lines};
     OstStatus status = check_labels(ctx, path, lines, count, labels);
     if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
-        const size_t room = ost_size(ctx) > 1 ? PIECE_ROWS : 0; /* nobody asks a rank that is alone */
+        const size_t room = ost_size(ctx) > 1 ? PIECE_ROWS : 0; /* a single rank gets no requests */
         status = OST_NEW(ctx, &table.wanted, room);
         if (status == OST_SUCCESS)
             status = OST_NEW(ctx, &table.piece, room * (size_t)width);

@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A motion that the ties resist by no more than this share of it counts as free. The stiffness squares the share: a
- * motion let go by 1e-7 has an eigenvalue 1e-14 of the others, which double precision cannot tell from zero. Rounding
- * of coordinates stays far below (1e-15 or so of a component's size, unless the body lies very far from the origin). */
+/* A motion that its ties resist by no more than this share of it is free. Stiffness goes with the square: a share of
+ * 1e-7 is an eigenvalue of 1e-14 times the others, which double precision cannot tell from zero. Rounding of
+ * coordinates stays far below (1e-15 or so of a component's size, unless the body lies very far from the origin). */
 static const double free_share = 1e-7;
 
-/* Held so little, a motion eats ten of the sixteen digits: directions typed with few digits do this. */
+/* A motion constrained this weakly costs ten of sixteen digits; directions typed with few digits do that. */
 static const double loose_share = 1e-5;
 
 typedef struct Freedom {
@@ -55,23 +55,15 @@ static OstStatus report_motions(const Freedom *freedom, double tolerance, OstFre
     return status;
 }
 
-/* Where there are more sets than lines. */
-static void count_rest(const OstFreedomReport *report, char *text, size_t size)
-{
-    text[0] = 0;
-    if (report->found > OST_FREEDOM_LINES)
-        snprintf(text, size, "\n  and %d more that can move", report->found - OST_FREEDOM_LINES);
-}
-
 static void advise(const Freedom *freedom, char *text, size_t size)
 {
     size_t used = 0;
     const int several = freedom->components->count > 1;
     if (freedom->free_body)
-        used += (size_t)snprintf(text, size, "free_body takes one body that holds together; join its components");
+        used += (size_t)snprintf(text, size, "free_body takes one connected body; join its components");
     else
         used += (size_t)snprintf(text, size,
-                                 "hold each of them with constraints (a displacement, or a slide across "
+                                 "prevent each of them by constraints (a displacement, or a slide across "
                                  "the motion)%s",
                                  several ? ", or join the components" : "");
     if (freedom->coincident > 0)
@@ -84,11 +76,12 @@ static void advise(const Freedom *freedom, char *text, size_t size)
 
 static OstStatus refuse(const Freedom *freedom, const OstFreedomReport *report)
 {
-    char rest[64], advice[512];
-    count_rest(report, rest, sizeof rest);
+    char rest[64] = "", advice[512];
+    if (report->found > OST_FREEDOM_LINES)
+        snprintf(rest, sizeof rest, "\n  and %d more that can move", report->found - OST_FREEDOM_LINES);
     advise(freedom, advice, sizeof advice);
     return OST_RAISE(freedom->ctx, OST_INVALID_INPUT,
-                     "%s: nothing holds these motions, so there is no one pose at rest:%s%s\n%s", freedom->where,
+                     "%s: nothing constrains these motions, so there is no unique solution:%s%s\n%s", freedom->where,
                      report->text, rest, advice);
 }
 
@@ -96,13 +89,13 @@ static void warn_of_loose(const Freedom *freedom, const OstFreedomReport *report
 {
     if (report->found > 0)
         ost_warn(freedom->ctx,
-                 "%s: these motions are held only just (more digits in directions, or more distance between what is "
-                 "held, would help):%s",
+                 "%s: these motions are only weakly constrained (give directions with more digits, or constrain points "
+                 "farther apart):%s",
                  freedom->where, report->text);
     if (report->unsolved > 0)
         ost_warn(
             freedom->ctx,
-            "%s: %d components hang together in vertices and edges, more than are checked for motions against each "
+            "%s: %d components are joined at vertices and edges only, too many to check how they can move against each "
             "other",
             freedom->where, report->unsolved);
 }
@@ -117,7 +110,8 @@ static OstStatus judge(const Freedom *freedom)
     warn_of_loose(freedom, &report);
     if (freedom->coincident > 0)
         ost_warn(freedom->ctx,
-                 "%s: the mesh falls into %d components, and %lld vertices coincide with others; mesh: {merge: %g} joins them",
+                 "%s: the mesh falls into %d components, and %lld vertices coincide with others; mesh: {merge: %g} "
+                 "joins them",
                  freedom->where, freedom->components->count, (long long)freedom->coincident, freedom->merge_tolerance);
     return OST_SUCCESS;
 }

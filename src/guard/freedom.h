@@ -4,11 +4,11 @@
 
 #include "assembly/supports.h"
 
-/* Collective, before anything is assembled. Finds the components of the body (tets joined through faces), and what
- * rigid motions supports and the hinges between components leave them. Raises OST_INVALID_INPUT with each of these
- * motions in words if there are any, and for doubled tets. Warns of motions that are held only just, and of vertices
- * that coincide where the body has several components. `where` begins the messages (the case file). `free_body`: the
- * supports are those of a floating body, which changes the advice. */
+/* Collective, before anything is assembled. Finds the connected components of the body (tets joined through faces) and
+ * the rigid motions that supports, and hinges between components, leave them. Raises OST_INVALID_INPUT that describes
+ * these motions if there are any, and for tets that occur twice. Warns of motions that are weakly constrained, and of
+ * vertices that coincide where the body has several components. Messages begin with `where` (the case file).
+ * `free_body`: the supports are those of a floating body, which changes the advice. */
 OstStatus ost_freedom_check(const OstMesh *mesh, const OstSupports *supports, const char *where, int free_body);
 
 #endif

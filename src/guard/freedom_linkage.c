@@ -13,7 +13,7 @@ void ost_linkage_destroy(OstLinkage **linkage)
         return;
     OST_FREE((*linkage)->joint_start);
     OST_FREE((*linkage)->joint);
-    OST_FREE((*linkage)->held);
+    OST_FREE((*linkage)->conditions);
     OST_FREE((*linkage)->fixed);
     OST_FREE((*linkage)->cluster);
     OST_FREE(*linkage);
@@ -37,7 +37,7 @@ static OstStatus list_joints(OstLinkage *linkage)
     const OstTies *ties = linkage->ties;
     const OstLocal count = linkage->components->count;
     OST_TRY(OST_NEW(linkage->ctx, &linkage->joint_start, (size_t)count + 2));
-    OstLocal *next = linkage->joint_start + 1; /* one behind, so that filling moves each start to its place */
+    OstLocal *next = linkage->joint_start + 1; /* offset by one: filling moves each start to its place */
     for (OstLocal i = 0; i < ties->count; i++)
         for (int end = 0; end < 2 && ties->tie[i].body[1] != OST_TIE_SUPPORT; end++)
             next[ties->tie[i].body[end] + 1]++;
@@ -50,7 +50,8 @@ static OstStatus list_joints(OstLinkage *linkage)
     return OST_SUCCESS;
 }
 
-void ost_linkage_hold(const OstLinkage *linkage, const OstTie *tie, OstLocal component, double triangle[OST_ROWS])
+void ost_linkage_add_conditions(const OstLinkage *linkage, const OstTie *tie, OstLocal component,
+                                double triangle[OST_ROWS])
 {
     double change[OST_ROWS], rows[OST_ROWS];
     ost_rows_change_frame(&linkage->frames[component], ost_tie_frame(linkage->frames, tie), change);
@@ -59,24 +60,24 @@ void ost_linkage_hold(const OstLinkage *linkage, const OstTie *tie, OstLocal com
         ost_rows_add(triangle, rows + 6 * r);
 }
 
-static OstStatus look_at(OstLinkage *linkage, OstLocal component)
+static OstStatus find_whether_fixed(OstLinkage *linkage, OstLocal component)
 {
     double copy[OST_ROWS], basis[OST_ROWS];
     int loose = 0;
-    memcpy(copy, linkage->held + OST_ROWS * (size_t)component, sizeof copy);
+    memcpy(copy, linkage->conditions + OST_ROWS * (size_t)component, sizeof copy);
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, copy, linkage->tolerance, &loose, basis));
     linkage->fixed[component] = loose == 0;
     return OST_SUCCESS;
 }
 
-/* A component that is fixed holds its neighbours, which may fix them. */
-static OstStatus fix_parts(OstLinkage *linkage)
+/* A fixed component constrains its neighbours like a support, which may fix them too. */
+static OstStatus fix_components(OstLinkage *linkage)
 {
     OstLocal *stack = NULL;
     OstLocal height = 0;
     OstStatus status = OST_NEW(linkage->ctx, &stack, linkage->components->count);
     for (OstLocal p = 0; p < linkage->components->count && status == OST_SUCCESS; p++) {
-        status = look_at(linkage, p);
+        status = find_whether_fixed(linkage, p);
         if (linkage->fixed[p])
             stack[height++] = p;
     }
@@ -87,8 +88,8 @@ static OstStatus fix_parts(OstLinkage *linkage)
             const OstLocal other = ost_linkage_neighbour(linkage, tie, component);
             if (linkage->fixed[other])
                 continue;
-            ost_linkage_hold(linkage, tie, other, linkage->held + OST_ROWS * (size_t)other);
-            status = look_at(linkage, other);
+            ost_linkage_add_conditions(linkage, tie, other, linkage->conditions + OST_ROWS * (size_t)other);
+            status = find_whether_fixed(linkage, other);
             if (status != OST_SUCCESS)
                 break;
             if (linkage->fixed[other])
@@ -114,16 +115,16 @@ static void find_clusters(OstLinkage *linkage)
 static OstStatus build(OstLinkage *linkage)
 {
     const size_t count = (size_t)linkage->components->count;
-    OST_TRY(OST_NEW(linkage->ctx, &linkage->held, OST_ROWS * count));
+    OST_TRY(OST_NEW(linkage->ctx, &linkage->conditions, OST_ROWS * count));
     OST_TRY(OST_NEW(linkage->ctx, &linkage->fixed, count));
     OST_TRY(OST_NEW(linkage->ctx, &linkage->cluster, count));
     for (OstLocal i = 0; i < linkage->ties->count; i++) {
         const OstTie *tie = &linkage->ties->tie[i];
         if (tie->body[1] == OST_TIE_SUPPORT)
-            memcpy(linkage->held + OST_ROWS * (size_t)tie->body[0], tie->triangle, sizeof tie->triangle);
+            memcpy(linkage->conditions + OST_ROWS * (size_t)tie->body[0], tie->triangle, sizeof tie->triangle);
     }
     OST_TRY(list_joints(linkage));
-    OST_TRY(fix_parts(linkage));
+    OST_TRY(fix_components(linkage));
     find_clusters(linkage);
     return OST_SUCCESS;
 }
@@ -150,7 +151,7 @@ static int place_of(const OstFreeMotions *free, OstLocal component)
     return -1;
 }
 
-/* Six rows: the joint's triangle on the motion of one member less that of the other. */
+/* Six rows: the joint's triangle, applied to the difference of its two members' motions. */
 static void fill_joint(const OstLinkage *linkage, const OstFreeMotions *free, const OstTie *tie, double *rows)
 {
     const size_t columns = 6 * (size_t)free->members;
@@ -165,7 +166,7 @@ static void fill_joint(const OstLinkage *linkage, const OstFreeMotions *free, co
     }
 }
 
-/* Joints within the cluster, each seen from its lower end. */
+/* Is the joint within the cluster? Counted once, at its lower component. */
 static int is_inner(const OstLinkage *linkage, const OstTie *tie, OstLocal component)
 {
     return tie->body[0] == component && !linkage->fixed[tie->body[1]];
@@ -187,7 +188,7 @@ static void fill_matrix(const OstLinkage *linkage, const OstFreeMotions *free, d
     for (int i = 0; i < free->members; i++) {
         const OstLocal component = free->member[i];
         for (size_t r = 0; r < 6; r++, rows += columns)
-            memcpy(rows + 6 * (size_t)i, linkage->held + OST_ROWS * (size_t)component + 6 * r, 6 * sizeof *rows);
+            memcpy(rows + 6 * (size_t)i, linkage->conditions + OST_ROWS * (size_t)component + 6 * r, 6 * sizeof *rows);
         for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
             if (!is_inner(linkage, tie, component))

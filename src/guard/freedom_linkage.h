@@ -4,8 +4,8 @@
 
 #include "guard/freedom_ties.h"
 
-/* The components as rigid bodies and what ties them: a linkage. Components that cannot move are fixed, and their joints
- * hold their neighbours like supports; the others fall into clusters that are looked at one by one. */
+/* The components as rigid bodies, with the ties between them: a linkage. Components that cannot move are fixed, and
+ * their joints act on their neighbours like supports; the others form clusters, each examined alone. */
 typedef struct OstLinkage {
     OstContext *ctx;
     const OstComponents *components;
@@ -14,9 +14,9 @@ typedef struct OstLinkage {
     double tolerance;      /* a motion that its ties resist by no more than this share of it is free */
     OstLocal *joint_start; /* count + 1 */
     OstLocal *joint;       /* ties of each component with others */
-    double *held;          /* count × OST_ROWS: by supports and fixed neighbours */
+    double *conditions;    /* count × OST_ROWS: of supports and fixed neighbours */
     unsigned char *fixed;
-    OstLocal *cluster; /* of each component; those of fixed components mean nothing */
+    OstLocal *cluster; /* of each component; meaningless for fixed ones */
     OstLocal clusters;
 } OstLinkage;
 
@@ -38,9 +38,10 @@ void ost_linkage_destroy(OstLinkage **linkage);
 /* Local. The other end of a component's joint. */
 OstLocal ost_linkage_neighbour(const OstLinkage *linkage, const OstTie *tie, OstLocal component);
 
-/* Local. Takes a tie's conditions on a component, as if its other end were held, into a triangle in the component's
+/* Local. Adds a tie's conditions on a component, as if its other end were fixed, to a triangle in the component's
  * frame. */
-void ost_linkage_hold(const OstLinkage *linkage, const OstTie *tie, OstLocal component, double triangle[OST_ROWS]);
+void ost_linkage_add_conditions(const OstLinkage *linkage, const OstTie *tie, OstLocal component,
+                                double triangle[OST_ROWS]);
 
 /* Local. The free motions of these components, all of one cluster. */
 OstStatus ost_linkage_solve(const OstLinkage *linkage, int members, const OstLocal *member, OstFreeMotions *free);

@@ -12,7 +12,7 @@
 enum { NAMES_SHOWN = 6, LINE_SIZE = 700 };
 
 /* "component 2", "components 2, 3 and 5 together", "components 2, 3, 5, 6, 8, 9 and 14 more together" */
-static void name_parts(int members, const OstLocal *member, const char *together, char *text, size_t size)
+static void name_components(int members, const OstLocal *member, const char *together, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "component%s ", members > 1 ? "s" : "");
     const int shown = members <= NAMES_SHOWN + 1 ? members : NAMES_SHOWN;
@@ -26,7 +26,7 @@ static void name_parts(int members, const OstLocal *member, const char *together
         snprintf(text + used, size - used, "%s", together);
 }
 
-/* Components taken as one. */
+/* The union of components. */
 static OstComponent unite(const OstLinkage *linkage, int members, const OstLocal *member)
 {
     OstComponent whole = linkage->components->component[member[0]];
@@ -59,7 +59,7 @@ static int is_among(int members, const OstLocal *member, OstLocal component)
     return 0;
 }
 
-/* The one joint by which components hang on others, or NULL if there are none or several. */
+/* The only joint of these components with others, or NULL if there are none or several. */
 static const OstTie *only_joint(const OstLinkage *linkage, int members, const OstLocal *member, OstLocal *outside)
 {
     const OstTie *found = NULL;
@@ -111,7 +111,7 @@ OstStatus ost_freedom_report_line(const OstLinkage *linkage, int members, const 
         report->found++;
         return OST_SUCCESS;
     }
-    name_parts(members, member, " together", name, sizeof name);
+    name_components(members, member, " together", name, sizeof name);
     describe_place(linkage, members, member, place, sizeof place);
     OST_TRY(describe_joint(linkage, members, member, joint, sizeof joint));
     OST_TRY(ost_motion_words(linkage->ctx, frame, count, motions, motion, sizeof motion));
@@ -125,23 +125,23 @@ void ost_freedom_report_rest(const OstLinkage *linkage, int members, const OstLo
                              OstFreedomReport *report)
 {
     char name[128], place[160], line[LINE_SIZE];
-    name_parts(members, member, "", name, sizeof name);
+    name_components(members, member, "", name, sizeof name);
     describe_place(linkage, members, member, place, sizeof place);
     snprintf(line, sizeof line, "\n  %s, %s: can move against each other, as a linkage, in %d way%s", name, place,
              count, count == 1 ? "" : "s");
     add_line(line, report);
 }
 
-/* A component that could move even if all others were held can move. */
+/* Can a component move even if all others are fixed? */
 static OstStatus report_alone(const OstLinkage *linkage, OstLocal component, OstFreedomReport *report)
 {
     double triangle[OST_ROWS], basis[OST_ROWS];
     int count = 0;
-    memcpy(triangle, linkage->held + OST_ROWS * (size_t)component, sizeof triangle);
+    memcpy(triangle, linkage->conditions + OST_ROWS * (size_t)component, sizeof triangle);
     for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
         const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
         if (!linkage->fixed[ost_linkage_neighbour(linkage, tie, component)])
-            ost_linkage_hold(linkage, tie, component, triangle);
+            ost_linkage_add_conditions(linkage, tie, component, triangle);
     }
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, triangle, linkage->tolerance, &count, basis));
     if (count == 0)
@@ -149,7 +149,7 @@ static OstStatus report_alone(const OstLinkage *linkage, OstLocal component, Ost
     return ost_freedom_report_line(linkage, 1, &component, &linkage->frames[component], count, basis, report);
 }
 
-/* So can components that could move if they were one. */
+/* Can these components move as one rigid body? */
 static OstStatus report_as_one(const OstLinkage *linkage, OstLocal members, const OstLocal *member,
                                OstFreedomReport *report)
 {
@@ -159,7 +159,7 @@ static OstStatus report_as_one(const OstLinkage *linkage, OstLocal members, cons
     int count = 0;
     for (OstLocal i = 0; i < members; i++) {
         ost_rows_change_frame(&frame, &linkage->frames[member[i]], change);
-        ost_rows_multiply(linkage->held + OST_ROWS * (size_t)member[i], change, rows);
+        ost_rows_multiply(linkage->conditions + OST_ROWS * (size_t)member[i], change, rows);
         for (int r = 0; r < 6; r++)
             ost_rows_add(triangle, rows + 6 * r);
     }
@@ -191,7 +191,7 @@ static OstStatus sort_by_cluster(const OstLinkage *linkage, OstLocal **start, Os
 {
     OST_TRY(OST_NEW(linkage->ctx, start, (size_t)linkage->clusters + 2));
     OST_TRY(OST_NEW(linkage->ctx, member, linkage->components->count));
-    OstLocal *next = *start + 1; /* one behind, so that filling moves each start to its place */
+    OstLocal *next = *start + 1; /* offset by one: filling moves each start to its place */
     for (OstLocal p = 0; p < linkage->components->count; p++)
         if (!linkage->fixed[p])
             next[linkage->cluster[p] + 1]++;

@@ -24,7 +24,8 @@ OstStatus ost_freedom_report_line(const OstLinkage *linkage, int members, const 
                                   const OstRigidFrame *frame, int count, const double *motions,
                                   OstFreedomReport *report);
 
-/* Local. A line: these components move against each other, in `count` ways that no set of them shares. */
+/* Local. A line: these components move against each other, in `count` ways that are not the motion of one set of them.
+ */
 void ost_freedom_report_rest(const OstLinkage *linkage, int members, const OstLocal *member, int count,
                              OstFreedomReport *report);
 

@@ -68,7 +68,7 @@ void ost_rows_multiply(const double *a, const double *b, double *c)
         }
 }
 
-/* LAPACK reads the rows as columns: null vectors are then left singular vectors, each contiguous. */
+/* LAPACK takes rows for columns: null vectors are then left singular vectors, each contiguous. */
 static OstStatus decompose(OstContext *ctx, int rows, int columns, double *matrix, double *values, double *basis)
 {
     int info = 0;

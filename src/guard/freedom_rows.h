@@ -4,12 +4,13 @@
 
 #include "orthostat/context.h"
 
-/* A rigid motion of a body: six numbers, the velocity of its centre and its rotation times its radius, so that all six
- * are lengths and no choice of units changes their proportions. At a point centre + radius × arm the body moves by
+/* A rigid motion of a body is six numbers: the velocity of its centre, and its rotation times its radius, so that all
+ * six are lengths and no choice of units changes their proportions. A point at centre + radius × arm moves by
  * motion[0..2] + motion[3..5] × arm.
  *
- * Conditions on it are rows of six; any number of them is kept as the upper triangle R of their QR factorisation, which
- * has the same null space and the same singular values. (Summing their squares instead would lose half the digits.) */
+ * A condition on it is a row of six. Any number of rows is kept as the upper triangle R of their QR factorisation,
+ * which has the same null space and the same singular values. (Summing products of rows instead would lose half the
+ * digits.) */
 typedef struct OstRigidFrame {
     double centre[3];
     double radius;
@@ -17,10 +18,10 @@ typedef struct OstRigidFrame {
 
 enum { OST_ROWS = 36 };
 
-/* Local. The row that says: no motion along `direction` (of length 1) at `point`. */
+/* Local. The row of the condition "no motion along `direction` (of length 1) at `point`". */
 void ost_rows_of_point(const OstRigidFrame *frame, const double point[3], const double direction[3], double row[6]);
 
-/* Local. Takes another row into the triangle (6×6, row-major; zero to begin with) by six plane rotations. */
+/* Local. Adds a row to the triangle (6×6, row-major; zero to begin with) by six plane rotations. */
 void ost_rows_add(double triangle[OST_ROWS], const double row[6]);
 
 /* Local. The 6×6 matrix that gives a body's motion in frame `to` from that in frame `from`. */
@@ -29,8 +30,8 @@ void ost_rows_change_frame(const OstRigidFrame *from, const OstRigidFrame *to, d
 /* c = A B of 6×6 matrices; c may not be a or b. */
 void ost_rows_multiply(const double *a, const double *b, double *c);
 
-/* Local. Orthonormal vectors that span what a rows × columns matrix (row-major; overwritten) takes to no more than
- * `tolerance` times themselves: `count` vectors of `columns` numbers in `basis`, which has room for columns². */
+/* Local. An orthonormal basis of the vectors that a rows × columns matrix (row-major; overwritten) maps to no more than
+ * `tolerance` times their length: `count` vectors of `columns` numbers in `basis`, which has room for columns². */
 OstStatus ost_null_space(OstContext *ctx, int rows, int columns, double *matrix, double tolerance, int *count,
                          double *basis);
 

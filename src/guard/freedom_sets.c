@@ -6,11 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Motions are told apart to this share of them. */
+/* Motions that differ by less than this share are the same. */
 static const double same = 1e-6;
 
-/* A cluster's motions taken apart: members that always move alike are one group; groups are the nodes of a graph whose
- * edges are joints. What moves by itself is either the whole, or what hangs on one edge. */
+/* Splits a cluster's motions by the sets of components that move as one. Members that always move alike form a group;
+ * groups are the nodes of a graph whose edges are joints. Sets examined: the whole graph, and each side of an edge
+ * whose removal splits it. */
 typedef struct Sets {
     const OstLinkage *linkage;
     const OstFreeMotions *free;
@@ -18,11 +19,11 @@ typedef struct Sets {
     int *group;           /* of each member */
     int *leader;          /* groups: the member with the largest frame, whose motions stand for the group */
     unsigned char *still; /* groups */
-    unsigned char *in;    /* groups: in the set that is looked at */
+    unsigned char *in;    /* groups: in the set that is examined */
     int *stack;           /* groups */
     double *rows;         /* 6 members × count, and room for the coefficients found: count × count */
     double *basis;        /* count × count */
-    double *found;        /* coefficients of the motions told so far, orthonormal or not: found_count × count */
+    double *found;        /* coefficients of the motions reported so far, not orthonormal: found_count × count */
     int found_count, found_rank;
     OstLocal *listed; /* members of the set */
 } Sets;
@@ -37,7 +38,7 @@ static const OstRigidFrame *frame_of(const Sets *sets, int member)
     return &sets->linkage->frames[sets->free->member[member]];
 }
 
-/* How far member b's motion is from going along with a's, in the frame of b. */
+/* The motion of member a less that of member b, in the frame of b. */
 static void difference(const Sets *sets, int vector, int a, int b, const double change[OST_ROWS], double d[6])
 {
     const double *x = motion_of(sets, vector, a);
@@ -98,8 +99,8 @@ static int place_of(const Sets *sets, OstLocal component)
     return i < sets->free->members ? i : -1;
 }
 
-/* The groups that stay with group `from` when the edge to group `cut` is taken away. */
-static void reach(Sets *sets, int from, int cut)
+/* The groups still connected to group `from` when its edge to group `without` is removed. */
+static void reach(Sets *sets, int from, int without)
 {
     const OstLinkage *linkage = sets->linkage;
     int height = 0;
@@ -115,7 +116,7 @@ static void reach(Sets *sets, int from, int cut)
                 const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
                 const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, component));
                 const int h = other < 0 ? g : sets->group[other];
-                if (sets->in[h] || (g == from && h == cut))
+                if (sets->in[h] || (g == from && h == without))
                     continue;
                 sets->in[h] = 1;
                 sets->stack[height++] = h;
@@ -152,7 +153,7 @@ static void fill_conditions(const Sets *sets, int leader)
     }
 }
 
-/* The rank of what has been told with `more` coefficients behind it. */
+/* The rank of the motions reported so far together with `more` new ones. */
 static OstStatus rank_with(Sets *sets, int more, int *rank)
 {
     const size_t count = (size_t)sets->free->count;
@@ -164,7 +165,7 @@ static OstStatus rank_with(Sets *sets, int more, int *rank)
     return OST_SUCCESS;
 }
 
-static OstStatus tell(Sets *sets, int leader, int count, OstFreedomReport *report)
+static OstStatus report_set(Sets *sets, int leader, int count, OstFreedomReport *report)
 {
     const int vectors = sets->free->count;
     const double *coefficients = sets->found + (size_t)sets->found_count * (size_t)vectors;
@@ -182,8 +183,8 @@ static OstStatus tell(Sets *sets, int leader, int count, OstFreedomReport *repor
                                    report);
 }
 
-/* Tells how the set moves by itself, unless that has been told. */
-static OstStatus look_at_set(Sets *sets, OstFreedomReport *report)
+/* Reports how the set moves by itself, unless that was reported already. */
+static OstStatus examine_set(Sets *sets, OstFreedomReport *report)
 {
     const size_t vectors = (size_t)sets->free->count;
     const int leader = leader_of_set(sets);
@@ -200,19 +201,19 @@ static OstStatus look_at_set(Sets *sets, OstFreedomReport *report)
     OST_TRY(rank_with(sets, count, &rank));
     if (rank == sets->found_rank)
         return OST_SUCCESS;
-    OST_TRY(tell(sets, leader, count, report));
+    OST_TRY(report_set(sets, leader, count, report));
     sets->found_rank = rank;
     sets->found_count += count;
     return OST_SUCCESS;
 }
 
-static void turn_to_other_side(Sets *sets)
+static void complement(Sets *sets)
 {
     for (int g = 0; g < sets->groups; g++)
         sets->in[g] = !sets->in[g];
 }
 
-static int has_still(const Sets *sets)
+static int has_still_group(const Sets *sets)
 {
     for (int g = 0; g < sets->groups; g++)
         if (sets->in[g] && sets->still[g])
@@ -220,26 +221,26 @@ static int has_still(const Sets *sets)
     return 0;
 }
 
-/* Where taking away the edge between two groups leaves two sides, the one that can move by itself: that without groups
- * that are still, or else that without the first group. */
-static OstStatus look_beyond(Sets *sets, int a, int b, OstFreedomReport *report)
+/* If removing the edge between two groups splits the graph, examines the side that can move by itself: the one without
+ * groups that do not move, or else the one without the first group. */
+static OstStatus examine_side(Sets *sets, int a, int b, OstFreedomReport *report)
 {
     reach(sets, b, a);
     if (sets->in[a])
         return OST_SUCCESS;
-    if (has_still(sets)) {
-        turn_to_other_side(sets);
-        if (has_still(sets))
+    if (has_still_group(sets)) {
+        complement(sets);
+        if (has_still_group(sets))
             return OST_SUCCESS;
     } else if (sets->in[0]) {
-        turn_to_other_side(sets);
-        if (has_still(sets))
-            turn_to_other_side(sets);
+        complement(sets);
+        if (has_still_group(sets))
+            complement(sets);
     }
-    return look_at_set(sets, report);
+    return examine_set(sets, report);
 }
 
-static OstStatus look_at_sides(Sets *sets, OstFreedomReport *report)
+static OstStatus examine_sides(Sets *sets, OstFreedomReport *report)
 {
     const OstLinkage *linkage = sets->linkage;
     for (int i = 0; i < sets->free->members; i++) {
@@ -250,7 +251,7 @@ static OstStatus look_at_sides(Sets *sets, OstFreedomReport *report)
             if (sets->found_rank == sets->free->count)
                 return OST_SUCCESS;
             if (other > i && sets->group[i] != sets->group[other])
-                OST_TRY(look_beyond(sets, sets->group[i], sets->group[other], report));
+                OST_TRY(examine_side(sets, sets->group[i], sets->group[other], report));
         }
     }
     return OST_SUCCESS;
@@ -261,16 +262,16 @@ static OstStatus make_room(Sets *sets)
     OstContext *ctx = sets->linkage->ctx;
     const size_t members = (size_t)sets->free->members;
     const size_t count = (size_t)sets->free->count;
-    const size_t told = count + 6; /* each set told raises the rank, but may bring six */
+    const size_t reported = count + 6; /* each set reported raises the rank, but may bring six */
     OST_TRY(OST_NEW(ctx, &sets->group, members));
     OST_TRY(OST_NEW(ctx, &sets->leader, members));
     OST_TRY(OST_NEW(ctx, &sets->still, members));
     OST_TRY(OST_NEW(ctx, &sets->in, members));
     OST_TRY(OST_NEW(ctx, &sets->stack, members));
     OST_TRY(OST_NEW(ctx, &sets->listed, members));
-    OST_TRY(OST_NEW(ctx, &sets->rows, (6 * members + 6 * told) * count));
+    OST_TRY(OST_NEW(ctx, &sets->rows, (6 * members + 6 * reported) * count));
     OST_TRY(OST_NEW(ctx, &sets->basis, count * count));
-    return OST_NEW(ctx, &sets->found, 6 * told * count);
+    return OST_NEW(ctx, &sets->found, 6 * reported * count);
 }
 
 static void release(Sets *sets)
@@ -294,8 +295,8 @@ OstStatus ost_freedom_report_sets(const OstLinkage *linkage, const OstFreeMotion
     find_groups(&sets);
     for (int g = 0; g < sets.groups; g++)
         sets.in[g] = !sets.still[g];
-    OST_TRY_DONE(look_at_set(&sets, report));
-    OST_TRY_DONE(look_at_sides(&sets, report));
+    OST_TRY_DONE(examine_set(&sets, report));
+    OST_TRY_DONE(examine_sides(&sets, report));
     if (sets.found_rank < free->count)
         ost_freedom_report_rest(linkage, free->members, free->member, free->count - sets.found_rank, report);
 done:

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Once no motion of a component gets by its supports without that much of it, more supports need not be looked at: they
- * can only hold it better. Looked for at 64, 256, 1024, ... rows. */
-static const double well_held = 0.01;
+/* A component is well constrained if its supports resist every motion by at least this share of it; further supports
+ * need not be read then. Tested at 64, 256, 1024, ... rows. */
+static const double well_constrained = 0.01;
 enum { FIRST_LOOK = 64, LOOK_FACTOR = 4 };
 
 /* A node where components meet; `component` is not the lowest of them. */
@@ -120,36 +120,36 @@ static OstStatus find_meetings(const OstMesh *mesh, const OstComponents *compone
     return OST_SUCCESS;
 }
 
-/* A component's supports while they are counted. */
-typedef struct Held {
-    int64_t rows, next_look; /* next_look 0: well held, nothing more to look at */
+/* Conditions of the supports of one component. */
+typedef struct SupportConditions {
+    int64_t rows, next_look; /* next_look 0: well constrained */
     double triangle[OST_ROWS];
-} Held;
+} SupportConditions;
 
-static OstStatus look(OstContext *ctx, Held *held)
+static OstStatus test_whether_enough(OstContext *ctx, SupportConditions *of_supports)
 {
     double copy[OST_ROWS], basis[OST_ROWS];
     int loose = 0;
-    memcpy(copy, held->triangle, sizeof copy);
-    OST_TRY(ost_null_space(ctx, 6, 6, copy, well_held, &loose, basis));
-    held->next_look = loose == 0 ? 0 : LOOK_FACTOR * held->next_look;
+    memcpy(copy, of_supports->triangle, sizeof copy);
+    OST_TRY(ost_null_space(ctx, 6, 6, copy, well_constrained, &loose, basis));
+    of_supports->next_look = loose == 0 ? 0 : LOOK_FACTOR * of_supports->next_look;
     return OST_SUCCESS;
 }
 
-static OstStatus hold(OstContext *ctx, const OstRigidFrame *frame, const OstSupport *support, const double *point,
-                      Held *held)
+static OstStatus add_support(OstContext *ctx, const OstRigidFrame *frame, const OstSupport *support,
+                             const double *point, SupportConditions *of_supports)
 {
-    if (held->rows > 0 && held->next_look == 0)
+    if (of_supports->rows > 0 && of_supports->next_look == 0)
         return OST_SUCCESS;
-    if (held->rows == 0)
-        held->next_look = FIRST_LOOK;
-    for (int k = 0; k < support->held; k++) {
+    if (of_supports->rows == 0)
+        of_supports->next_look = FIRST_LOOK;
+    for (int k = 0; k < support->constrained; k++) {
         double row[6];
         ost_rows_of_point(frame, point, support->direction + 3 * k, row);
-        ost_rows_add(held->triangle, row);
-        held->rows++;
+        ost_rows_add(of_supports->triangle, row);
+        of_supports->rows++;
     }
-    return held->rows >= held->next_look ? look(ctx, held) : OST_SUCCESS;
+    return of_supports->rows >= of_supports->next_look ? test_whether_enough(ctx, of_supports) : OST_SUCCESS;
 }
 
 static const OstSupport *support_of(const OstSupports *supports, OstLocal node)
@@ -159,20 +159,21 @@ static const OstSupport *support_of(const OstSupports *supports, OstLocal node)
 }
 
 static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeComponents *of,
-                                  const OstRigidFrame *frames, Held *held)
+                                  const OstRigidFrame *frames, SupportConditions *of_supports)
 {
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const OstSupport *support = support_of(supports, n);
         const OstLocal component = of->lowest ? of->lowest[n] : 0;
         if (support)
-            OST_TRY(hold(mesh->ctx, &frames[component], support, mesh->coordinates + 3 * (size_t)n, &held[component]));
+            OST_TRY(add_support(mesh->ctx, &frames[component], support, mesh->coordinates + 3 * (size_t)n,
+                                &of_supports[component]));
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
         const Meeting *meeting = &of->meeting[m];
         const OstSupport *support = support_of(supports, meeting->node);
         if (support)
-            OST_TRY(hold(mesh->ctx, &frames[meeting->component], support, mesh->coordinates + 3 * (size_t)meeting->node,
-                         &held[meeting->component]));
+            OST_TRY(add_support(mesh->ctx, &frames[meeting->component], support,
+                                mesh->coordinates + 3 * (size_t)meeting->node, &of_supports[meeting->component]));
     }
     return OST_SUCCESS;
 }
@@ -183,7 +184,7 @@ static int starts_pair(const NodeComponents *of, OstLocal m)
            of->meeting[m].component != of->meeting[m - 1].component;
 }
 
-/* Components that share a node move alike there, in all three directions. */
+/* Components that share a node move alike there in all three directions. */
 static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLocal node, OstTie *tie)
 {
     for (int i = 0; i < 3; i++) {
@@ -196,21 +197,21 @@ static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLoc
 }
 
 static OstStatus list_ties(const OstMesh *mesh, const OstComponents *components, const NodeComponents *of,
-                           const OstRigidFrame *frames, const Held *held, OstTies *ties)
+                           const OstRigidFrame *frames, const SupportConditions *of_supports, OstTies *ties)
 {
     OstLocal count = 0;
     for (OstLocal p = 0; p < components->count; p++)
-        count += held[p].rows > 0;
+        count += of_supports[p].rows > 0;
     for (OstLocal m = 0; m < of->meetings; m++)
         count += starts_pair(of, m);
     OST_TRY(OST_NEW(mesh->ctx, &ties->tie, count));
     for (OstLocal p = 0; p < components->count; p++) {
-        if (held[p].rows == 0)
+        if (of_supports[p].rows == 0)
             continue;
         OstTie *tie = &ties->tie[ties->count++];
         tie->body[0] = p;
         tie->body[1] = OST_TIE_SUPPORT;
-        memcpy(tie->triangle, held[p].triangle, sizeof tie->triangle);
+        memcpy(tie->triangle, of_supports[p].triangle, sizeof tie->triangle);
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
         if (starts_pair(of, m)) {
@@ -226,14 +227,14 @@ static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, con
                            const OstRigidFrame *frames, OstTies *ties)
 {
     NodeComponents of = {0};
-    Held *held = NULL;
+    SupportConditions *of_supports = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(find_meetings(mesh, components, &of));
-    OST_TRY_DONE(OST_NEW(mesh->ctx, &held, components->count));
-    OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, held));
-    OST_TRY_DONE(list_ties(mesh, components, &of, frames, held, ties));
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &of_supports, components->count));
+    OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, of_supports));
+    OST_TRY_DONE(list_ties(mesh, components, &of, frames, of_supports, ties));
 done:
-    OST_FREE(held);
+    OST_FREE(of_supports);
     OST_FREE(of.lowest);
     OST_FREE(of.meeting);
     return status;
@@ -264,7 +265,7 @@ OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, cons
     OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, components, frames, &mine));
     if (status == OST_SUCCESS)
         status = ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
-                                  "the mesh falls into too many components to tell what holds them",
+                                  "the mesh falls into too many components to check their constraints",
                                   (void **)&ties->tie, &ties->count);
     if (status == OST_SUCCESS)
         unite(ties);

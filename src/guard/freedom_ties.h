@@ -6,11 +6,11 @@
 #include "guard/freedom_rows.h"
 #include "mesh/components/component.h"
 
-/* What holds a component, or two components to each other: all conditions of the same kind in one triangle
- * (freedom_rows.h). For a pair it is on the motion of body[0] relative to body[1], seen in the frame of the smaller
+/* What constrains a component, or two components to each other: all conditions of one kind in one triangle
+ * (freedom_rows.h). For a pair they apply to the motion of body[0] relative to body[1], in the frame of the smaller
  * one. */
 typedef struct OstTie {
-    OstLocal body[2]; /* components, the lower one first; body[1] is OST_TIE_SUPPORT where supports hold body[0] */
+    OstLocal body[2]; /* components, the lower one first; body[1] is OST_TIE_SUPPORT for the supports of body[0] */
     double triangle[OST_ROWS];
 } OstTie;
 

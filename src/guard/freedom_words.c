@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Motions are told apart to this share of the body's size. */
+/* Motions that differ by less than this share of the body's size are the same. */
 static const double same = 1e-6;
 
-/* What is smaller than this share of its neighbours is rounding, and reads as 0. */
+/* A number below this share of its neighbours is a rounding error, and printed as 0. */
 static const double nothing = 1e-9;
 
 enum { POINT_TEXT = 96 };
@@ -20,7 +20,7 @@ void ost_point_words(const double point[3], double scale, char text[96])
 {
     double x[3];
     for (int i = 0; i < 3; i++) {
-        /* A hair outwards, so that a number midway between two of six digits goes the same way after any rounding. */
+        /* slightly outwards: a number midway between two of six digits is printed alike after any rounding */
         x[i] = fabs(point[i]) <= nothing * scale ? 0.0 : point[i] * (1.0 + nothing);
     }
     snprintf(text, POINT_TEXT, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
@@ -64,7 +64,7 @@ static void next_clause(Words *words)
     say(words, "%s", words->clauses++ > 0 ? ", and " : "can ");
 }
 
-/* The motions sorted into pure translations, and for each of some independent rotations one motion that has it. */
+/* The motions as pure translations, and rotations each with the translation that goes with it. */
 typedef struct Sorted {
     int moves, turns;
     double move[9]; /* rows: orthonormal translations */
@@ -72,8 +72,8 @@ typedef struct Sorted {
     double with[9]; /* rows: the velocity of the centre that goes with each, orthogonal to the translations */
 } Sorted;
 
-/* Takes from v its component in the span of the orthonormal rows. */
-static void take_out(int count, const double *rows, double v[3])
+/* Subtracts from v its projection on the orthonormal rows. */
+static void subtract_projection(int count, const double *rows, double v[3])
 {
     for (int pass = 0; pass < 2; pass++)
         for (int r = 0; r < count; r++) {
@@ -83,8 +83,8 @@ static void take_out(int count, const double *rows, double v[3])
         }
 }
 
-/* Brings `count` motions whose rotations are independent to the one basis that has unit columns where it can: the
- * reduced echelon form of the rotations, so that the words do not depend on the basis that was found. */
+/* Reduced row echelon form of `count` motions with independent rotations, by their rotations: the words then do not
+ * depend on the basis that was found. */
 static void reduce_rotations(int count, double *motion)
 {
     int row = 0;
@@ -129,7 +129,7 @@ static OstStatus sort_motions(OstContext *ctx, int count, const double *motions,
         for (int k = 0; k < count; k++)
             for (int i = 0; i < 3; i++)
                 move[i] += basis[m * count + k] * motions[6 * k + i];
-        take_out(m, sorted->move, move);
+        subtract_projection(m, sorted->move, move);
         const double length = ost_norm3(move);
         for (int i = 0; i < 3; i++)
             move[i] /= length;
@@ -151,7 +151,7 @@ static OstStatus sort_motions(OstContext *ctx, int count, const double *motions,
             sorted->with[3 * m + i] = motion[6 * m + i] / length;
             sorted->turn[3 * m + i] = motion[6 * m + 3 + i] / length;
         }
-        take_out(sorted->moves, sorted->move, sorted->with + 3 * m);
+        subtract_projection(sorted->moves, sorted->move, sorted->with + 3 * m);
     }
     return OST_SUCCESS;
 }
@@ -180,7 +180,8 @@ static void say_moves(Words *words, const Sorted *sorted)
     }
 }
 
-/* Do all turns leave one point at rest (modulo nothing)? Solves v_i = q × w_i for q, in the least squares sense. */
+/* Is there a point that all rotations leave at rest (up to `nothing`)? Solves v_i = q × w_i for q, in the least squares
+ * sense. */
 static int find_pivot(const Sorted *sorted, double pivot[3])
 {
     double normal[9] = {0.0}, right[3] = {0.0}, inverse[9];
@@ -217,11 +218,12 @@ static void place_words(const OstRigidFrame *frame, const double at[3], char tex
     ost_point_words(x, scale, text);
 }
 
-/* Where a translation has a component along the axis, it may be used up to leave no advance, only a turn. */
+/* Subtracts translations so that as little motion along the axis remains as possible: a screw becomes a rotation if the
+ * body can slide along the axis. */
 static void remove_advance(const Sorted *sorted, const double w[3], double v[3])
 {
     double across[3] = {w[0], w[1], w[2]};
-    take_out(sorted->moves, sorted->move, across);
+    subtract_projection(sorted->moves, sorted->move, across);
     double within[3] = {w[0] - across[0], w[1] - across[1], w[2] - across[2]};
     const double component = ost_dot3(within, w);
     if (component <= same)
@@ -231,7 +233,7 @@ static void remove_advance(const Sorted *sorted, const double w[3], double v[3])
         v[i] -= factor * within[i];
 }
 
-/* Is every direction across the axis a translation? Then the axis may pass anywhere. */
+/* Can the body translate in every direction normal to the axis? Then the axis may pass anywhere. */
 static int slides_across(const Sorted *sorted, const double w[3])
 {
     if (sorted->moves == 3)

@@ -4,8 +4,8 @@
 
 #include "guard/freedom_rows.h"
 
-/* Local. Says in words what motions a body has: "can move along (0, 0, 1) and turn about the line through (0, 2, 1)
- * along (1, 0, 0)". `motions` are count × 6 numbers in `frame`, independent (1 to 6 of them). */
+/* Local. Describes the motions of a body: "can move along (0, 0, 1) and turn about the line through (0, 2, 1) along (1,
+ * 0, 0)". `motions` are count × 6 numbers in `frame`, independent (1 to 6 of them). */
 OstStatus ost_motion_words(OstContext *ctx, const OstRigidFrame *frame, int count, const double *motions, char *text,
                            size_t size);
 

@@ -4,15 +4,15 @@
 
 #include "assembly/batch.h"
 
-/* How small strains and rotations are, which linear theory takes as small. Both are of a tet's mean displacement
- * gradient: the largest principal strain, and the angle of its antisymmetric part in radians. */
+/* The largest strain and rotation, which linear theory takes as small. Both are of a tet's mean displacement gradient:
+ * the largest principal strain, and the angle of its antisymmetric part in radians. */
 typedef struct OstLinearity {
     double strain, rotation;
 } OstLinearity;
 
-/* Local. Raises `largest` to what these tets do under the displacement u. What is no number counts as nothing: another
- * check tells that. */
-void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstLanes *u, const OstMeans *means,
+/* Local. Raises `largest` to the strains and rotations of these tets under the displacement u. NaN is ignored: another
+ * check finds it. */
+void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
                        OstLinearity *largest);
 
 /* Collective. The largest over all ranks. */

@@ -5,10 +5,10 @@
 #include "core/small.h"
 #include "effect/effect.h"
 
-/* Loads may miss balance by this share of their sizes: they are typed, and summed, with rounding. */
+/* Loads may be out of balance by this share of their sizes: they are typed, and summed, with rounding. */
 static const double balance = 1e-8;
 
-/* What rounding leaves of sums of this size is printed as 0. */
+/* Sets components to 0 that are rounding errors of sums of this size. */
 static void drop_rounding(double size, double vector[3])
 {
     for (int i = 0; i < 3; i++)
@@ -52,7 +52,7 @@ static OstStatus check(const OstMesh *mesh, const double *force, const char *whe
     return OST_RAISE(
         ctx, OST_INVALID_INPUT,
         "%s: free_body needs loads that balance each other, but these leave a force (%g, %g, %g) of loads of "
-        "size %g, and a moment (%g, %g, %g) of size %g about (%g, %g, %g); balance them, or hold the body",
+        "size %g, and a moment (%g, %g, %g) of size %g about (%g, %g, %g); balance them, or constrain the body",
         where, f[0], f[1], f[2], sums[SUM_FORCE_SIZE], m[0], m[1], m[2], sums[SUM_MOMENT_SIZE], centre[0], centre[1],
         centre[2]);
 }

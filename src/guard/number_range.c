@@ -14,15 +14,16 @@ static OstStatus check(OstContext *ctx, const char *where, const char *what, dou
     if (size >= least && size <= most)
         return OST_SUCCESS;
     if (!isfinite(size))
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: the %s are not finite everywhere; look for what is no number",
-                         where, what);
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "%s: the %s are not finite everywhere; look for a value that is infinite or no number", where,
+                         what);
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "%s: the %s are of size %.2g in the case's units; beyond %g to %g, squares leave the range of "
                      "double precision: choose units of length and force that bring them nearer to 1",
                      where, what, size, least, most);
 }
 
-/* Largest absolute value; infinite if one is no number. */
+/* Largest absolute value; infinite if a value is NaN. */
 static double largest_of(size_t count, const double *values)
 {
     double largest = 0.0;
@@ -47,7 +48,7 @@ static void diagonal_range(const OstBlockMatrix *matrix, double *low, double *hi
 OstStatus ost_number_range_of_stiffness(const OstBlockMatrix *matrix, const char *where)
 {
     OstContext *ctx = matrix->ctx;
-    double low, largest[2]; /* of the stiffness, and of the inverse of the softest */
+    double low, largest[2]; /* the stiffest node, and 1 over the softest */
     diagonal_range(matrix, &low, &largest[0]);
     largest[1] = 1.0 / low;
     OST_TRY(ost_max(ctx, 2, largest));

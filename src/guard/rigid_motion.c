@@ -16,10 +16,10 @@ enum { MODES = 6 };
 static const char *const mode_word[MODES] = {"a move along x",     "a move along y",     "a move along z",
                                              "a turn about the x", "a turn about the y", "a turn about the z"};
 
-/* All six at once, none of them a simple fraction of another. */
+/* A combination of all six modes, in which none is a simple fraction of another. */
 static const double every_mode[MODES] = {1.0, -0.786151, 0.618034, 0.881374, -0.567143, 0.915966};
 
-/* The most that a motion was resisted, and by what. */
+/* The largest relative force that a rigid motion meets, and where. */
 typedef struct Resistance {
     double ratio;
     OstLocal at; /* tet or row; -1: none */
@@ -42,25 +42,25 @@ static double limit(void)
 
 /* --- tets --- */
 
-/* Nodes' places from the middle of the tets' vertices, and the largest of them (the tets' size). */
-static void centre_tets(const OstLanes *x, int nodes, OstLanes *arm, OstLanes *size)
+/* Node coordinates relative to the mean of the tet's vertices, and the largest distance (the tet's size). */
+static void centre_tets(const OstSimd *x, int nodes, OstSimd *arm, OstSimd *size)
 {
-    OstLanes square = {0};
+    OstSimd square = {0};
     for (int a = 0; a < nodes; a++) {
-        OstLanes length = {0};
+        OstSimd length = {0};
         for (int i = 0; i < 3; i++) {
             arm[3 * a + i] = x[3 * a + i] - 0.25 * (x[i] + x[3 + i] + x[6 + i] + x[9 + i]);
             length += arm[3 * a + i] * arm[3 * a + i];
         }
-        for (int lane = 0; lane < OST_LANES; lane++)
-            square[lane] = fmax(square[lane], length[lane]);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            square[slot] = fmax(square[slot], length[slot]);
     }
-    for (int lane = 0; lane < OST_LANES; lane++)
-        (*size)[lane] = sqrt(square[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        (*size)[slot] = sqrt(square[slot]);
 }
 
-/* Moves by the tet's size, and turns by 1, so that all are alike. */
-static void move_tets(const OstLanes *arm, int nodes, const OstLanes *size, const double share[MODES], OstLanes *u)
+/* Translations by the tet's size and rotations by 1, so that all modes have equal size. */
+static void move_tets(const OstSimd *arm, int nodes, const OstSimd *size, const double share[MODES], OstSimd *u)
 {
     for (int a = 0; a < nodes; a++)
         for (int i = 0; i < 3; i++) {
@@ -70,29 +70,29 @@ static void move_tets(const OstLanes *arm, int nodes, const OstLanes *size, cons
         }
 }
 
-static void sum_sizes(const OstLanes *values, int count, OstLanes *sum)
+static void sum_sizes(const OstSimd *values, int count, OstSimd *sum)
 {
-    *sum = (OstLanes){0};
+    *sum = (OstSimd){0};
     for (int n = 0; n < count; n++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            (*sum)[lane] += fabs(values[n][lane]);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            (*sum)[slot] += fabs(values[n][slot]);
 }
 
 static void try_batch(const OstElement *element, const OstBatch *batch, const double share[MODES], Resistance *worst)
 {
-    OstLanes arm[3 * OST_MAX_TET_NODES];
-    OstLanes u[3 * OST_MAX_TET_NODES];
-    OstLanes force[3 * OST_MAX_TET_NODES];
-    OstLanes magnitude[3 * OST_MAX_TET_NODES];
-    OstLanes size, whole_force, whole_magnitude;
+    OstSimd arm[3 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd force[3 * OST_MAX_TET_NODES];
+    OstSimd magnitude[3 * OST_MAX_TET_NODES];
+    OstSimd size, whole_force, whole_magnitude;
     centre_tets(batch->x, element->nodes, arm, &size);
     move_tets(arm, element->nodes, &size, share, u);
     element->force(batch->x, &batch->elasticity, u, force);
     element->magnitude(batch->x, &batch->elasticity, u, magnitude);
     sum_sizes(force, 3 * element->nodes, &whole_force);
     sum_sizes(magnitude, 3 * element->nodes, &whole_magnitude);
-    for (int lane = 0; lane < batch->count; lane++)
-        take_worse(worst, whole_force[lane], whole_magnitude[lane], batch->tet[lane]);
+    for (int slot = 0; slot < batch->count; slot++)
+        take_worse(worst, whole_force[slot], whole_magnitude[slot], batch->tet[slot]);
 }
 
 static Resistance try_tets(const OstMesh *mesh, const OstMaterialField *field, const double share[MODES])
@@ -101,14 +101,14 @@ static Resistance try_tets(const OstMesh *mesh, const OstMaterialField *field, c
     Resistance worst = {0.0, -1};
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_LANES) {
+    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
         try_batch(element, &batch, share, &worst);
     }
     return worst;
 }
 
-/* `together` resisted; which mode is it? */
+/* Tries the modes one by one, and names the worst. */
 static OstStatus raise_tet(const OstMesh *mesh, const OstMaterialField *field, Resistance together)
 {
     Resistance worst = {0.0, together.at};
@@ -124,7 +124,7 @@ static OstStatus raise_tet(const OstMesh *mesh, const OstMaterialField *field, R
     }
     return OST_RAISE(mesh->ctx, OST_CHECK_FAILED,
                      "tet %lld resists %s%s: with %.1e of |K| |motion|, where rounding explains %.1e at most; its "
-                     "shape is at the end of what double precision holds, or the stiffness is computed wrongly",
+                     "shape is too extreme for double precision, or the stiffness is computed wrongly",
                      (long long)mesh->tet_label[worst.at], mode_word[at], at < 3 ? "" : " axis", worst.ratio, limit());
 }
 
@@ -146,9 +146,9 @@ OstStatus ost_rigid_motion_of_tets(const OstMesh *mesh, const OstMaterialField *
 typedef struct Rows {
     const OstSystem *system;
     const double *modes;
-    unsigned char *supported; /* nodes of the tets that a support touches */
+    unsigned char *supported; /* nodes of tets with a supported node */
     double *motion;           /* 3 × columns */
-    double span;              /* longest arm of a turn, in every rank's rows */
+    double span;              /* longest arm of a rotation, over all ranks */
 } Rows;
 
 static void mark_supported(const OstSystem *system, unsigned char *supported)
@@ -175,7 +175,7 @@ static OstStatus find_span(Rows *rows)
     return ost_max(ctx, 1, &rows->span);
 }
 
-/* A row's force, and the size of its terms. */
+/* A row's force, and the sum of the sizes of its terms. */
 static void add_row(const OstBlockMatrix *matrix, OstLocal row, const double *motion, Resistance *worst)
 {
     double force[3] = {0.0};
@@ -192,7 +192,7 @@ static void add_row(const OstBlockMatrix *matrix, OstLocal row, const double *mo
     take_worse(worst, ost_norm3(force), ost_norm3(size), row);
 }
 
-/* Turns are divided by their span, so that all modes are alike. */
+/* Rotations are divided by their span, so that all modes have equal size. */
 static OstStatus try_rows(const Rows *rows, const double share[MODES], Resistance *worst)
 {
     const OstBlockMatrix *matrix = rows->system->matrix;
@@ -210,7 +210,7 @@ static OstStatus try_rows(const Rows *rows, const double share[MODES], Resistanc
     return OST_SUCCESS;
 }
 
-/* `together` resisted, here or in another rank's rows; which mode is it? */
+/* Collective. As raise_tet; the worst row may be another rank's. */
 static OstStatus raise_row(const Rows *rows, Resistance together)
 {
     const OstMesh *mesh = rows->system->mesh;

@@ -47,7 +47,7 @@ static void print_account(const OstLedgerSummary *summary, OstAccount account, c
     printf("  %-23s %8.3f s %9.2f MiB\n", label, summary->seconds[account], summary->peak_bytes[account] / mebibyte);
 }
 
-/* What was counted, whatever the table of effects says; it should say the same. */
+/* Prints what was counted even if the effect is off, so that a contradiction shows. */
 static void print_effect(const OstScene *scene, const OstLedgerSummary *summary, OstEffect effect)
 {
     if (ost_effect_on(&scene->plan.effects, effect) || summary->entries[effect] > 0)

@@ -10,7 +10,7 @@ static const char *const field_word[OST_FIELD_COUNT] = {
 #undef OST_FIELD_WORD
 };
 
-/* Arrays that exist only in the file: made here, freed after the write. */
+/* Arrays computed for the file alone. */
 typedef struct Derived {
     double *axes;
     int32_t *rank;
@@ -75,7 +75,7 @@ static OstStatus describe_field(const OstResult *result, OstOutputFieldBit field
     }
 }
 
-/* A field that was not recovered is not there, and a body without material axes has none to write. */
+/* Is there such a field? Some are only recovered on request, and not every body has material axes. */
 static int has_field(const OstResult *result, OstOutputFieldBit field)
 {
     switch (field) {

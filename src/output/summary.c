@@ -19,13 +19,13 @@ static void print_levels(const OstSolveReport *report)
     printf(" unknowns, operator complexity %.2f\n", report->operator_complexity);
 }
 
-/* Why the solver began where it did, and each rung it left, with the reason. */
-static void print_ladder(const OstSolveReport *report)
+/* Why the solver began with its first strategy, and each strategy it tried. */
+static void print_strategies(const OstSolveReport *report)
 {
     for (int r = 0; r < report->plan.reasons; r++)
         printf("  %-16s %s\n", r == 0 ? "plan" : "", report->plan.reason[r]);
     for (int s = 0; report->steps > 1 && s < report->steps; s++)
-        printf("  %-16s %s, %d iteration%s in %.3f s: %s\n", s == 0 ? "climbed" : "",
+        printf("  %-16s %s, %d iteration%s in %.3f s: %s\n", s == 0 ? "strategies" : "",
                ost_method_name(report->step[s].method), report->step[s].iterations, plural(report->step[s].iterations),
                report->step[s].seconds, report->step[s].outcome);
 }
@@ -36,24 +36,25 @@ static void print_solve(const OstResult *result)
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     printf("  engine           %s\n", report->engine);
-    print_ladder(report);
+    print_strategies(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
     if (report->rounding_limited)
-        printf("                   not what was asked for: double precision holds about %.2g here\n",
+        printf("                   above what was asked for: double precision allows about %.2g here\n",
                report->attainable_residual);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }
 
-static void print_digits(const OstChecks *checks)
+/* The discretisation error is not in this: the line says "equations", so that nobody takes it for the whole error. */
+static void print_errors(const OstChecks *checks)
 {
-    if (!isfinite(checks->digits) || !isfinite(checks->displacement_error))
+    if (!isfinite(checks->displacement_error))
         return;
-    printf("  digits           about %.0f of the displacement hold (error about %.1e)", floor(checks->digits),
+    printf("  equations        solved to a relative error of about %.1e in the displacement",
            checks->displacement_error);
     if (isfinite(checks->force_error))
-        printf(", %.0f of reactions and stresses (%.1e)", floor(checks->force_digits), checks->force_error);
+        printf(", %.1e in reactions and stresses", checks->force_error);
     printf("\n");
 }
 
@@ -63,8 +64,8 @@ static void print_objections(const OstResult *result)
         printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
 }
 
-/* Beyond this it is worth a word: strains of 4 %, or parts that turn by 0.2, which is 11 degrees. The mesh rarely
- * leaves less. */
+/* A larger error of linear theory is warned of: strains of 4 %, or rotations of 0.2 (11 degrees). The mesh rarely has a
+ * smaller one. */
 static const double small_error = 0.02;
 
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
@@ -77,7 +78,7 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
     if (error < 1.0)
         snprintf(off, sizeof off, "by about %.0f %%", 100.0 * error);
     snprintf(text, OST_LONGEST_WARNING,
-             "parts turn by up to %.3g degrees and strain by up to %.3g %%: linear theory, which takes both as small, "
+             "rotations are up to %.3g degrees and strains up to %.3g %%: linear theory, which takes both as small, "
              "is off %s there; scale the loads down, or read the result as a direction",
              checks->largest_rotation * 57.29577951308232, 100.0 * checks->largest_strain, off);
     return 1;
@@ -108,7 +109,7 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
     print_checks(&result->checks);
-    print_digits(&result->checks);
+    print_errors(&result->checks);
     printf("  strain energy    %.10g\n", result->checks.strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
     print_warning(&result->checks);

@@ -5,7 +5,7 @@
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
-/* The ledger over all ranks: seconds of the slowest rank, bytes of all. */
+/* The ledger over all ranks: seconds of the slowest rank, sums of bytes. */
 typedef struct OstLedgerSummary {
     double seconds[OST_EFFECT_END];
     double peak_bytes[OST_EFFECT_END];
@@ -18,23 +18,23 @@ typedef struct OstLedgerSummary {
 /* Collective. */
 OstStatus ost_ledger_summarise(OstContext *ctx, OstLedgerSummary *summary);
 
-/* Local; only rank 0 prints. What a person wants to know of a run, then the ledger. `file` is where the fields went, or
- * NULL. */
+/* Local; only rank 0 prints: a run in a few lines, then the ledger. `file` is where the fields were written, or NULL.
+ */
 void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file);
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
- * `watched` has as many values as the case watches quantities, in their order. */
+ * `watched` holds the case's quantities of interest, in their order. */
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
                                  const OstWatchedValue *watched, const char *file, const char *path);
 
-/* Local. What a person should know before trusting an answer that passes every check: strains or rotations that linear
- * theory should not take as small. Returns 0, and leaves the text empty, where there is nothing of the kind. */
+/* Local. Warns of an answer that passes every check but has strains or rotations too large for linear theory. Returns
+ * 0, and leaves the text empty, if they are small. */
 enum { OST_LONGEST_WARNING = 320 };
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
 
-/* Local. The effects of a scene as a list of {effect, on, reason, bytes}: those foreseen; the caller's reference, NULL
- * if jansson fails. */
+/* Local. The effects of a scene as a list of {effect, on, reason, bytes}, the bytes as predicted; the caller's
+ * reference, NULL if jansson fails. */
 struct json_t;
 struct json_t *ost_effects_json(const OstEffects *effects);
 

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* JSON has no word for what is no number. */
+/* JSON has neither NaN nor infinity. */
 static json_t *number_json(double number)
 {
     return isfinite(number) ? json_real(number) : json_null();
@@ -39,7 +39,7 @@ static json_t *steps_json(const OstSolveReport *report)
     return steps;
 }
 
-/* 0 where none was made. */
+/* 0 stands for no estimate. */
 static json_t *estimate_json(double estimate)
 {
     return estimate > 0.0 ? number_json(estimate) : json_null();
@@ -63,12 +63,10 @@ static json_t *solver_json(const OstSolveReport *report)
 
 static json_t *checks_json(const OstChecks *checks)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}",
-                     "relative_residual", number_json(checks->relative_residual), "rounding",
-                     number_json(checks->rounding), "rigid_motion", number_json(checks->rigid_motion),
-                     "displacement_error", number_json(checks->displacement_error), "digits",
-                     number_json(checks->digits), "force_error", number_json(checks->force_error), "force_digits",
-                     number_json(checks->force_digits), "load", vector_json(checks->load), "reaction",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}", "relative_residual",
+                     number_json(checks->relative_residual), "rounding", number_json(checks->rounding), "rigid_motion",
+                     number_json(checks->rigid_motion), "displacement_error", number_json(checks->displacement_error),
+                     "force_error", number_json(checks->force_error), "load", vector_json(checks->load), "reaction",
                      vector_json(checks->reaction), "force_imbalance", number_json(checks->force_imbalance),
                      "moment_imbalance", number_json(checks->moment_imbalance), "strain_energy",
                      number_json(checks->strain_energy), "work", number_json(checks->work), "energy_imbalance",
@@ -154,6 +152,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
         return OST_SUCCESS;
     json_t *document = run_json(scene, result, summary, watched, file);
     if (!document)
-        return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds a number that JSON cannot: not finite");
+        return OST_RAISE(ctx, OST_CHECK_FAILED,
+                         "the summary holds a number that is not finite, which JSON cannot hold");
     return ost_json_write(ctx, document, path);
 }

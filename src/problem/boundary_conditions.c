@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/boundary_conditions.h"
 
-#include "assembly/field_loads.h"
+#include "assembly/closed_form_loads.h"
 #include "assembly/loads.h"
 #include "case/select.h"
 #include "core/error.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Puts "case.yaml:12: " in front of a failure's text, unless it says already where it is. */
+/* Puts "case.yaml:12: " in front of an error text, unless it names the case already. */
 static OstStatus at_line(const OstCase *c, int line, OstStatus status)
 {
     char text[2048];
@@ -21,42 +21,44 @@ static OstStatus at_line(const OstCase *c, int line, OstStatus status)
     return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, line, text);
 }
 
-/* The word exact needs someone who knows what it stands for. */
-static OstStatus check_exact(const OstScene *scene)
+/* Only a verify run knows the closed-form solution that `exact` stands for. */
+static OstStatus need_closed_form(const OstScene *scene)
 {
     if (scene->exact)
         return OST_SUCCESS;
     return OST_RAISE(
         scene->ctx, OST_INVALID_INPUT,
-        "'exact' stands for the formula of the case's verify section, which `orthostat verify` knows; give "
-        "numbers, or run the case by that command");
+        "'exact' stands for the formula of the case's verify section, which only `orthostat verify` computes; "
+        "give numbers, or run the case by that command");
 }
 
-/* What a constraint gives at a node: its own numbers, or the formula's. */
-static OstStatus find_given(const OstScene *scene, const OstConstraint *constraint, OstLocal node, double given[3])
+/* The displacement that a constraint prescribes at a node: its own numbers, or the formula's. */
+static OstStatus prescribed_displacement(const OstScene *scene, const OstConstraint *constraint, OstLocal node,
+                                         double prescribed[3])
 {
-    memcpy(given, constraint->displacement, sizeof constraint->displacement);
+    memcpy(prescribed, constraint->displacement, sizeof constraint->displacement);
     if (!constraint->exact[0] && !constraint->exact[1] && !constraint->exact[2])
         return OST_SUCCESS;
     double u[3];
-    OST_TRY(check_exact(scene));
+    OST_TRY(need_closed_form(scene));
     OST_TRY(scene->exact->displacement(scene->exact->data, scene->mesh->coordinates + 3 * (size_t)node, u));
     for (int i = 0; i < 3; i++)
-        given[i] = constraint->exact[i] ? u[i] : given[i];
+        prescribed[i] = constraint->exact[i] ? u[i] : prescribed[i];
     return OST_SUCCESS;
 }
 
-static OstStatus hold_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node, OstSupports *supports)
+static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node,
+                                OstSupports *supports)
 {
-    double given[3];
+    double prescribed[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
-        return ost_supports_hold(supports, node, constraint->normal, 0.0);
-    OST_TRY(find_given(scene, constraint, node, given));
+        return ost_supports_constrain(supports, node, constraint->normal, 0.0);
+    OST_TRY(prescribed_displacement(scene, constraint, node, prescribed));
     for (int component = 0; component < 3; component++) {
         double direction[3] = {0.0};
         direction[component] = 1.0;
-        if (constraint->held[component])
-            OST_TRY(ost_supports_hold(supports, node, direction, given[component]));
+        if (constraint->constrained[component])
+            OST_TRY(ost_supports_constrain(supports, node, direction, prescribed[component]));
     }
     return OST_SUCCESS;
 }
@@ -71,7 +73,7 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = hold_node(scene, constraint, nodes[i], supports);
+            status = constrain_node(scene, constraint, nodes[i], supports);
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
@@ -105,7 +107,7 @@ static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, in
     return ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region);
 }
 
-/* Gravity with no mass anywhere is a mistake, not a load of zero. */
+/* Gravity without any mass is an error, not a load of zero. */
 static OstStatus check_density(const OstScene *scene, int region)
 {
     for (int r = 0; r < scene->mesh->regions.count; r++)
@@ -120,8 +122,8 @@ static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, doubl
     int region = -1;
     OST_TRY(find_load_region(scene, load, &region));
     if (load->exact) {
-        OST_TRY(check_exact(scene));
-        return ost_load_exact_body_force(scene->mesh, region, scene->exact, force);
+        OST_TRY(need_closed_form(scene));
+        return ost_load_closed_form_body_force(scene->mesh, region, scene->exact, force);
     }
     if (load->kind == OST_LOAD_BODY_FORCE)
         return ost_load_body_force(scene->mesh, region, load->vector, force);
@@ -148,8 +150,9 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
 {
     const OstMesh *mesh = scene->mesh;
     if (load->exact) {
-        OST_TRY(check_exact(scene));
-        return ost_agree(scene->ctx, ost_load_exact_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
+        OST_TRY(need_closed_form(scene));
+        return ost_agree(scene->ctx,
+                         ost_load_closed_form_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
     }
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));

@@ -6,7 +6,7 @@
 #include "problem/scene_data.h"
 
 /* Collective. The supports that the case's constraints make. Raises OST_INVALID_INPUT with the case's line where
- * constraints contradict each other, or if nothing is held. */
+ * constraints contradict each other, or if nothing is constrained. */
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
 
 /* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). */

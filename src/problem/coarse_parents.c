@@ -13,7 +13,7 @@
 
 enum { VERTICES = 4, NODES = 10 };
 
-/* An edge node this near to the middle, relative to the edge, lies on a straight edge. */
+/* An edge is straight if its middle node is this near to the mean of its ends, relative to its length. */
 static const double straight = 1e-10;
 
 static void difference(const double *a, const double *b, double d[3])
@@ -22,18 +22,18 @@ static void difference(const double *a, const double *b, double d[3])
         d[i] = a[i] - b[i];
 }
 
-/* The point's barycentric coordinates in a linear tet; vertices at x[0], x[1], ... */
-static void place_in_tet(const double *const x[VERTICES], const double *point, double place[VERTICES])
+/* Barycentric coordinates of a point in a linear tet with its vertices at x[0], x[1], ... */
+static void barycentric_coordinates(const double *const x[VERTICES], const double *point, double barycentric[VERTICES])
 {
     double side[3][3], to_point[3], normal[3];
     for (int v = 1; v < VERTICES; v++)
         difference(x[v], x[0], side[v - 1]);
     difference(point, x[0], to_point);
-    place[0] = 1.0;
+    barycentric[0] = 1.0;
     for (int v = 0; v < 3; v++) {
         ost_cross3(side[(v + 1) % 3], side[(v + 2) % 3], normal);
-        place[v + 1] = ost_dot3(normal, to_point) / ost_dot3(normal, side[v]);
-        place[0] -= place[v + 1];
+        barycentric[v + 1] = ost_dot3(normal, to_point) / ost_dot3(normal, side[v]);
+        barycentric[0] -= barycentric[v + 1];
     }
 }
 
@@ -54,23 +54,23 @@ static double sum_of_sizes(const double weights[VERTICES])
     return sum;
 }
 
-/* Takes a tet's vertices for the row of one of its curved edges, if that reaches less far out of the tet than what the
- * row has: flat tets give way to better ones at the same edge. */
-static void offer_tet(const double *const x[VERTICES], const double *point, const OstLocal columns[VERTICES],
-                      OstLocal *parents, double *weights, double *reach)
+/* Interpolates a curved edge's row from this tet's vertices, unless another tet at the edge did so with a smaller sum
+ * of weights, that is, with the node less far outside of it. */
+static void interpolate_in_tet(const double *const x[VERTICES], const double *point, const OstLocal columns[VERTICES],
+                               OstLocal *parents, double *weights, double *weight_sum)
 {
-    double place[VERTICES];
-    place_in_tet(x, point, place);
-    const double size = sum_of_sizes(place);
-    if (!(size < *reach * (1.0 - 1e-9)))
+    double barycentric[VERTICES];
+    barycentric_coordinates(x, point, barycentric);
+    const double size = sum_of_sizes(barycentric);
+    if (!(size < *weight_sum * (1.0 - 1e-9)))
         return;
-    *reach = size;
+    *weight_sum = size;
     memcpy(parents, columns, VERTICES * sizeof *parents);
-    memcpy(weights, place, sizeof place);
+    memcpy(weights, barycentric, sizeof barycentric);
 }
 
-static void bend_edges(const OstSystem *quadratic, const OstSystem *linear, const OstLocal *ends, OstLocal *parents,
-                       double *weights, double *reach)
+static void interpolate_curved_edges(const OstSystem *quadratic, const OstSystem *linear, const OstLocal *ends,
+                                     OstLocal *parents, double *weights, double *weight_sum)
 {
     const OstMesh *mesh = quadratic->mesh;
     for (size_t tet = 0; tet < (size_t)mesh->tet_count; tet++) {
@@ -86,18 +86,18 @@ static void bend_edges(const OstSystem *quadratic, const OstSystem *linear, cons
             if (row < 0 || row >= quadratic->matrix->rows)
                 continue;
             if (!is_straight(x[VERTICES + e], x[ost_tet_edge[e][0]], x[ost_tet_edge[e][1]]))
-                offer_tet(x, x[VERTICES + e], columns, parents + VERTICES * (size_t)row,
-                          weights + VERTICES * (size_t)row, reach + row);
+                interpolate_in_tet(x, x[VERTICES + e], columns, parents + VERTICES * (size_t)row,
+                                   weights + VERTICES * (size_t)row, weight_sum + row);
         }
     }
 }
 
-/* Ends of edges at half weight each, vertices at their own. */
-static void take_ends(const OstSystem *quadratic, const OstSystem *linear, const OstLocal *ends, OstLocal *parents,
-                      double *weights, double *reach)
+/* Mid-edge nodes take both ends at half weight; a vertex has itself twice. */
+static void interpolate_from_ends(const OstSystem *quadratic, const OstSystem *linear, const OstLocal *ends,
+                                  OstLocal *parents, double *weights, double *weight_sum)
 {
     for (size_t row = 0; row < (size_t)quadratic->matrix->rows; row++) {
-        reach[row] = DBL_MAX;
+        weight_sum[row] = DBL_MAX;
         for (size_t k = 0; k < VERTICES; k++) {
             const OstLocal vertex = k < 2 ? ends[2 * (size_t)quadratic->node_of_row[row] + k] : -1;
             parents[VERTICES * row + k] = vertex < 0 ? -1 : linear->row_of_node[vertex];
@@ -111,17 +111,17 @@ OstStatus ost_coarse_parents(const OstSystem *quadratic, const OstSystem *linear
     OstContext *ctx = quadratic->ctx;
     const size_t rows = (size_t)quadratic->matrix->rows;
     OstLocal *ends = NULL;
-    double *reach = NULL;
+    double *weight_sum = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(ctx, &ends, 2 * (size_t)quadratic->mesh->node_count));
-    OST_TRY_DONE(OST_NEW(ctx, &reach, rows));
+    OST_TRY_DONE(OST_NEW(ctx, &weight_sum, rows));
     OST_TRY_DONE(OST_NEW(ctx, parents, VERTICES * rows));
     OST_TRY_DONE(OST_NEW(ctx, weights, VERTICES * rows));
     OST_TRY_DONE(ost_mesh_parents(quadratic->mesh, linear->mesh, ends));
-    take_ends(quadratic, linear, ends, *parents, *weights, reach);
-    bend_edges(quadratic, linear, ends, *parents, *weights, reach);
+    interpolate_from_ends(quadratic, linear, ends, *parents, *weights, weight_sum);
+    interpolate_curved_edges(quadratic, linear, ends, *parents, *weights, weight_sum);
 done:
     OST_FREE(ends);
-    OST_FREE(reach);
+    OST_FREE(weight_sum);
     return status;
 }

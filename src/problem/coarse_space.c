@@ -20,7 +20,7 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     OST_FREE(*space);
 }
 
-/* Is any vertex of the body free in any direction? */
+/* Is any vertex of the body unconstrained in some direction? */
 static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
 {
     const OstMesh *mesh = space->mesh;
@@ -28,7 +28,7 @@ static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
     *has = 0;
     for (OstLocal vertex = 0; vertex < mesh->owned_nodes && !*has; vertex++) {
         const OstLocal index = space->supports->index[vertex];
-        *has = index < 0 || space->supports->support[index].held < 3;
+        *has = index < 0 || space->supports->support[index].constrained < 3;
     }
     return ost_max_ints(ctx, 1, has);
 }

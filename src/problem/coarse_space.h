@@ -4,8 +4,7 @@
 
 #include "problem/row_geometry.h"
 
-/* The linear tets under a body of quadratic ones, with their own stiffness: what p-multigrid corrects the quadratic
- * answer by. */
+/* The linear tets under a body of quadratic ones, with their own stiffness: the coarse level of p-multigrid. */
 typedef struct OstLinearSpace {
     OstMesh *mesh;
     OstSupports *supports;
@@ -13,12 +12,11 @@ typedef struct OstLinearSpace {
     OstRowGeometry rows;
     OstLocal *parents;
     double *weights;
-    OstCoarseSpace space; /* what the solver takes; points into this struct */
+    OstCoarseSpace space; /* what the solver is given; points into this struct */
 } OstLinearSpace;
 
-/* Collective. The linear space under a quadratic system; `with_metric` as for the quadratic rows. NULL comes back where
- * there is none: its vertices are all held. OST_EFFECT_LINEAR_SPACE.
- */
+/* Collective. The linear space under a quadratic system; `with_metric` as for the quadratic rows. NULL if all its
+ * vertices are constrained. OST_EFFECT_LINEAR_SPACE. */
 OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,
                                   OstLinearSpace **space);
 void ost_linear_space_destroy(OstLinearSpace **space);

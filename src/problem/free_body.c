@@ -6,43 +6,44 @@
 
 #include <string.h>
 
-/* Distances that differ by less than this share are equal, and the lower label decides. */
+/* Distances that differ by less than this share are taken as equal; the lower label then decides. */
 static const double same = 1e-9;
 
-/* How far a vertex is out of what is held so far: from the centre, from the first vertex, from the line of two. */
-typedef struct Reach {
+/* Chooses three vertices far apart. A candidate's distance is taken from the centre, then from the first vertex, then
+ * from the line through the first two. */
+typedef struct Choice {
     const double *centre;
-    int held;
+    int chosen;
     double at[2][3];
-} Reach;
+} Choice;
 
-static double distance(const Reach *reach, const double *x)
+static double distance(const Choice *choice, const double *x)
 {
-    const double *from = reach->held == 0 ? reach->centre : reach->at[0];
+    const double *from = choice->chosen == 0 ? choice->centre : choice->at[0];
     double arm[3];
     for (int i = 0; i < 3; i++)
         arm[i] = x[i] - from[i];
-    if (reach->held < 2)
+    if (choice->chosen < 2)
         return ost_norm3(arm);
     double along[3], across[3];
     for (int i = 0; i < 3; i++)
-        along[i] = reach->at[1][i] - reach->at[0][i];
+        along[i] = choice->at[1][i] - choice->at[0][i];
     ost_cross3(arm, along, across);
     return ost_norm3(across) / ost_norm3(along);
 }
 
-/* The vertex farthest out, on every rank; `node` is its local number where it is owned, or -1. */
-static OstStatus find_farthest(const OstMesh *mesh, const Reach *reach, OstLocal *node, double at[3])
+/* The vertex at the largest distance, on every rank; `node` is its local number on its owner, and -1 elsewhere. */
+static OstStatus find_farthest(const OstMesh *mesh, const Choice *choice, OstLocal *node, double at[3])
 {
     OstContext *ctx = mesh->ctx;
     double farthest = 0.0;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        farthest = fmax(farthest, distance(reach, mesh->coordinates + 3 * (size_t)n));
+        farthest = fmax(farthest, distance(choice, mesh->coordinates + 3 * (size_t)n));
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
     OstGlobal lowest = INT64_MAX;
     *node = -1;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        if (distance(reach, mesh->coordinates + 3 * (size_t)n) < farthest * (1.0 - same) ||
+        if (distance(choice, mesh->coordinates + 3 * (size_t)n) < farthest * (1.0 - same) ||
             mesh->node_label[n] >= lowest)
             continue;
         lowest = mesh->node_label[n];
@@ -65,7 +66,8 @@ static void difference(const double *to, const double *from, double d[3])
         d[i] = to[i] - from[i];
 }
 
-/* Held directions of the three vertices: all; across the first line; across the plane. */
+/* Constrained directions: all three of the first vertex; two of the second, across the line from the first; one of the
+ * third, across the plane of the three. */
 static void choose_directions(double at[3][3], double direction[6][3], int vertex[6])
 {
     double line[3], arm[3];
@@ -86,27 +88,27 @@ static void choose_directions(double at[3][3], double direction[6][3], int verte
     }
 }
 
-static OstStatus hold_three(const OstMesh *mesh, OstSupports *supports)
+static OstStatus constrain_three(const OstMesh *mesh, OstSupports *supports)
 {
     OstContext *ctx = mesh->ctx;
     double low[3], high[3], centre[3], at[3][3], direction[6][3];
     OstLocal node[3];
     int vertex[6];
-    Reach reach = {.centre = centre};
+    Choice choice = {.centre = centre};
     OST_TRY(ost_mesh_bounds(mesh, low, high));
     for (int i = 0; i < 3; i++)
         centre[i] = 0.5 * (low[i] + high[i]);
     for (int k = 0; k < 3; k++) {
-        OST_TRY(find_farthest(mesh, &reach, &node[k], at[k]));
+        OST_TRY(find_farthest(mesh, &choice, &node[k], at[k]));
         if (k < 2)
-            memcpy(reach.at[k], at[k], sizeof at[k]);
-        reach.held = k + 1;
+            memcpy(choice.at[k], at[k], sizeof at[k]);
+        choice.chosen = k + 1;
     }
     choose_directions(at, direction, vertex);
     OstStatus status = OST_SUCCESS;
     for (int k = 0; k < 6 && status == OST_SUCCESS; k++)
         if (node[vertex[k]] >= 0)
-            status = ost_supports_hold(supports, node[vertex[k]], direction[k], 0.0);
+            status = ost_supports_constrain(supports, node[vertex[k]], direction[k], 0.0);
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(supports);
 }
@@ -117,7 +119,7 @@ OstStatus ost_free_body_supports(const OstMesh *mesh, const OstEffects *effects,
     OstStatus status = ost_agree(mesh->ctx, ost_supports_create(mesh, supports));
     if (status == OST_SUCCESS) {
         (*supports)->effects = effects;
-        status = hold_three(mesh, *supports);
+        status = constrain_three(mesh, *supports);
     }
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
@@ -125,18 +127,18 @@ OstStatus ost_free_body_supports(const OstMesh *mesh, const OstEffects *effects,
     return status;
 }
 
-/* Integrals over the body: volume, place, displacement, and twice the rotation (the curl). */
-enum { SUM_VOLUME, SUM_PLACE, SUM_MOVE = 4, SUM_CURL = 7, SUM_BODY = 10 };
+/* Integrals over the body: volume, position, displacement, curl of the displacement. */
+enum { SUM_VOLUME, SUM_POSITION, SUM_DISPLACEMENT = 4, SUM_CURL = 7, SUM_BODY = 10 };
 
-/* From a tet's vertices, which give all of it for motions without strain and for even strains. */
+/* By the tet's vertices alone: right for rigid motion and uniform strain, in quadratic tets too. */
 static void add_tet(const OstMesh *mesh, const OstLocal *nodes, const double *u, double sums[SUM_BODY])
 {
     const double volume = ost_tet_volume(mesh->coordinates, nodes);
     double edge[9], inverse[9] = {0.0}, change[9], gradient[9];
     for (int v = 0; v < 4; v++) {
         for (int i = 0; i < 3; i++) {
-            sums[SUM_PLACE + i] += 0.25 * volume * mesh->coordinates[3 * (size_t)nodes[v] + (size_t)i];
-            sums[SUM_MOVE + i] += 0.25 * volume * u[3 * (size_t)nodes[v] + (size_t)i];
+            sums[SUM_POSITION + i] += 0.25 * volume * mesh->coordinates[3 * (size_t)nodes[v] + (size_t)i];
+            sums[SUM_DISPLACEMENT + i] += 0.25 * volume * u[3 * (size_t)nodes[v] + (size_t)i];
         }
         if (v == 0)
             continue;
@@ -145,7 +147,7 @@ static void add_tet(const OstMesh *mesh, const OstLocal *nodes, const double *u,
         difference(u + 3 * (size_t)nodes[v], u + 3 * (size_t)nodes[0], change + 3 * (v - 1));
     }
     ost_invert3(edge, inverse);
-    ost_multiply3(inverse, change, gradient); /* row j: how u changes along direction j */
+    ost_multiply3(inverse, change, gradient); /* row j: du/dx_j */
     sums[SUM_VOLUME] += volume;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
@@ -162,8 +164,8 @@ static OstStatus centre_body(const OstMesh *mesh, double *displacement)
         add_tet(mesh, mesh->tet_nodes + (size_t)t * (size_t)mesh->nodes_per_tet, displacement, sums);
     OST_TRY(OST_MPI(mesh->ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_BODY, MPI_DOUBLE, MPI_SUM, ost_comm(mesh->ctx))));
     for (int i = 0; i < 3; i++) {
-        centre[i] = sums[SUM_PLACE + i] / sums[SUM_VOLUME];
-        mean[i] = sums[SUM_MOVE + i] / sums[SUM_VOLUME];
+        centre[i] = sums[SUM_POSITION + i] / sums[SUM_VOLUME];
+        mean[i] = sums[SUM_DISPLACEMENT + i] / sums[SUM_VOLUME];
         rotation[i] = 0.5 * sums[SUM_CURL + i] / sums[SUM_VOLUME];
     }
     for (OstLocal n = 0; n < mesh->node_count; n++) {

@@ -5,15 +5,15 @@
 #include "assembly/supports.h"
 #include "problem/result_data.h"
 
-/* A body that nothing holds, under loads that balance each other: it is held at six components of three vertices, just
- * enough (so that they carry nothing), and its rigid motion is taken out of the answer. OST_EFFECT_FREE_BODY. */
+/* An unconstrained body under loads that balance each other. Six components at three vertices are constrained, which is
+ * just enough, so their reactions are zero; then rigid motion is taken out of the answer. OST_EFFECT_FREE_BODY. */
 
-/* Collective. Supports that hold three vertices far apart: one in all directions, one across the line to the first, one
- * across the plane of the three. */
+/* Collective. Supports at three vertices far apart: the first constrained in all directions, the second across the line
+ * from the first, the third across the plane of the three. */
 OstStatus ost_free_body_supports(const OstMesh *mesh, const OstEffects *effects, OstSupports **supports);
 
-/* Collective. Takes from a displacement (3 × node_count, ghosts filled) the rigid motion that leaves its mean over the
- * volume, and that of its rotation (half its curl), at zero. */
+/* Collective. Subtracts a rigid motion from a displacement (3 × node_count, ghosts filled) so that its mean over the
+ * volume, and that of its rotation (half its curl), are zero. */
 OstStatus ost_free_body_centre(const OstMesh *mesh, double *displacement);
 
 #endif

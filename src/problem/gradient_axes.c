@@ -13,17 +13,17 @@
 
 #include <string.h>
 
-/* Axes need fewer digits than the pose, but must not be what limits it. */
+/* Accurate enough that the error of the axes does not limit that of the displacement. */
 static const double potential_residual = 1e-10;
 
-/* The two potentials are components 0 and 1. Component 2 repeats the first: a third right-hand side costs less than a
- * matrix of another shape. */
+/* The two potentials are components 0 and 1 of a displacement. Component 2 repeats the first: a third right-hand side
+ * costs less than a matrix with 2×2 blocks. */
 static const int potential_of_component[3] = {0, 1, 0};
 
 static const OstGlobal none_shared = INT64_MAX;
 
-static OstStatus hold_boundary(const OstScene *scene, const char *name, int potential, double value,
-                               OstSupports *supports)
+static OstStatus prescribe_potential(const OstScene *scene, const char *name, int potential, double value,
+                                     OstSupports *supports)
 {
     OstLocal count = 0;
     OstLocal *nodes = NULL;
@@ -37,14 +37,14 @@ static OstStatus hold_boundary(const OstScene *scene, const char *name, int pote
                 continue;
             double direction[3] = {0.0};
             direction[component] = 1.0;
-            status = ost_supports_hold(supports, nodes[i], direction, value);
+            status = ost_supports_constrain(supports, nodes[i], direction, value);
         }
     }
     OST_FREE(nodes);
     return ost_agree(scene->ctx, status);
 }
 
-/* The lowest label of the vertices that both boundaries hold, or none_shared. */
+/* The lowest label among the vertices in both boundaries, or none_shared. */
 static OstStatus find_shared(const OstScene *scene, OstPlace place, const OstAxesSpec *spec, int potential,
                              OstGlobal *shared)
 {
@@ -77,24 +77,24 @@ static OstStatus check_apart(const OstScene *scene, int region, const OstAxesSpe
         if (shared != none_shared)
             return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                              "%s:%d:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "
-                             "%lld; a potential needs them apart",
+                             "%lld; a potential needs two boundaries that do not touch",
                              scene->c->path, place.line, place.column, scene->mesh->regions.name[region], potential + 1,
                              spec->from[potential], spec->to[potential], (long long)shared);
     }
     return OST_SUCCESS;
 }
 
-static OstStatus hold_potentials(const OstScene *scene, const OstAxesSpec *spec, OstSupports **supports)
+static OstStatus prescribe_potentials(const OstScene *scene, const OstAxesSpec *spec, OstSupports **supports)
 {
     OST_TRY(ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports)));
     for (int potential = 0; potential < 2; potential++) {
-        OST_TRY(hold_boundary(scene, spec->from[potential], potential, 0.0, *supports));
-        OST_TRY(hold_boundary(scene, spec->to[potential], potential, 1.0, *supports));
+        OST_TRY(prescribe_potential(scene, spec->from[potential], potential, 0.0, *supports));
+        OST_TRY(prescribe_potential(scene, spec->to[potential], potential, 1.0, *supports));
     }
     return ost_supports_complete(*supports);
 }
 
-/* Solves the potentials; u holds them at every local node, three numbers a node. */
+/* Solves for the potentials; u has them at every local node, three numbers a node. */
 static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, double *u)
 {
     OstContext *ctx = scene->ctx;
@@ -123,7 +123,7 @@ done:
     return status;
 }
 
-static OstStatus axes_from_potentials(const OstScene *scene, int region, const double *u, double *given_axes)
+static OstStatus axes_from_potentials(const OstScene *scene, int region, const double *u, double *axes)
 {
     const OstMesh *mesh = scene->mesh;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -131,7 +131,7 @@ static OstStatus axes_from_potentials(const OstScene *scene, int region, const d
             continue;
         double gradients[9];
         ost_tet_component_gradients(mesh, t, u, gradients);
-        if (ost_axes_from_gradients(scene->ctx, gradients, gradients + 3, given_axes + 9 * (size_t)t) != OST_SUCCESS) {
+        if (ost_axes_from_gradients(scene->ctx, gradients, gradients + 3, axes + 9 * (size_t)t) != OST_SUCCESS) {
             char reason[256];
             strncpy(reason, ost_error_text(scene->ctx), sizeof reason - 1);
             reason[sizeof reason - 1] = '\0';
@@ -142,7 +142,7 @@ static OstStatus axes_from_potentials(const OstScene *scene, int region, const d
     return OST_SUCCESS;
 }
 
-OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *given_axes)
+OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes)
 {
     OstContext *ctx = scene->ctx;
     OstSupports *supports = NULL;
@@ -151,11 +151,11 @@ OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAx
     OstStatus status = check_apart(scene, region, spec);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(hold_potentials(scene, spec, &supports));
+    OST_TRY_DONE(prescribe_potentials(scene, spec, &supports));
     OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &u, 3 * (size_t)scene->mesh->node_count)));
     OST_TRY_DONE(solve_potentials(scene, system, u));
-    OST_TRY_DONE(ost_agree(ctx, axes_from_potentials(scene, region, u, given_axes)));
+    OST_TRY_DONE(ost_agree(ctx, axes_from_potentials(scene, region, u, axes)));
 done:
     OST_FREE(u);
     ost_system_destroy(&system);

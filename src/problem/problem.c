@@ -23,7 +23,7 @@ void ost_problem_destroy(OstProblem **problem)
     OST_FREE(*problem);
 }
 
-static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports)
+static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
     if (parts->free_body)
@@ -35,7 +35,8 @@ static OstStatus hold_nodes(const OstProblemParts *parts, OstSupports **supports
             status = OST_RAISE(ctx, OST_INVALID_INPUT, "constraint %d is on node %d, but this rank owns nodes 0 to %d",
                                i, constraint->node, parts->mesh->owned_nodes - 1);
         else
-            status = ost_supports_hold(*supports, constraint->node, constraint->direction, constraint->displacement);
+            status =
+                ost_supports_constrain(*supports, constraint->node, constraint->direction, constraint->displacement);
     }
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(*supports);
@@ -74,7 +75,7 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
         find_material_facts(parts->field, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = hold_nodes(parts, &made->supports);
+        status = constrain_nodes(parts, &made->supports);
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -140,13 +141,13 @@ void ost_problem_load(const OstProblem *problem, double t, double *force)
         force[i] = t * problem->force[i];
 }
 
-static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                        const OstMeans *means)
 {
     (void)element;
     (void)u;
-    for (int lane = 0; lane < batch->count; lane++)
-        *(double *)energy += means->energy[lane] * means->volume[lane];
+    for (int slot = 0; slot < batch->count; slot++)
+        *(double *)energy += means->energy[slot] * means->volume[slot];
 }
 
 OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
@@ -161,7 +162,7 @@ OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *
     return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
 }
 
-/* What is wrong with the supports is told with the place of the first. */
+/* A failure names the line of the first constraint. */
 static OstStatus make_pattern(OstProblem *problem)
 {
     const OstCase *c = problem->c;
@@ -173,7 +174,7 @@ static OstStatus make_pattern(OstProblem *problem)
 
 OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
 {
-    (void)u; /* every element there is has one stiffness for all u */
+    (void)u; /* all elements so far are linear: their stiffness does not depend on u */
     const int may_fill = problem->system && problem->system->block_of_tet;
     if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
         ost_problem_release_stiffness(problem);

@@ -6,9 +6,9 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/result.h"
 
-/* What linear theory is off by, about, because strains and rotations are not small. A part turned by an angle comes out
- * longer by half its square (a cantilever whose end turns by 0.5 bends 10 % too far: Mattiasson, Int. J. Numer. Meth.
- * Eng. 17, 1981, has 0.30172 of the length where linear theory has 1/3), and what small strain takes for e is e + e²/2
+/* Estimated relative error of linear theory, which takes strains and rotations as small. Rotated by an angle, a part
+ * comes out longer by half the angle's square (a cantilever whose end turns by 0.5 bends 10 % too far: Mattiasson, Int.
+ * J. Numer. Meth. Eng. 17, 1981, has 0.30172 of the length where linear theory has 1/3). A small strain e is e + e²/2
  * by Green's measure. */
 static inline double ost_linear_error(const OstChecks *checks)
 {
@@ -17,13 +17,12 @@ static inline double ost_linear_error(const OstChecks *checks)
     return turned > strained ? turned : strained;
 }
 
-/* What speaks against solving a problem, or against an answer, in words. One objection may be all that a solver tried.
- */
+/* Objections to solving a problem, or to an answer, in words. One may list all strategies that were tried. */
 enum { OST_MOST_OBJECTIONS = 8, OST_LONGEST_OBJECTION = OST_ERROR_TEXT_SIZE };
 
 typedef struct OstVerdict {
-    int count;        /* 0: nothing does; the same on all ranks */
-    OstStatus status; /* to fail with, of the first objection */
+    int count;        /* 0 if there are none; the same on all ranks */
+    OstStatus status; /* what to fail with: that of the first objection */
     char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
 } OstVerdict;
 
@@ -43,16 +42,16 @@ struct OstResult {
     double largest_at[3];
     OstSolveReport solve;
     OstChecks checks;
-    int reached;        /* is there a displacement to speak of? Not so if no solver came to work */
+    int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */
     OstVerdict verdict; /* no objections: the result is an answer */
 };
 
-/* A quantity that the case watches, as the answer has it. */
+/* A quantity of interest, as the answer has it. */
 typedef struct OstWatchedValue {
     const char *name;
     double value;
-    double expected; /* not a number where it is not known */
+    double expected; /* NAN if not known */
 } OstWatchedValue;
 
 #endif

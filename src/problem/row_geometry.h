@@ -5,9 +5,9 @@
 #include "algebra/solver.h"
 #include "assembly/system.h"
 
-/* What multigrid takes of a system's rows (ost_system_geometry), and the arrays behind it. */
+/* What multigrid needs to know of a system's rows (ost_system_geometry), with the arrays that hold it. */
 typedef struct OstRowGeometry {
-    double *coordinates, *metric, *modes; /* metric: NULL for Euclid's */
+    double *coordinates, *metric, *modes; /* metric: NULL if isotropic */
     OstSolverGeometry geometry;
 } OstRowGeometry;
 

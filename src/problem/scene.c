@@ -21,15 +21,15 @@ static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kin
 
 static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
 {
-    const char *brings = c->mesh_kind == OST_MESH_FILE
+    const char *reason = c->mesh_kind == OST_MESH_FILE
                              ? "the mesh file has no cell field 'axes' of nine components"
-                             : "the program's own shapes bring none, as a mesh file with a cell field 'axes' does";
+                             : "built-in shapes have no axes; a mesh file may have them as a cell field 'axes'";
     return ost_case_located(
         c, ost_case_material_of(c, region)->axes_place,
         OST_RAISE(c->ctx, OST_INVALID_INPUT,
                   "region '%.80s' takes its axes from the mesh, but %s; give a table instead (axes: "
                   "{cells: file.txt}), or a formula",
-                  region, brings));
+                  region, reason));
 }
 
 static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const OstSceneMaterials *materials)
@@ -53,8 +53,8 @@ static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMateria
     return OST_SUCCESS;
 }
 
-/* Axes from gradients, laid over those the mesh came with. One frame a tet is wanted, which potentials on linear tets
- * give: a quadratic mesh lends its vertices. */
+/* Axes from gradients, in place of those that came with the mesh. One frame a tet is needed, which potentials on linear
+ * tets give; for quadratic tets they are solved on the vertices. */
 static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
 {
     OstScene on_vertices = *scene;
@@ -133,25 +133,25 @@ static int count_nearly_incompressible(const OstScene *scene)
     return regions;
 }
 
-/* Linear tets cannot keep their volume and bend: near incompressibility they lock, and say so here. Quadratic ones see
- * the mean of the dilatation alone, which frees them. */
+/* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
+ * use the mean dilatation of each tet, which prevents it. */
 static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
     int regions = count_nearly_incompressible(scene);
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MEAN_DILATATION)) {
-        ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet sees its mean dilatation",
+        ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet uses its mean dilatation",
                 OST_NEARLY_INCOMPRESSIBLE);
         return ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
     }
     if (regions == 0)
         return OST_SUCCESS;
     /* Measured on sectors of a thick cylinder under pressure, 20 hexes of linear tets through the wall and 6 to 20
-     * along 30 to 90 degrees; cases/verify/cylinder-nu-499 and -4999 hold the program to it. */
+     * along 30 to 90 degrees; cases/verify/cylinder-nu-499 and -4999 test these numbers. */
     ost_warn(
         scene->ctx,
-        "nu is above %g in %d region%s: linear tets lock there and move too little, on a thick cylinder with 20 of "
-        "them through its wall by 5 %% at nu = 0.49, 10 to 25 %% at 0.499, 10 to 50 %% at 0.4999, where quadratic "
-        "ones are right to 0.1 %%: element: {order: 2}; `orthostat cost` says how much they differ here",
+        "nu is above %g in %d region%s: linear tets lock there and move too little: on a thick cylinder with 20 of "
+        "them through its wall by 5 %% at nu = 0.49, by 10 to 25 %% at 0.499, by 10 to 50 %% at 0.4999. Quadratic "
+        "ones are right to 0.1 %%: set element: {order: 2}; `orthostat cost` says how much they differ here",
         OST_NEARLY_INCOMPRESSIBLE, regions, regions == 1 ? "" : "s");
     return OST_SUCCESS;
 }
@@ -181,7 +181,7 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     return OST_SUCCESS;
 }
 
-/* The mesh is the case's, or made of the chunk if there is one. */
+/* Without a chunk the mesh is the case's. */
 static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
 {
     OstContext *ctx = c->ctx;

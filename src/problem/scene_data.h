@@ -2,22 +2,22 @@
 #ifndef ORTHOSTAT_PROBLEM_SCENE_DATA_H
 #define ORTHOSTAT_PROBLEM_SCENE_DATA_H
 
-#include "assembly/exact.h"
+#include "assembly/closed_form.h"
 #include "case/case_data.h"
 #include "case/plan.h"
 #include "formats/serial/formats.h"
 #include "orthostat/scene.h"
 #include "problem/result_data.h"
 
-/* A case made concrete on this rank: its piece of the mesh, its materials, and the plan of the work. */
+/* A case on this rank: its piece of the mesh, its materials, and the plan of the work. */
 struct OstScene {
     OstContext *ctx;
     const OstCase *c;
-    OstPlan plan;           /* its effects are what the work goes by */
+    OstPlan plan;           /* its effects decide what is computed */
     OstEffect *load_effect; /* of each load of the case */
     OstMesh *mesh;
     OstMaterialField *field;
-    const OstExactField *exact; /* what `exact` in the case stands for; set by whoever knows (`orthostat verify`) */
+    const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 
 #endif

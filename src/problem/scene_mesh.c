@@ -8,8 +8,8 @@
 #include "orthostat/refine.h"
 #include "problem/scene_partition.h"
 
-/* A shape too large for the machines is refused before it is made; what a solve holds at the least is compared, so that
- * nothing is refused that would fit. */
+/* Refuses a mesh too large for the machines before it is made. Compares the least that a solve needs, so that nothing
+ * is refused that would fit. */
 static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
 {
     OstPlan plan;
@@ -18,11 +18,10 @@ static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
     OST_TRY(ost_memory_free(c->ctx, &left));
     const double wanted = plan.bytes_mesh + plan.bytes_matrix;
     if (wanted > left)
-        return OST_RAISE(
-            c->ctx, OST_LIMIT_EXCEEDED,
-            "%s: %lld tets and their stiffness take about %.1f GiB at the least, and %.1f GiB are free; use "
-            "a coarser mesh, or more machines",
-            c->path, (long long)tets, wanted / 1073741824.0, left / 1073741824.0);
+        return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,
+                         "%s: %lld tets and their stiffness take at least about %.1f GiB, and %.1f GiB are free; use "
+                         "a coarser mesh, or more machines",
+                         c->path, (long long)tets, wanted / 1073741824.0, left / 1073741824.0);
     return OST_SUCCESS;
 }
 
@@ -49,7 +48,7 @@ static OstStatus make_chunk(const OstCase *c, OstMeshChunk **chunk, OstFileMater
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case names no mesh", c->path);
 }
 
-/* A merge that joins nothing was meant to join something. */
+/* A merge that joins nothing is likely an error: warns. */
 static OstStatus merge_vertices(const OstCase *c, OstMeshChunk *chunk)
 {
     OstGlobal merged = 0;
@@ -64,7 +63,7 @@ static OstStatus merge_vertices(const OstCase *c, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* Where new nodes of the case's mesh belong. */
+/* The curved surface on which new nodes of the case's shape are placed. */
 static OstShapeSurface true_surface(const OstCase *c)
 {
     const OstShapeSurface straight = {.kind = OST_SURFACE_NONE};
@@ -81,7 +80,6 @@ static OstShapeSurface true_surface(const OstCase *c)
     }
 }
 
-/* Puts `made` in place of `mesh`. */
 static void replace(OstMesh **mesh, OstMesh **made)
 {
     ost_mesh_destroy(mesh);
@@ -99,7 +97,7 @@ static OstStatus refine(const OstCase *c, const OstShapeSurface *surface, OstMes
     return OST_SUCCESS;
 }
 
-/* Order 0 stands for the order that the mesh has. */
+/* Order 0 keeps the order of the mesh. */
 static OstStatus change_order(const OstCase *c, const OstShapeSurface *surface, OstMesh **mesh)
 {
     OstMesh *changed = NULL;

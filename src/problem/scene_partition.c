@@ -5,7 +5,7 @@
 #include "core/memory.h"
 #include "material/field_data.h"
 
-/* Are these axes known before the mesh is cut? */
+/* Are these axes known before the mesh is partitioned? */
 static int known_early(const OstMeshChunk *chunk, const OstAxesSpec *axes)
 {
     return axes->kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : axes->kind != OST_AXES_GRADIENT;
@@ -24,7 +24,7 @@ static int any_has_direction(const OstMeshChunk *chunk, const OstSceneMaterials 
     return 0;
 }
 
-/* Of a field of the chunk's own, in which regions without known axes are isotropic. */
+/* By a field on the chunk, in which regions without known axes are isotropic. */
 static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric)
 {
     OstContext *ctx = chunk->ctx;

@@ -4,10 +4,10 @@
 
 #include "problem/scene_materials.h"
 
-/* Collective. Distributes the mesh (ost_mesh_distribute) so that ranks' borders run along the stiff directions of
- * orthotropic materials rather than across: multigrid's aggregates and blocks end at a border, and what they cut there
- * costs iterations. Axes that are not known yet (of gradients) count as isotropic; isotropic bodies are asked nothing.
- */
+/* Collective. Distributes the mesh (ost_mesh_distribute) so that borders of ranks run along the stiff directions of
+ * orthotropic materials rather than across them: aggregates and blocks of multigrid end at a border, and a strong
+ * coupling lost there costs iterations. Axes that are not known yet (of gradients) count as isotropic; a body of
+ * isotropic materials is partitioned without weights. */
 OstStatus ost_scene_partition(const OstSceneMaterials *materials, OstMeshChunk **chunk, OstMesh **mesh);
 
 #endif

@@ -7,7 +7,6 @@
 #include "solve/result.h"
 #include "solve/strategy.h"
 
-/* The strategy that suits the problem, or NULL. */
 static const OstStrategy *pick(const OstProblem *problem)
 {
     return ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
@@ -19,7 +18,7 @@ OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *optio
     const OstStrategy *strategy = pick(problem);
     *analysis = NULL;
     if (!strategy)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and no strategy here solves those");
+        return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and there is no strategy for that");
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, analysis, 1)));
     **analysis = (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy};
     return OST_SUCCESS;
@@ -33,7 +32,7 @@ void ost_analysis_destroy(OstAnalysis **analysis)
     OST_FREE(*analysis);
 }
 
-/* Whatever speaks against solving, in one failure. */
+/* Makes all that the solve needs. All objections are raised as one failure. */
 static OstStatus prepare(OstAnalysis *analysis)
 {
     OstVerdict before = {.count = 0};

@@ -9,11 +9,10 @@
 #include "problem/free_body.h"
 #include "solve/strategy.h"
 
-/* One linear solve: K v = P (f - K g), u = v + g. Stiffness and solver are made for the first load and serve the next.
- */
+/* One linear solve: K v = P (f - K g), u = v + g. Stiffness and solver are made once, for all loads. */
 typedef struct Linear {
     OstRowGeometry rows;
-    OstLinearSpace *coarse; /* under quadratic tets */
+    OstLinearSpace *coarse; /* of the linear tets under quadratic ones, or NULL */
     OstSolverFacts facts;
     OstSolver *solver; /* made by the first solve */
     double *rhs, *v;   /* 3 × rows */
@@ -67,7 +66,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     return ost_guard_load(problem, linear->rhs, before);
 }
 
-/* Where nobody has looked for effects, the rule of that one is applied here. */
+/* A problem made without a case has no effects; the rule of this one is then applied here. */
 static int needs_linear_space(const OstProblem *problem, const OstSolverPlan *plan)
 {
     return problem->effects ? ost_effect_on(problem->effects, OST_EFFECT_LINEAR_SPACE)

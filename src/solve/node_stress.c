@@ -5,13 +5,13 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
-#include "element/strain_lanes.h"
+#include "element/strain_batch.h"
 
 #include <string.h>
 
 /* Sums over the tets around each owned node. */
 typedef struct Sums {
-    int32_t *region; /* the lowest around the node */
+    int32_t *region; /* the lowest of the tets around the node */
     double *volume;  /* of that region's tets */
     double *stress;  /* times volume, 6 × node_count */
 } Sums;
@@ -34,21 +34,21 @@ static void find_regions(const OstMesh *mesh, int32_t *region)
 }
 
 /* stress = C strain, with the stiff mode's part replaced by its mean where C is split. */
-static void stress_at(const OstElasticity *elasticity, int point, const OstLanes strain[6], const OstLanes *mean,
-                      OstLanes stress[6])
+static void stress_at(const OstElasticity *elasticity, int point, const OstSimd strain[6], const OstSimd *mean,
+                      OstSimd stress[6])
 {
     const int at = ost_elasticity_at(elasticity, point);
-    ost_lanes_stress(elasticity->c[at], strain, stress);
+    ost_simd_stress(elasticity->c[at], strain, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
         stress[p] += *mean * elasticity->m[at][p];
 }
 
 /* Stress at the nodes of a batch's tets, 6 numbers a node. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
-                            OstElasticity *at_nodes, OstLanes *stress)
+                            OstElasticity *at_nodes, OstSimd *stress)
 {
-    OstLanes u[3 * OST_MAX_TET_NODES];
-    OstLanes strain[6 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd strain[6 * OST_MAX_TET_NODES];
     OstMeans means;
     ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
     element->nodal_strain(batch->x, u, strain);
@@ -58,19 +58,19 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
         stress_at(at_nodes, a, strain + 6 * a, &means.stiff, stress + 6 * a);
 }
 
-static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstLanes *stress,
+static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
                       Sums *sums)
 {
-    for (int lane = 0; lane < batch->count; lane++) {
-        const OstLocal tet = batch->tet[lane];
+    for (int slot = 0; slot < batch->count; slot++) {
+        const OstLocal tet = batch->tet[slot];
         const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes_of(mesh, tet)));
         for (int a = 0; a < element->nodes; a++) {
-            const OstLocal node = batch->node[lane][a];
+            const OstLocal node = batch->node[slot][a];
             if (node >= mesh->owned_nodes || mesh->tet_region[tet] != sums->region[node])
                 continue;
             sums->volume[node] += volume;
             for (int p = 0; p < 6; p++)
-                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][lane];
+                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][slot];
         }
     }
 }
@@ -84,8 +84,8 @@ static void average(const OstResult *result, Sums *sums)
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_nodes);
     find_regions(mesh, sums->region);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
-        OstLanes stress[6 * OST_MAX_TET_NODES];
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd stress[6 * OST_MAX_TET_NODES];
         ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
         stress_of_batch(result, element, &batch, &at_nodes, stress);
         add_batch(mesh, element, &batch, stress, sums);

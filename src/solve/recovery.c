@@ -12,22 +12,22 @@ static int asks(unsigned fields, OstOutputFieldBit field)
     return (fields >> field & 1U) != 0;
 }
 
-static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                         const OstMeans *means)
 {
     OstResult *result = data;
     (void)element;
     (void)u;
-    for (int lane = 0; lane < batch->count; lane++) {
-        const size_t tet = (size_t)batch->tet[lane];
+    for (int slot = 0; slot < batch->count; slot++) {
+        const size_t tet = (size_t)batch->tet[slot];
         for (size_t p = 0; p < 6; p++) {
             if (result->strain)
-                result->strain[6 * tet + p] = means->strain[p][lane];
+                result->strain[6 * tet + p] = means->strain[p][slot];
             if (result->stress)
-                result->stress[6 * tet + p] = means->stress[p][lane];
+                result->stress[6 * tet + p] = means->stress[p][slot];
         }
         if (result->strain_energy_density)
-            result->strain_energy_density[tet] = means->energy[lane];
+            result->strain_energy_density[tet] = means->energy[slot];
     }
 }
 

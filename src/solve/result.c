@@ -63,7 +63,7 @@ OstStatus ost_result_find_largest(OstResult *result)
     double at[3] = {0.0};
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         const double size = ost_norm3(result->displacement + 3 * (size_t)n);
-        if (!(size > largest.value)) /* nor what is no number */
+        if (!(size > largest.value)) /* NaN neither */
             continue;
         largest.value = size;
         memcpy(at, mesh->coordinates + 3 * (size_t)n, sizeof at);

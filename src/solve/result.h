@@ -8,7 +8,7 @@
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 
-/* Collective. Gives it the problem's load, and room for the reactions. */
+/* Collective. Copies the problem's load, and makes room for the reactions. */
 OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem);
 
 /* Collective. Finds where the displacement is largest. */

@@ -6,14 +6,13 @@
 #include "orthostat/analysis.h"
 #include "problem/problem.h"
 
-/* A way to solve a problem. One more is one more file, and a line in analysis.c where it is picked. Each function is
- * collective and gets the analysis' own work space, of the strategy's making. */
+/* A way to solve a problem. A new one is a new file, and a line in analysis.c that picks it. Each function is
+ * collective and works on analysis->work, which the strategy allocates. */
 typedef struct OstStrategy {
-    /* Makes what solves for any load will share, as far as it is not there, and what this one needs; adds to `before`
-     * what speaks against solving. */
+    /* Makes what all solves share, unless it is there, and what this load needs; adds objections to `before`. */
     OstStatus (*prepare)(OstAnalysis *analysis, OstVerdict *before);
 
-    /* Fills result->displacement, result->solve and result->reached, and what the answer is measured by. */
+    /* Fills result->displacement, result->solve, result->reached, and the sizes that errors are relative to. */
     OstStatus (*solve)(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for);
 
     /* Frees the work space. */

@@ -15,7 +15,7 @@
 typedef struct View {
     const OstMesh *mesh;
     const OstResult *result;
-    const OstExactField *exact;
+    const OstClosedForm *exact;
     const OstVerifyQuantity *quantity;
 } View;
 
@@ -35,21 +35,14 @@ typedef struct Mode {
 
 /* --- inside a tet --- */
 
-/* Three numbers of each node, row by row. */
-static void gather(const OstLocal *nodes, int count, const double *values, double *rows)
-{
-    for (int a = 0; a < count; a++)
-        memcpy(rows + 3 * a, values + 3 * (size_t)nodes[a], 3 * sizeof *rows);
-}
-
 static void gather_tet(const View *view, OstLocal tet, Tet *gathered)
 {
     const int n = view->mesh->nodes_per_tet;
     const OstLocal *nodes = view->mesh->tet_nodes + (size_t)n * (size_t)tet;
     gathered->nodes = n;
     gathered->number = tet;
-    gather(nodes, n, view->mesh->coordinates, gathered->x);
-    gather(nodes, n, view->result->displacement, gathered->u);
+    ost_gather3(n, nodes, view->mesh->coordinates, gathered->x);
+    ost_gather3(n, nodes, view->result->displacement, gathered->u);
 }
 
 /* 11 22 33 12 23 31, shear twice. */
@@ -211,8 +204,8 @@ static OstStatus add_face(const View *view, const OstSurface *surface, OstLocal 
     const int n = surface->nodes_per_face;
     const OstLocal *nodes = surface->nodes + (size_t)n * (size_t)f;
     double x[3 * OST_MAX_FACE_NODES], u[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    gather(nodes, n, view->mesh->coordinates, x);
-    gather(nodes, n, view->result->displacement, u);
+    ost_gather3(n, nodes, view->mesh->coordinates, x);
+    ost_gather3(n, nodes, view->result->displacement, u);
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         Point point = {surface, f, ost_triangle_degree5.point[q].at, {0.0}};
         double moved[3], area[3], value, distance;

@@ -57,7 +57,7 @@ static void a_program_brings_mesh_and_axes(void **state)
     OstResult *result = NULL;
     assert_success(ost_case_parse(ctx, "bar", bar, &c));
     assert_failure(ost_scene_create(c, &scene), OST_INVALID_INPUT,
-                   "bar:1:7: the case leaves its mesh to a program (ost_scene_create_on)");
+                   "bar:1:7: the case expects its mesh from a program (ost_scene_create_on)");
     assert_success(ost_chunk_create_block(ctx, &shape, &chunk));
     assert_success(ost_allocate(ctx, 9 * (size_t)chunk->tet_count, sizeof(double), (void **)&chunk->tet_axes));
     for (OstLocal t = 0; t < chunk->tet_count; t++)

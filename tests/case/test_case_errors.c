@@ -42,10 +42,10 @@ static void missing_doubled_and_empty_keys_are_refused(void **state)
     assert_refused(STEEL, "1:1: key 'mesh' is missing in the case");
     assert_refused(CUBE "materials: [{region: all, youngs_modulus: 1}]\n",
                    "2:13: key 'poissons_ratio' is missing in materials[0]");
-    assert_refused(CUBE CUBE, "2:1: key 'mesh' stands twice in the case, the first time in line 1; keep one");
+    assert_refused(CUBE CUBE, "2:1: key 'mesh' occurs twice in the case, the first time in line 1; keep one");
     assert_refused(CUBE "materials:\n",
                    "2:1: key 'materials' in the case has no value; give it one, or leave the key out");
-    assert_refused(CUBE, "1:1: the case has no materials, and its mesh brings none; add materials (region, "
+    assert_refused(CUBE, "1:1: the case has no materials, and its mesh has none; add materials (region, "
                          "youngs_modulus, poissons_ratio)");
 }
 
@@ -73,8 +73,8 @@ static void numbers_are_whole_and_finite(void **state)
     (void)state;
     assert_refused(
         MATERIAL("youngs_modulus: 1e6Pa, poissons_ratio: 0.3"),
-        "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (units are "
-        "yours, and not written)");
+        "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (write no "
+        "units; use consistent ones)");
     assert_refused(MATERIAL("youngs_modulus: .nan, poissons_ratio: 0.3"),
                    "3:35: materials[0].youngs_modulus: found '.nan', expected a finite number");
     assert_refused(MATERIAL("youngs_modulus: -Infinity, poissons_ratio: 0.3"),
@@ -124,11 +124,11 @@ static void constants_that_do_not_go_together_are_refused(void **state)
 {
     (void)state;
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
-                   "3:54: poissons_ratio {plane, plane_axis} wants youngs_modulus {plane, axis}");
+                   "3:54: poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),
-                   "3:62: nu12, nu23 and nu31 want shear_modulus {G12, G23, G31}; ...");
+                   "3:62: nu12, nu23 and nu31 need shear_modulus {G12, G23, G31}; ...");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G21: 1}"),
-                   "3:88: 'G12' and 'G21' are the same modulus; give one of them");
+                   "3:88: 'G12' and 'G21' are the same modulus; state one of them");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G23: 1}"),
                    "3:74: expected either G12, G23 and G31 (or G13), or axis alone");
     assert_refused(
@@ -149,12 +149,12 @@ static void bad_axes_are_refused_where_they_stand(void **state)
     assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 0], order: [axial, radial, tangential]}"),
                    "3:113: found the vector 0 0 0, expected a direction: three numbers not all zero");
     assert_refused(AXES("cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [axial, radial, radial]}"),
-                   "3:147: direction 'radial' stands twice; e1, e2 and e3 take a different one each");
+                   "3:147: direction 'radial' occurs twice; e1, e2 and e3 need a different one each");
     assert_refused(AXES("curve: {points: [[0, 0, 0]]}"), "3:90: found 1 points, expected two at least");
     assert_refused(AXES("curve: {points: [[0, 0, 0], [0, 0, 0]]}"),
-                   "3:102: this point is the one before it again; a curve moves on");
+                   "3:102: this point repeats the one before it; neighbouring points of a curve must differ");
     assert_refused(AXES("gradient: {e1: {from: a, to: a}, e2: {from: b, to: c}}"),
-                   "3:103: 'a' is both from and to; a gradient runs between two boundaries");
+                   "3:103: 'a' is both from and to; a gradient needs two boundaries");
 }
 
 static void bad_selections_are_refused(void **state)
@@ -165,7 +165,7 @@ static void bad_selections_are_refused(void **state)
                    "4:67: constraints[0].on.plane.tolerance: found '-1', expected a distance, 0 or above");
     assert_refused(ON("box: {min: [0, 2, 0], max: [1, 1, 1]}"),
                    "4:22: min is above max along y (2 > 1); exchange them");
-    assert_refused(ON("vertices: [1, 2, 1]"), "4:21: vertex 1 stands twice in the list");
+    assert_refused(ON("vertices: [1, 2, 1]"), "4:21: vertex 1 occurs twice in the list");
     assert_refused(ON("vertices: held.txt"), "4:21: constraints[0].on.vertices: found 'held.txt', expected a list of "
                                              "vertex labels, or the name of a .bou file");
     assert_refused(ON("cylinder: {origin: [0, 0, 0], axis: [0, 0, 1], radius: 1, radii: [0, 1]}"),
@@ -176,7 +176,7 @@ static void bad_conditions_are_refused(void **state)
 {
     (void)state;
     assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [free, free, free]}\n",
-                   "4:37: every component is free, so this constraint holds nothing; leave it out");
+                   "4:37: every component is free, so this constraint constrains nothing; leave it out");
     assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [fre, 0, 0]}\n",
                    "4:38: constraints[0].displacement[0]: found 'fre', expected a number");
     assert_refused(LOAD("traction: [1, 0, 0]"), "4:5: 'traction' needs 'on': where it acts");
@@ -186,7 +186,7 @@ static void bad_conditions_are_refused(void **state)
                    "4:43: 'share' belongs to total_force, not to 'pressure'");
     assert_refused(LOAD("on: {all: true}, pressure: 1, region: a"),
                    "4:44: 'region' belongs to gravity and body_force; 'pressure' acts where 'on' says");
-    assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity pulls on mass, but no material has a density; ...");
+    assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity acts on mass, but no material has a density; ...");
 }
 
 static void what_no_version_does_is_refused_in_words(void **state)

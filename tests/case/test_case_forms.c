@@ -276,8 +276,8 @@ static void displacements_may_be_free(void **state)
     assert_success(read_text(whole, &c));
     const OstConstraint *constraint = &c->constraints[0];
     assert_int_equal(constraint->kind, OST_CONSTRAIN_DISPLACEMENT);
-    assert_int_equal(constraint->held[0], 0);
-    assert_int_equal(constraint->held[1] && constraint->held[2], 1);
+    assert_int_equal(constraint->constrained[0], 0);
+    assert_int_equal(constraint->constrained[1] && constraint->constrained[2], 1);
     assert_close(constraint->displacement[2], -1.5, 0.0);
     ost_case_destroy(&c);
 }

@@ -16,7 +16,7 @@ static void text_that_is_not_yaml_is_refused_with_its_place(void **state)
     assert_refused("title: *a\n", "1:8: an alias (*name) to an anchor (&name) that is not there before it");
     assert_refused("title: &a [*a]\n", "1:12: an alias (*name) within the value it stands for");
     assert_refused("title: \xff\xfe\n", "1:8: not text in UTF-8: ...");
-    assert_refused("[1]: 2\n", "1:1: a list or mapping stands where a key is expected");
+    assert_refused("[1]: 2\n", "1:1: found a list or mapping, expected a key");
 }
 
 static void nesting_is_limited(void **state)

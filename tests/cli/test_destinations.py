@@ -167,7 +167,7 @@ def a_full_disk_costs_no_result(folder):
     process = subprocess.run([PROGRAM, "solve", "room.yaml"], cwd=folder, text=True, stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit, restore_signals=False,
                              env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"}, timeout=240)
-    check(process.returncode == 2 and "MiB that it takes: File too large" in process.stderr,
+    check(process.returncode == 2 and "MiB of disk space, which cannot be reserved: File too large" in process.stderr,
           f"a full disk: exit {process.returncode}\n{process.stderr}")
     check(read(folder, "room.vtkhdf") == b"an earlier result", "a full disk: the earlier result is gone")
     check(not [name for name in os.listdir(folder) if name.startswith(".orthostat-")], "a full disk: a part was left")

@@ -76,7 +76,7 @@ REFUSED = [
      "the stiffest nodes are of size"),
     ("loads beyond the range of numbers", case(HELD, "  - {on: {nearest: [1, 1, 1]}, point_force: [0, 0, -1e120]}"), [ONE],
      "the loads are of size 1e+120"),
-    ("a free body in two parts", case("free_body"), [ONE, EDGE], "free_body takes one body that holds together"),
+    ("a free body in two parts", case("free_body"), [ONE, EDGE], "free_body takes one connected body"),
     ("a merge of a shape", case(HELD, mesh=BEAM + ", merge: 1e-6"), [], "merge joins coincident vertices of a mesh file"),
     ("a merge of nothing", case(HELD, mesh="file: m.veg, merge: 0"), [ONE], "merge"),
     ("an unknown word", case("free_boddy"), [ONE], "expected a list of constraints"),

@@ -59,7 +59,7 @@ def a_next_strategy_is_told():
         check("too slow" in steps[0]["outcome"] and steps[0]["iterations"] == 40, f"first step: {steps[0]}")
         check(steps[3]["relative_residual"] <= 1e-9, f"last step: {steps[3]}")
         check(sum(step["iterations"] for step in steps) == report["solver"]["iterations"], "iterations do not add up")
-        check("climbed          metric, 40 iterations" in finished.output, finished.output)
+        check("strategies       metric, 40 iterations" in finished.output, finished.output)
 
 
 def without_memory_all_that_was_tried_is_told():

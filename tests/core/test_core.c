@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 #include "core/small.h"
 #include "support.h"
 
@@ -115,11 +116,25 @@ static void every_status_has_its_exit_code(void **state)
     assert_string_equal(ost_status_name(99), "unknown status");
 }
 
+/* Asked before libraries are called that end the process where memory runs out. */
+static void memory_that_is_not_there_is_refused_before_it_is_asked_for(void **state)
+{
+    (void)state;
+    assert_success(ost_memory_foresee(ctx, 1e6, "a library"));
+    assert_failure(ost_memory_foresee(ctx, 1e16, "a library"), OST_OUT_OF_MEMORY, "a library would need another");
+    assert_int_equal(ost_ledger_bytes(ctx), 0);
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(memory_is_booked_and_released),  cmocka_unit_test(impossible_sizes_are_refused),
-    cmocka_unit_test(accounts_nest_and_add_up),       cmocka_unit_test(eigenvalues_of_a_known_matrix),
-    cmocka_unit_test(cholesky_finds_the_bad_pivot),   cmocka_unit_test(inverse_times_matrix_is_identity),
-    cmocka_unit_test(every_status_has_its_exit_code), cmocka_unit_test(warnings_are_heard_even_when_quiet),
+    cmocka_unit_test(memory_is_booked_and_released),
+    cmocka_unit_test(impossible_sizes_are_refused),
+    cmocka_unit_test(accounts_nest_and_add_up),
+    cmocka_unit_test(eigenvalues_of_a_known_matrix),
+    cmocka_unit_test(cholesky_finds_the_bad_pivot),
+    cmocka_unit_test(inverse_times_matrix_is_identity),
+    cmocka_unit_test(every_status_has_its_exit_code),
+    cmocka_unit_test(warnings_are_heard_even_when_quiet),
+    cmocka_unit_test(memory_that_is_not_there_is_refused_before_it_is_asked_for),
 };
 
 OST_TEST_MAIN(tests)

@@ -359,7 +359,7 @@ static void tets_the_other_way_round_are_turned(void **state)
     const MshModel model = {NULL, 5, 2, nodes4, elements};
     assert_success(read_and_listen(msh_write(&model, msh_flavours[MSH_41_TEXT], "turned.msh")));
     assert_int_equal(warnings, 1);
-    assert_non_null(strstr(warning, "turned.msh: all its tets are numbered the other way round; they were turned"));
+    assert_non_null(strstr(warning, "turned.msh: all tets are inverted; their vertices were reordered"));
     assert_true(first_volume() > 0.0);
     drop_mesh();
     memcpy(elements[0].nodes, (int[]){10, 20, 31, 40}, 4 * sizeof(int));

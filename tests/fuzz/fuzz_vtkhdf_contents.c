@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf/rehearsal.h"
+#include "formats/vtkhdf/dry_run.h"
 #include "fuzz.h"
 #include "hdf5_from_text.h"
 #include "read_mesh.h"
 
-/* Sound HDF5 files with any contents: what is fuzzed is our reader rather than HDF5, so no rehearsal is held. */
-OstStatus ost_hdf5_rehearse(OstContext *ctx, const char *path, OstReading *read_file)
+/* Sound HDF5 files with any contents: what is fuzzed is our reader rather than HDF5, so there is no dry run. */
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file)
 {
     (void)ctx;
     (void)path;

@@ -96,7 +96,7 @@ void hard_place(const HardPoint *point, HardCase *hard)
     if (point->flaw == HARD_NOT_A_NUMBER)
         hard->load.vector[1] = NAN;
     for (int d = 0; d < 3; d++)
-        hard->constraint.held[d] = 1;
+        hard->constraint.constrained[d] = 1;
 }
 
 OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard)

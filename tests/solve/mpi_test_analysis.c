@@ -139,9 +139,9 @@ static void a_dry_run_refuses_what_a_solve_refuses(void **state)
     double *force = make_force(made.mesh, 50, 1.0);
     OstProblem *sliding = make_problem(&made, 1, force), *held = make_problem(&made, 3, force);
     OstResult *result = NULL;
-    assert_failure(ost_problem_dry_run(sliding, &options), OST_INVALID_INPUT, "the problem: nothing holds these");
+    assert_failure(ost_problem_dry_run(sliding, &options), OST_INVALID_INPUT, "the problem: nothing constrains these");
     assert_failure(ost_problem_solve(sliding, &options, 0, &result), OST_INVALID_INPUT,
-                   "the problem: nothing holds these motions");
+                   "the problem: nothing constrains these motions");
     assert_false(result->reached);
     ost_result_destroy(&result);
     assert_success(ost_problem_dry_run(held, &options));

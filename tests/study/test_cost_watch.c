@@ -64,7 +64,7 @@ static void wrong_expectations_are_refused_where_they_stand(void **state)
     (void)state;
     refused("{e: {strain_energy: all, expected: much}}", "3:43: watch.e.expected: ...");
     refused("{e: {strain_energy: all, expected: .nan}}", "3:43: watch.e.expected: ...");
-    refused("{e: {strain_energy: all, source: a book}}", "3:41: found a source of no number...");
+    refused("{e: {strain_energy: all, source: a book}}", "3:41: found a source but no value...");
     refused("{e: {strain_energy: half}}", "3:28: unknown strain_energy 'half'; did you mean 'all'?...");
     refused("{e: {strain_energy: all, component: x}}", "3:44: the strain energy has no component...");
     refused("{e: {expected: 1}}", "3:12: watch.e has none of displacement, reaction...");
@@ -75,11 +75,12 @@ static void wrong_watches_are_refused_where_they_stand(void **state)
     (void)state;
     refused("[tip]", "3:8: watch: found a list of 1, expected a name for each quantity...");
     refused("{tip: stress}", "3:14: watch.tip: found 'stress', expected strain_energy...");
-    refused("{tip: {displacement: {boundary: xmin}}}", "3:29: the displacement of a place is watched...");
+    refused("{tip: {displacement: {boundary: xmin}}}", "3:29: a displacement is taken at one vertex...");
     refused("{tip: {component: x}}", "3:14: watch.tip has none of displacement, reaction...");
     refused("{tip: {displacement: {nearest: [1, 0, 0]}, component: w}}", "3:62: ...");
     refused("{tip: {displacment: {nearest: [1, 0, 0]}}}", "3:15: unknown key 'displacment' in watch.tip...");
-    refused("{tip: strain_energy, tip: strain_energy}", "3:29: 'tip' is watched twice, the first time in line 3...");
+    refused("{tip: strain_energy, tip: strain_energy}",
+            "3:29: quantity 'tip' occurs twice, the first time in line 3...");
 }
 
 static const struct CMUnitTest tests[] = {

@@ -76,9 +76,9 @@ static void the_word_exact_is_read(void **state)
              cube, steel);
     assert_success(read_text(whole, &c));
     for (int i = 0; i < 3; i++)
-        assert_true(c->constraints[0].held[i] && c->constraints[0].exact[i]);
-    assert_true(c->constraints[1].held[0] && c->constraints[1].exact[0]);
-    assert_false(c->constraints[1].held[1] || c->constraints[1].exact[1] || c->constraints[1].exact[2]);
+        assert_true(c->constraints[0].constrained[i] && c->constraints[0].exact[i]);
+    assert_true(c->constraints[1].constrained[0] && c->constraints[1].exact[0]);
+    assert_false(c->constraints[1].constrained[1] || c->constraints[1].exact[1] || c->constraints[1].exact[2]);
     assert_close(c->constraints[1].displacement[2], 2.0, 0.0);
     assert_true(c->loads[0].exact && c->loads[1].exact);
     ost_case_destroy(&c);
@@ -109,7 +109,7 @@ static void mistakes_are_named(void **state)
            "8:8: 'energy' needs 'expected': a value of the formula by name, or a number");
     refuse("  ladder: [{order: 1, refinements: [0]}]\n  quantities:\n    a: {field: energy, expected: 1, error: [1], "
            "rate: [1]}\n",
-           "8:8: 'field' is measured against the formula's, and has no 'expected' or 'scale'");
+           "8:8: 'field' is compared with the formula's field, and has no 'expected' or 'scale'");
 }
 
 static const struct CMUnitTest tests[] = {

@@ -40,7 +40,7 @@ OstStatus ost_yaml_located(const OstYaml *yaml, const OstYamlNode *node, OstStat
     return ost_yaml_raise(yaml, node, "%s", message);
 }
 
-/* Adds the child of `parent` that holds `target`, as ".key" or "[index]", and returns it. */
+/* Appends the child of `parent` that contains `target` to the text, as ".key" or "[index]", and returns it. */
 static const OstYamlNode *step_down(const OstYaml *yaml, const OstYamlNode *parent, const OstYamlNode *target,
                                     char *text, size_t size)
 {
@@ -99,7 +99,7 @@ OstStatus ost_yaml_raise_type(const OstYaml *yaml, const OstYamlNode *node, cons
                           more[0] && more[0] != ' ' ? " " : "", more);
 }
 
-/* Levenshtein's distance, of words short enough to be keys; a neighbouring pair swapped counts once. */
+/* Levenshtein's distance of two short words, in which swapped neighbours count once. */
 static int edit_distance(const char *a, const char *b)
 {
     enum { LONGEST = 32 };
@@ -124,7 +124,7 @@ static int edit_distance(const char *a, const char *b)
     return table[m][n];
 }
 
-/* Three quarters of the word, or more, begin both. */
+/* Do both begin with the same three quarters of the word, or more? */
 static int begins_alike(const char *word, const char *other)
 {
     size_t alike = 0;
@@ -136,7 +136,7 @@ static int begins_alike(const char *word, const char *other)
 const char *ost_nearest_word(const char *word, const char *const *words, int count)
 {
     const char *nearest = NULL;
-    int best = 1 + (int)strlen(word) / 3; /* further off, it is another word */
+    int best = 1 + (int)strlen(word) / 3; /* a larger distance is another word */
     for (int w = 0; w < count; w++) {
         const int distance = edit_distance(word, words[w]);
         if (distance <= best && (!nearest || distance < best)) {

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_YAML_PLACE_H
 #define ORTHOSTAT_CASE_YAML_PLACE_H
 
-/* Where a word stands in the case file, from 1, for messages; zeros: nowhere. */
+/* Line and column of a word in the case file, from 1, for messages; zeros if there is none. */
 typedef struct OstPlace {
     int line, column;
 } OstPlace;

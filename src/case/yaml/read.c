@@ -18,7 +18,7 @@ static const char *scalar_text(const OstYaml *yaml, const OstYamlNode *node)
     return yaml->text + ost_yaml_follow(yaml, node)->value;
 }
 
-/* Nothing after the colon, or a word YAML has for it. */
+/* No value: nothing after the colon, ~ or null. */
 static int is_empty(const OstYaml *yaml, const OstYamlNode *node)
 {
     if (!ost_yaml_is(yaml, node, OST_YAML_SCALAR) || ost_yaml_follow(yaml, node)->quoted)
@@ -29,13 +29,19 @@ static int is_empty(const OstYaml *yaml, const OstYamlNode *node)
 
 enum { MOST_KEYS = 32 };
 
-/* The keys' names, for messages. */
+static int key_names(const OstYamlKey *keys, int count, const char *names[MOST_KEYS])
+{
+    const int listed = count < MOST_KEYS ? count : MOST_KEYS;
+    for (int k = 0; k < listed; k++)
+        names[k] = keys[k].name;
+    return listed;
+}
+
 static const char *list_keys(const OstYamlKey *keys, int count, char *list, size_t size)
 {
-    const char *names[MOST_KEYS] = {NULL};
-    for (int k = 0; k < count && k < MOST_KEYS; k++)
-        names[k] = keys[k].name;
-    ost_yaml_name_list(names, count < MOST_KEYS ? count : MOST_KEYS, list, size);
+    const char *names[MOST_KEYS];
+    const int listed = key_names(keys, count, names);
+    ost_yaml_name_list(names, listed, list, size);
     return list;
 }
 
@@ -44,11 +50,10 @@ static OstStatus raise_unknown_key(const OstYaml *yaml, const OstYamlNode *mappi
 {
     char place[OST_YAML_PLACE_SIZE];
     char list[OST_YAML_LIST_SIZE];
-    const char *names[MOST_KEYS] = {NULL};
-    for (int k = 0; k < count && k < MOST_KEYS; k++)
-        names[k] = keys[k].name;
+    const char *names[MOST_KEYS];
+    const int listed = key_names(keys, count, names);
     const char *word = scalar_text(yaml, key);
-    const char *nearest = ost_nearest_word(word, names, count < MOST_KEYS ? count : MOST_KEYS);
+    const char *nearest = ost_nearest_word(word, names, listed);
     return ost_yaml_raise(yaml, key, "unknown key '%.80s' in %s%s%s%s Known keys: %s", word,
                           ost_yaml_place(yaml, mapping, place, sizeof place), nearest ? "; did you mean '" : ".",
                           nearest ? nearest : "", nearest ? "'?" : "", list_keys(keys, count, list, sizeof list));
@@ -59,7 +64,7 @@ static OstStatus take_pair(const OstYaml *yaml, const OstYamlNode *mapping, cons
 {
     char place[OST_YAML_PLACE_SIZE];
     if (!ost_yaml_is(yaml, key, OST_YAML_SCALAR))
-        return ost_yaml_raise(yaml, key, "a list or mapping stands where a key is expected");
+        return ost_yaml_raise(yaml, key, "found a list or mapping, expected a key");
     const char *name = scalar_text(yaml, key);
     int found = 0;
     while (found < count && strcmp(keys[found].name, name) != 0)
@@ -67,7 +72,7 @@ static OstStatus take_pair(const OstYaml *yaml, const OstYamlNode *mapping, cons
     if (found == count)
         return raise_unknown_key(yaml, mapping, key, keys, count);
     if (keys[found].value)
-        return ost_yaml_raise(yaml, key, "key '%s' stands twice in %s, the first time in line %d; keep one", name,
+        return ost_yaml_raise(yaml, key, "key '%s' occurs twice in %s, the first time in line %d; keep one", name,
                               ost_yaml_place(yaml, mapping, place, sizeof place), ost_yaml_line(keys[found].value));
     if (is_empty(yaml, value))
         return ost_yaml_raise(yaml, key, "key '%s' in %s has no value; give it one, or leave the key out", name,
@@ -167,7 +172,8 @@ OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *
     if (end == text || strspn(text, "0123456789+-.eE") < (size_t)(end - text))
         return ost_yaml_raise_type(yaml, node, "a number", "");
     if (*end != 0)
-        return ost_yaml_raise_type(yaml, node, "a number with nothing after it", " (units are yours, and not written)");
+        return ost_yaml_raise_type(yaml, node, "a number with nothing after it",
+                                   " (write no units; use consistent ones)");
     if (!isfinite(*number))
         return ost_yaml_raise_type(yaml, node, "a finite number", " (below 1.8e308)");
     return OST_SUCCESS;

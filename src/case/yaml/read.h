@@ -8,7 +8,7 @@
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
  * "path:line:column: what was found, what was expected". */
 
-/* A key a mapping may have; `value` is filled (NULL: not given). */
+/* A key that a mapping may have. ost_yaml_mapping fills `value`; NULL if the key is absent. */
 typedef struct OstYamlKey {
     const char *name;
     int needed;
@@ -21,19 +21,19 @@ enum { OST_OPTIONAL = 0, OST_NEEDED = 1 };
 
 OstPlace ost_yaml_at(const OstYamlNode *node);
 
-/* Fills the keys' values; refuses unknown, doubled and missing keys and keys without a value. */
+/* Fills the keys' values; refuses unknown, repeated and missing keys, and keys without a value. */
 OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count);
 
-/* Which one of the first `count` keys has a value; refuses none and several. */
+/* Which one of the first `count` keys has a value; refuses none, and more than one. */
 OstStatus ost_yaml_one_of(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int count, int *which);
 
-/* A sequence's length (a short one has OST_YAML_MOST_ENTRIES at most), and its items: first = ost_yaml_first(node),
- * then ost_yaml_next. */
+/* A sequence's length (at most OST_YAML_MOST_ENTRIES for a short list). Its items: first = ost_yaml_first(node), then
+ * ost_yaml_next. */
 enum { OST_YAML_MOST_ENTRIES = 10000 };
 OstStatus ost_yaml_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
 OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
 
-/* Scalars. A number is finite and has nothing after it; an integer lies in [low, high]. The text lives as long as the
+/* Scalars. A number is finite, with nothing after it; an integer lies in [low, high]. The text lives as long as the
  * tree. */
 OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char **text);
 OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *number);

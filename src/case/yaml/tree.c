@@ -8,12 +8,12 @@
 #include <string.h>
 #include <yaml.h>
 
-_Static_assert(sizeof(OstYamlNode) == 16, "a node is to stay small");
+_Static_assert(sizeof(OstYamlNode) == 16, "a node must stay small");
 
 typedef struct Anchor {
     char *name;
     uint32_t node;
-    uint64_t weight; /* nodes it holds, aliases counted as what they stand for; 0 while it is open */
+    uint64_t weight; /* nodes in its value, with aliases counted at the weight of their values; 0 while open */
 } Anchor;
 
 typedef struct Level {
@@ -22,7 +22,7 @@ typedef struct Level {
     uint64_t weight_before;
 } Level;
 
-/* State of one walk through the events. The first walk measures and checks, the second fills the tree. */
+/* State of one pass over the events. The first pass counts and checks, the second fills the tree. */
 typedef struct Walk {
     OstYaml *yaml;
     const char *bytes;
@@ -43,7 +43,7 @@ static OstStatus raise_at(const Walk *walk, yaml_mark_t mark, const char *proble
                      mark.column + 1, problem);
 }
 
-/* The parser's own mark is behind or ahead of a byte that is not UTF-8; its offset is exact. */
+/* For a byte that is not UTF-8 the parser's mark is imprecise, but its offset is right. */
 static yaml_mark_t mark_of_byte(const Walk *walk, size_t offset)
 {
     yaml_mark_t mark = {0, 0, 0};
@@ -87,7 +87,7 @@ static OstYamlNode *add_node(Walk *walk, OstYamlKind kind, yaml_mark_t mark)
     return node;
 }
 
-/* Remembers an anchor (only the first walk checks); returns its index, or -1 if there is none. */
+/* Remembers an anchor; `index` is -1 if there is none. Only the first pass checks the name. */
 static OstStatus add_anchor(Walk *walk, const yaml_char_t *name, yaml_mark_t mark, int *index)
 {
     *index = -1;
@@ -125,7 +125,7 @@ static OstStatus add_scalar(Walk *walk, const yaml_event_t *event)
 static OstStatus add_alias(Walk *walk, const yaml_event_t *event)
 {
     const char *name = (const char *)event->data.alias.anchor;
-    int found = walk->anchors - 1; /* the latest of a name counts */
+    int found = walk->anchors - 1; /* the last anchor of a name counts */
     while (found >= 0 && strcmp(walk->anchor[found].name, name) != 0)
         found--;
     if (found < 0)

@@ -4,9 +4,9 @@
 
 #include "orthostat/context.h"
 
-/* A YAML document as a flat tree in the order of the text: a node's children follow it, `next` is the node after all
- * of them. libyaml parses; the tree is ours, as yaml_document_t takes 160 times the text where it is all structure
- * (ours at most six times), takes minutes on a megabyte of deep nesting, and does not keep where an alias stands. */
+/* A YAML document as a flat tree in the order of the text: a node's children follow it, `next` is the node after all of
+ * them. libyaml parses. The tree is our own because yaml_document_t takes up to 160 times the size of the text (ours at
+ * most six times), takes minutes for a megabyte of deep nesting, and loses the places of aliases. */
 
 typedef enum { OST_YAML_SCALAR, OST_YAML_SEQUENCE, OST_YAML_MAPPING, OST_YAML_ALIAS } OstYamlKind;
 
@@ -14,7 +14,7 @@ typedef struct OstYamlNode {
     uint64_t line : 24; /* from 0 */
     uint64_t column : 24;
     uint64_t kind : 2;
-    uint64_t quoted : 1; /* SCALAR: stands in quotes, so it is text even if it reads as a number */
+    uint64_t quoted : 1; /* SCALAR: is in quotes, so it is text even if it reads as a number */
     uint32_t value;      /* SCALAR: where its text starts; SEQUENCE: items; MAPPING: pairs; ALIAS: node it stands for */
     uint32_t next;
 } OstYamlNode;
@@ -27,21 +27,22 @@ typedef struct OstYaml {
     char *text;        /* the scalars, each ended by 0 */
 } OstYaml;
 
-/* What is accepted; beyond it a file is refused in words. */
+/* Limits; a file beyond them is refused with a message. */
 enum { OST_YAML_MAX_BYTES = 1 << 24, OST_YAML_MAX_DEPTH = 32, OST_YAML_MAX_ANCHORS = 256 };
 
 /* Local. Parses `size` bytes of UTF-8. Raises OST_INVALID_INPUT as "path:line:column: ..." for text that is not YAML,
  * an empty file, more than one document, nesting beyond OST_YAML_MAX_DEPTH, an alias within the value it stands for, or
- * aliases that multiply the file. */
+ * aliases that would multiply the size. */
 OstStatus ost_yaml_parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstYaml **yaml);
 void ost_yaml_destroy(OstYaml **yaml);
 
-/* Local. The node an alias stands for, or the node itself; its line from 1; is it (or what it stands for) of a kind? */
+/* Local. The node that an alias stands for, or the node itself; a node's line, from 1; is it (or what it stands for) of
+ * a kind? */
 const OstYamlNode *ost_yaml_follow(const OstYaml *yaml, const OstYamlNode *node);
 int ost_yaml_line(const OstYamlNode *node);
 int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
 
-/* Local. The first child of a sequence or mapping; what comes behind a node and its children. */
+/* Local. The first child of a sequence or mapping; the node after a node and its children. */
 const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
 const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
 

@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes nodes and elements as they are read. */
+/* Adds nodes and elements to the mesh while they are read. */
 
-/* An element may be in many groups, but not so often that its share of the file is less than some bytes. */
+/* An element may be in several groups. Limits groups times elements by the size of the file: SMALLEST_SHARE bytes for
+ * each. */
 enum { FIRST_ROOM = 64, SMALLEST_SHARE = 4 };
 
 static const char point[] = "Point", line[] = "Line", triangle[] = "Triangle", quad[] = "Quadrilateral",
@@ -63,7 +64,7 @@ OstStatus ost_msh_index_nodes(OstMsh *msh)
                      msh->nodes.repeated_label);
 }
 
-/* Half as many again. */
+/* Grows room by half. */
 static OstStatus grow(const OstMsh *msh, OstLocal count, OstLocal *room)
 {
     const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
@@ -86,7 +87,7 @@ static OstStatus find_nodes(const OstMsh *msh, int count, const OstGlobal *tags,
     return OST_SUCCESS;
 }
 
-/* Volumes first, points last; by tag. */
+/* Order of groups: volumes first, points last; by tag. */
 static int comes_before(const OstMshGroup *group, int dimension, int tag)
 {
     return group->dimension > dimension || (group->dimension == dimension && group->tag < tag);
@@ -112,7 +113,7 @@ OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group
     return OST_SUCCESS;
 }
 
-/* Gmsh orders the last two mid-edge nodes of a tet the other way round. */
+/* Gmsh has the last two mid-edge nodes of a tet in the opposite order. */
 static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, int group)
 {
     OstMeshChunk *chunk = msh->chunk;
@@ -140,7 +141,8 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal 
     return OST_SUCCESS;
 }
 
-/* Of elements of several types in a group the first, and then one that differs, is remembered. */
+/* A group of several element types is an error: the first type, and one that differs, are remembered for the message.
+ */
 static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag)
 {
     const OstMshType *facts = &ost_msh_types[type];

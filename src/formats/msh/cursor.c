@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-/* Meshes are packed to a fifth, regular ones to a twentieth; a damaged file may claim a thousandth. */
+/* gzip packs meshes to a fifth, regular ones to a twentieth. A damaged file may claim a thousandth. */
 enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, MESSAGE_SIZE = 1024 };
 
 static OstStatus raise_unpacking(const OstMshCursor *cursor, gzFile file)
@@ -26,7 +26,7 @@ static OstStatus raise_unpacking(const OstMshCursor *cursor, gzFile file)
                      "%s: could not be read to its end: %s; write or copy it again", cursor->path, text);
 }
 
-/* zlib gives files that are not packed as they are. */
+/* zlib passes uncompressed files through. */
 static OstStatus read_all(OstMshCursor *cursor, gzFile file, size_t packed)
 {
     size_t room = packed + FIRST_ROOM, length = 0;
@@ -121,7 +121,7 @@ static int word_ends(const OstMshCursor *cursor, const char *at)
     return at == cursor->end || is_blank(*at);
 }
 
-/* Digits are read until they pass what a label may be; the zero behind the file ends them. */
+/* Reads digits until the number exceeds the largest label; the zero byte after the file ends the last one. */
 static OstStatus read_text_integer(OstMshCursor *cursor, const char *what, OstGlobal smallest, OstGlobal largest,
                                    OstGlobal *value)
 {

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Makes a chunk of what was read. */
+/* Turns what was read into a chunk. */
 
 static const char *const kind[] = {"points", "curves", "faces"};
 
@@ -47,7 +47,7 @@ static OstStatus size_tets(OstMsh *msh)
     return OST_RESIZE(chunk->ctx, &chunk->tet_region, count);
 }
 
-/* The name of a physical group, or a made one ("surface-3"). */
+/* The name of a physical group, or a default like "surface-3". */
 static OstStatus copy_group_name(const OstMsh *msh, int dimension, int tag, char **name)
 {
     static const char *const entity[] = {"point", "curve", "surface", "volume"};
@@ -60,13 +60,13 @@ static OstStatus copy_group_name(const OstMsh *msh, int dimension, int tag, char
     return ost_copy_string(msh->cursor.ctx, text, name);
 }
 
-static void note_one_name(const OstMsh *msh, const char *what, const char *name)
+static void warn_of_shared_name(const OstMsh *msh, const char *what, const char *name)
 {
     ost_warn(msh->cursor.ctx, "%s: several physical %s are named '%s'; they are taken as one", msh->cursor.path, what,
              name);
 }
 
-/* Physical volumes of one name are one region. */
+/* Physical volumes with the same name are one region. */
 static OstStatus name_region(const OstMsh *msh, OstMshGroup *group)
 {
     OstNames *regions = &msh->chunk->regions;
@@ -75,7 +75,7 @@ static OstStatus name_region(const OstMsh *msh, OstMshGroup *group)
     OstStatus status = OST_SUCCESS;
     group->region = ost_names_find(regions, name);
     if (group->region >= 0) {
-        note_one_name(msh, "volumes", name);
+        warn_of_shared_name(msh, "volumes", name);
     } else {
         group->region = regions->count;
         status = ost_names_add(msh->cursor.ctx, regions, name);
@@ -84,7 +84,7 @@ static OstStatus name_region(const OstMsh *msh, OstMshGroup *group)
     return status;
 }
 
-/* Tets in no physical volume make a region of their own, the last. */
+/* Tets in no physical volume form a region of their own, the last. */
 static OstStatus make_regions(OstMsh *msh)
 {
     OstMeshChunk *chunk = msh->chunk;
@@ -105,7 +105,7 @@ static OstStatus make_regions(OstMsh *msh)
     return OST_SUCCESS;
 }
 
-/* The elements that bound tets are of one type in each dimension. */
+/* Elements of a boundary must be of the type that bounds the tets. */
 static OstStatus check_group(const OstMsh *msh, const OstMshGroup *group, const char *name)
 {
     static const int types[2][3] = {{OST_MSH_POINT, OST_MSH_LINE2, OST_MSH_TRIANGLE3},
@@ -130,7 +130,7 @@ static OstStatus merge_group(const OstMsh *msh, const OstMshGroup *group, OstBou
     if (group->count > INT_MAX - boundary->count)
         return OST_RAISE(msh->cursor.ctx, OST_LIMIT_EXCEEDED, "%s: boundary '%s' has more than %d items",
                          msh->cursor.path, boundary->name, INT_MAX);
-    note_one_name(msh, kind[boundary->dimension], boundary->name);
+    warn_of_shared_name(msh, kind[boundary->dimension], boundary->name);
     OST_TRY(OST_RESIZE(msh->cursor.ctx, &boundary->nodes, (size_t)(boundary->count + group->count) * width));
     memcpy(boundary->nodes + (size_t)boundary->count * width, group->nodes,
            (size_t)group->count * width * sizeof *group->nodes);
@@ -138,7 +138,7 @@ static OstStatus merge_group(const OstMsh *msh, const OstMshGroup *group, OstBou
     return OST_SUCCESS;
 }
 
-/* Takes the group's nodes and its name over. */
+/* Moves the group's nodes and its name into the chunk. */
 static OstStatus add_boundary(const OstMsh *msh, OstMshGroup *group, char **name)
 {
     OstMeshChunk *chunk = msh->chunk;
@@ -181,8 +181,8 @@ OstStatus ost_msh_finish(OstMsh *msh)
     OST_TRY(ost_tets_sort(msh->chunk, path));
     if (msh->tets_out_of_order)
         ost_warn(msh->cursor.ctx,
-                 "%s: its tets are not in the order of their tags; they are counted in that order, also in a file of "
-                 "axes",
+                 "%s: its tets are not in the order of their tags; they are numbered in that order, and a file of "
+                 "axes must have it too",
                  path);
     if (msh->ghosts > 0)
         ost_warn(msh->cursor.ctx, "%s: ghost elements, which other partitions have too, are left out: %" PRId64, path,

@@ -32,24 +32,24 @@ typedef struct OstMshName {
     OstMshText text;
 } OstMshName;
 
-/* Elements of one dimension and physical tag: a region, or a boundary with its nodes. */
+/* A physical group, by dimension and tag: a region, or a boundary with its nodes. */
 typedef struct OstMshGroup {
     int dimension, tag;
     int region;           /* number, if of dimension 3 */
-    int type, other_type; /* of the first element; of one that differs, or 0 */
+    int type, other_type; /* of the first element; of one of another type, or 0 */
     OstLocal count, room;
     OstGlobal *nodes; /* count × nodes of the type: positions in the chunk */
 } OstMshGroup;
 
-/* A .msh file on its way to a chunk. While it is read, tet_region holds physical tags, 0 for none. */
+/* A .msh file while it is read. tet_region then holds physical tags, 0 for none. */
 typedef struct OstMsh {
     OstMshCursor cursor;
     int version; /* 10, 20, 21, 22, 40 or 41 */
-    int stage;   /* how far the sections are read */
+    int stage;   /* the last section that was read */
     OstMeshChunk *chunk;
     OstLabelIndex nodes;           /* tag to position, once all are read */
-    OstGlobal elements;            /* that the file states */
-    OstLocal room;                 /* tets that have room */
+    OstGlobal elements;            /* number that the file states */
+    OstLocal room;                 /* capacity for tets */
     OstGlobal read[OST_MSH_TYPES]; /* elements of each type */
     int tet_type;                  /* of the first tet */
     int tets_out_of_order;         /* their tags do not ascend */
@@ -57,8 +57,8 @@ typedef struct OstMsh {
     OstMshName *name;
     int group_count;
     OstMshGroup *group; /* volumes first, points last; by tag */
-    OstGlobal ghosts;   /* elements that other partitions have too, and are left out */
-    OstGlobal items;    /* in groups of dimension 0 to 2 */
+    OstGlobal ghosts;   /* elements that other partitions own; left out */
+    OstGlobal items;    /* elements in groups of dimension 0 to 2 */
     /* Entities of version 4, and the physical groups they belong to. */
     OstGlobal entity_count;
     OstGlobal *entity;       /* dimension and tag in one number */
@@ -67,7 +67,7 @@ typedef struct OstMsh {
     OstLabelIndex entities;
 } OstMsh;
 
-/* Local. The sections of versions 1 and 2 (4), behind the line that names them. */
+/* Local. Read the sections of versions 1 and 2 (or 4), after the line that names them. */
 OstStatus ost_msh2_nodes(OstMsh *msh);
 OstStatus ost_msh2_parametric_nodes(OstMsh *msh);
 OstStatus ost_msh2_elements(OstMsh *msh);
@@ -76,25 +76,25 @@ OstStatus ost_msh4_partitioned_entities(OstMsh *msh);
 OstStatus ost_msh4_nodes(OstMsh *msh);
 OstStatus ost_msh4_elements(OstMsh *msh);
 
-/* Local. Raises if it is none of those types. */
+/* Local. Raises if the type is none of those. */
 OstStatus ost_msh_check_type(const OstMsh *msh, int type);
 
-/* Local. Makes room for the nodes that a section states. */
+/* Local. Allocates the nodes that a section states. */
 OstStatus ost_msh_reserve_nodes(OstMsh *msh, OstGlobal count);
 
-/* Local. Makes nodes known by their tags, once all are read; raises if two share one. */
+/* Local. Indexes nodes by their tags once all are read; raises if two share one. */
 OstStatus ost_msh_index_nodes(OstMsh *msh);
 
-/* Local. Takes a node, or an element with its physical tags (of either sign, 0 for none). */
+/* Local. Adds a node, or an element with its physical tags (of either sign, 0 for none). */
 OstStatus ost_msh_add_node(OstMsh *msh, OstGlobal tag, const double x[3]);
 OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
                               const int *groups);
 
-/* Local. The group of a dimension and tag, made where it is not known. */
+/* Local. The group of a dimension and tag; a new one if there is none. */
 OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group);
 
-/* Local. Makes the chunk of what was read: names regions and boundaries, puts tets in the order of their tags, turns
- * them if all are inverted, leaves out nodes of no tet; or refuses the mesh. */
+/* Local. Turns what was read into the chunk: names regions and boundaries, sorts tets by tag, reorders them if all are
+ * inverted, leaves out unused nodes; or refuses the mesh. */
 OstStatus ost_msh_finish(OstMsh *msh);
 
 #endif

@@ -9,18 +9,18 @@
 #include <string.h>
 #include <strings.h>
 
-/* Gmsh's format, after its manual (sections "MSH file format" and "legacy formats"): sections between $Name and
- * $EndName, in version 1 $NAM and $ENDNAM. What lies between sections, and sections of other names, are skipped. */
+/* Gmsh's format, by its manual (sections "MSH file format" and "legacy formats"): sections between $Name and $EndName,
+ * in version 1 $NAM and $ENDNAM. Other sections, and text between sections, are skipped. */
 
 enum { NAME_SIZE = 64, SMALLEST_NAME = 4 };
 
-/* How much of a line messages quote. */
+/* Length of a line that messages quote. */
 static int shown(OstMshText line)
 {
     return line.length < NAME_SIZE ? line.length : NAME_SIZE;
 }
 
-/* Takes the version from a number such as 2.2. */
+/* The version, from a number such as 2.2. */
 static OstStatus read_format(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
@@ -48,7 +48,7 @@ static OstStatus read_format(OstMsh *msh)
     return OST_SUCCESS;
 }
 
-/* A name stands in quotes; one without them is the rest of the line. */
+/* A name is in quotes; without them it is the rest of the line. */
 static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText text)
 {
     const char *quote = memchr(text.start, '"', (size_t)text.length);
@@ -65,7 +65,7 @@ static OstStatus add_name(OstMsh *msh, int dimension, int tag, OstMshText text)
     return OST_SUCCESS;
 }
 
-/* Names are text in binary files too. */
+/* Names are text, in binary files too. */
 static OstStatus read_names(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
@@ -87,7 +87,7 @@ static OstStatus read_names(OstMsh *msh)
     return OST_SUCCESS;
 }
 
-/* The sections that are read, in the order they may have; those of stage 0 may be anywhere. */
+/* Sections in the order they must have; those of stage 0 may be anywhere. */
 enum { ENTITIES = 1, NODES = 2, ELEMENTS = 3 };
 static const struct {
     const char *name;
@@ -103,7 +103,7 @@ static const struct {
                {"ELM", ELEMENTS, ost_msh2_elements, NULL},
                {"Elements", ELEMENTS, ost_msh2_elements, ost_msh4_elements}};
 
-/* Goes to where the end of a section is: behind a line end, or in a binary file anywhere. */
+/* Goes to the $End line of a section, which follows a line end or, in a binary file, any byte. */
 static OstStatus skip_section(OstMshCursor *cursor, const char *name)
 {
     char mark[NAME_SIZE + 8];
@@ -163,7 +163,7 @@ static OstStatus expect_end(OstMshCursor *cursor, const char *name)
     return OST_SUCCESS;
 }
 
-/* The format comes first, but for comments; version 1 has none. */
+/* The format comes first, except for comments; version 1 has none. */
 static OstStatus read_format_or_section(OstMsh *msh, const char *name)
 {
     if (strcmp(name, "MeshFormat") == 0)

@@ -8,7 +8,7 @@
 
 enum { BINARY_NODE = 28, TEXT_NODE = 8, SMALLEST_ELEMENT = 8 };
 
-/* What parametric nodes have behind their coordinates: the dimension and the tag of an entity, its parameters. */
+/* Parametric nodes have more behind their coordinates: dimension and tag of an entity, and parameters. */
 static OstStatus skip_parameters(OstMshCursor *cursor)
 {
     int dimension = 0, tag = 0;
@@ -47,7 +47,7 @@ OstStatus ost_msh2_parametric_nodes(OstMsh *msh)
     return read_nodes(msh, 1);
 }
 
-/* The first of an element's tags is its physical tag; its entity and its partitions follow. */
+/* The first of an element's tags is its physical tag; then come its entity and its partitions. */
 static OstStatus read_tags(OstMshCursor *cursor, int count, int *group)
 {
     int tag = 0;

@@ -11,7 +11,7 @@
  * one, points with a box, and tags of nodes and elements as int. */
 
 enum { SMALLEST_TAG = 2, SMALLEST_NODE = 8, SMALLEST_ELEMENT = 4, SMALLEST_BLOCK = 8 };
-enum { GHOST = 4 }; /* kept as the dimension of ghost entities */
+enum { GHOST = 4 }; /* stands for the dimension of ghost entities */
 
 /* The head of a block: an entity, a number of its own, and how many nodes or elements follow. */
 typedef struct Block {
@@ -45,7 +45,7 @@ static void add_entity(OstMsh *msh, int dimension, int tag, OstGlobal group_coun
     msh->entity_count++;
 }
 
-/* A count and as many tags; physical groups are kept, behind those of the entities before. */
+/* A count, and as many tags. Physical groups are kept, after those of earlier entities. */
 static OstStatus read_tags(OstMsh *msh, const char *what, int kept, OstGlobal *count)
 {
     const OstGlobal first = msh->entity_start[msh->entity_count];
@@ -58,7 +58,8 @@ static OstStatus read_tags(OstMsh *msh, const char *what, int kept, OstGlobal *c
     return OST_SUCCESS;
 }
 
-/* What bounds a partition is given the groups of the volume or surface that it divides, which are not its own. */
+/* A partitioned entity of lower dimension than its parent is a border between partitions. Gmsh lists it with its
+ * parent's physical groups, to which it does not belong. */
 static OstStatus read_entity(OstMsh *msh, int dimension, int partitioned)
 {
     OstMshCursor *cursor = &msh->cursor;
@@ -95,7 +96,7 @@ OstStatus ost_msh4_entities(OstMsh *msh)
     return read_entities(msh, 0);
 }
 
-/* They begin with the number of partitions, and with volumes that hold other partitions' elements again.
+/* These begin with the number of partitions, and with ghost entities: volumes that hold elements of other partitions.
  */
 OstStatus ost_msh4_partitioned_entities(OstMsh *msh)
 {
@@ -163,7 +164,7 @@ static OstStatus read_tag(OstMshCursor *cursor, int version, const char *what, O
     return OST_SUCCESS;
 }
 
-/* A block of version 4.1 has all its tags before its coordinates: another cursor reads them again. */
+/* In version 4.1 a block has all tags before all coordinates: a second cursor reads the tags. */
 static OstStatus read_nodes(OstMsh *msh, const Block *block)
 {
     OstMshCursor *cursor = &msh->cursor, behind = *cursor;
@@ -202,7 +203,7 @@ static OstStatus find_groups(const OstMsh *msh, const Block *block, OstGlobal *c
     return OST_SUCCESS;
 }
 
-/* What follows the nodes of an element in its line is left unread, as by Gmsh. */
+/* Gmsh ignores what follows an element's nodes in its line, and so is it here. */
 static OstStatus read_elements(OstMsh *msh, const Block *block)
 {
     OstMshCursor *cursor = &msh->cursor;

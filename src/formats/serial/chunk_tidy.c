@@ -59,7 +59,7 @@ static void swap(OstGlobal *a, OstGlobal *b)
 }
 
 /* Exchanges vertices 1 and 2, and so the mid-edge nodes 01 with 02 and 13 with 23. */
-static void turn(OstGlobal *nodes, int nodes_per_tet)
+static void reorder(OstGlobal *nodes, int nodes_per_tet)
 {
     swap(&nodes[1], &nodes[2]);
     if (nodes_per_tet == 10) {
@@ -81,8 +81,8 @@ void ost_tets_turn(OstMeshChunk *chunk, const char *path)
     if (!inverted)
         return;
     for (size_t t = 0; t < count; t++)
-        turn(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
-    ost_warn(chunk->ctx, "%s: all its tets are numbered the other way round; they were turned", path);
+        reorder(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
+    ost_warn(chunk->ctx, "%s: all tets are inverted; their vertices were reordered", path);
 }
 
 /* A tet's vertices in ascending order, and which tet it is. */
@@ -133,7 +133,7 @@ OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path)
     return status;
 }
 
-/* Numbers the nodes that tets use in their order, the others -1; gives how many are used. */
+/* Numbers the nodes that tets use, in their order; -1 for the others. Returns how many are used. */
 static OstLocal number_used(const OstMeshChunk *chunk, OstLocal *number)
 {
     OstLocal used = 0;
@@ -157,7 +157,7 @@ static void move_nodes(OstMeshChunk *chunk, const OstLocal *number)
         chunk->tet_nodes[i] = number[chunk->tet_nodes[i]];
 }
 
-/* Gives the number of items left out. */
+/* Returns the number of items left out. */
 static OstLocal move_items(OstBoundary *boundary, const OstLocal *number)
 {
     const OstLocal before = boundary->count;

@@ -4,16 +4,17 @@
 
 #include "mesh/mesh_data.h"
 
-/* Local. Puts a whole mesh's tets in the order of their labels; raises OST_INVALID_INPUT if two share one. */
+/* Local. Sorts a whole mesh's tets by their labels; raises OST_INVALID_INPUT if two share one. */
 OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path);
 
-/* Local. Turns the tets of a whole mesh if none is positively oriented and some is not flat, and says so. */
+/* Local. Reorders the vertices of all tets of a whole mesh, with a warning, if some are inverted and the others flat.
+ */
 void ost_tets_turn(OstMeshChunk *chunk, const char *path);
 
 /* Local. Raises OST_INVALID_INPUT if two tets of a whole mesh have the same four vertices. */
 OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path);
 
-/* Local. Leaves out the nodes of a whole mesh that no tet uses, with the items of boundaries on them, and says so. */
+/* Local. Leaves out the nodes of a whole mesh that no tet uses, and the items of boundaries on them, with a warning. */
 OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path);
 
 #endif

@@ -6,28 +6,27 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh_file.h"
 
-/* Materials that came with a mesh (.veg): for each region its material and axes; the same on every rank. count is 0
- * where the format has none. */
+/* Materials from a mesh file (.veg): material and axes of each region; the same on every rank. count is 0 if the format
+ * has none. */
 typedef struct OstFileMaterials {
-    int count;             /* as many as regions, in their order, or 0 */
+    int count;             /* number of regions, in their order; or 0 */
     OstMaterial *material; /* count */
     double *axes;          /* count × 9 */
 } OstFileMaterials;
 
-/* Collective. As ost_chunk_read, with the materials that came with the mesh. */
+/* Collective. As ost_chunk_read, with the materials of the file. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
-/* Local. Is the file at `sought` one of those a mesh file consists of: itself, or included by it? */
+/* Local. Is the file at `sought` part of a mesh file: the file itself, or one that it includes? */
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought);
 void ost_file_materials_destroy(OstFileMaterials **materials);
 
-/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments) as ascending ranges between
- * which some number is missing. `ranges` in memory from the context, owned by the caller. Read by rank 0, given to all.
- */
+/* Collective. Vertex numbers of a .bou file (commas or blanks, a:b ranges, # comments) as ascending ranges that do not
+ * touch. `ranges` in memory from the context, owned by the caller. Read by rank 0 and broadcast. */
 OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *count, OstLabelRange **ranges);
 
-/* Collective. `width` numbers a line for each of `lines` lines (blank lines and # comments skipped), as axes.txt holds;
- * rank 0 reads and hands each rank the lines of the given labels (1-based line numbers). */
+/* Collective. Reads a table of `lines` lines with `width` numbers each (blank lines and # comments are skipped). Rank 0
+ * reads, and sends each rank the lines of its labels (line numbers from 1). */
 OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal lines, OstLocal count,
                          const OstGlobal *labels, double *values);
 

@@ -9,12 +9,12 @@ typedef struct OstLabelledPosition {
     OstGlobal position;
 } OstLabelledPosition;
 
-/* Where each label of a list stands. Labels that count up by one take no memory. */
+/* Finds the position of a label in a list. Labels that count up by one take no memory. */
 typedef struct OstLabelIndex {
     OstGlobal count;
     OstGlobal first;             /* label of position 0 */
     OstLabelledPosition *sorted; /* by label; NULL if they count up by one */
-    int repeated;                /* some label occurs twice: */
+    int repeated;                /* does some label occur twice? Then the next: */
     OstGlobal repeated_label;
 } OstLabelIndex;
 

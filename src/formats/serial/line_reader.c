@@ -71,7 +71,7 @@ OstStatus ost_lines_raise(const OstLineReader *reader, const char *file, int lin
                          text);
 }
 
-/* Reads up to the next line end; *found is 0 when the file has ended before it. */
+/* Reads a line; *found is 0 at the end of the file. */
 static OstStatus read_line(OstLineReader *reader, int *found)
 {
     size_t length = 0;

@@ -6,20 +6,20 @@
 
 #include <stdio.h>
 
-/* Reads a text file line by line, numbers one by one, and says in every message where it stands. Numbers and words are
- * separated by blanks, tabs and commas. */
+/* Reads a text file line by line and number by number; its messages name file and line. Blanks, tabs and commas
+ * separate numbers and words. */
 typedef struct OstLineReader {
     OstContext *ctx;
     char *path;
     FILE *file;
-    OstGlobal bytes; /* of the file: nothing in it can be more than that */
+    OstGlobal bytes; /* size of the file, which limits all counts in it */
     OstGlobal line;  /* number of the current line, from 1 */
     char *text;      /* the current line without its end */
     size_t capacity;
-    const char *next; /* where in it the next word is looked for */
+    const char *next; /* where in it the next word is sought */
 } OstLineReader;
 
-/* Local. Opens a regular file for reading, and gives its size. */
+/* Local. Opens a regular file for reading; fills its size. */
 OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes);
 
 /* Local. */
@@ -32,20 +32,20 @@ OstStatus ost_lines_next(OstLineReader *reader, int *found);
 /* Local. Has the line ended (but for a comment)? */
 int ost_lines_ended(OstLineReader *reader);
 
-/* Local. Takes the character if it is the next one, and says so. */
+/* Local. Skips the character if it is the next one; returns whether it was. */
 int ost_lines_take(OstLineReader *reader, char character);
 
 /* Local. The next number of the line; `what` is its name in messages. */
 OstStatus ost_lines_integer(OstLineReader *reader, const char *what, OstGlobal *value);
 OstStatus ost_lines_number(OstLineReader *reader, const char *what, double *value);
 
-/* Local. Raises if anything but a comment is left of the line; `what` is what the line is. */
+/* Local. Raises if more than a comment is left of the line; `what` is what the line should hold. */
 OstStatus ost_lines_finish(OstLineReader *reader, const char *what);
 
-/* Local. Takes the next word into `word`; an empty one at the end of the line. Longer words are cut. */
+/* Local. Copies the next word into `word`: empty at the end of the line, truncated if too long. */
 void ost_lines_word(OstLineReader *reader, char *word, size_t size);
 
-/* Local. Raises OST_INVALID_INPUT, the text after file:line. */
+/* Local. Raises OST_INVALID_INPUT as "file:line: text". */
 OstStatus ost_lines_raise(const OstLineReader *reader, const char *file, int line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 #define OST_RAISE_LINE(reader, ...) ost_lines_raise((reader), __FILE__, __LINE__, __VA_ARGS__)

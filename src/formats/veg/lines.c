@@ -54,7 +54,7 @@ static OstStatus check_include(OstVeg *veg, const OstLineReader *opened)
     return OST_SUCCESS;
 }
 
-/* Opens the file at `path`, saying who asked for it when that fails. */
+/* Opens the file at `path`; a failure names the *INCLUDE that asked for it. */
 static OstStatus enter(OstVeg *veg, const char *path)
 {
     OstLineReader opened;

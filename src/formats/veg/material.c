@@ -8,8 +8,8 @@
 
 enum { KIND_SIZE = 40 };
 
-/* The orthotropic lines: how many Poisson's ratios, shear values and numbers of the rotation follow density, E1, E2,
- * E3. With one ratio the material is of the stable family, and its one shear value a factor. */
+/* Kinds of orthotropic lines: how many Poisson's ratios, shear values and entries of the rotation follow density, E1,
+ * E2, E3. With one ratio the material is of the stable family, and its shear value is a factor. */
 static const struct {
     const char *kind;
     int poissons, shears, rotation;
@@ -23,7 +23,7 @@ static const char *const value_name[] = {"density", "E1", "E2", "E3"};
 static const char *const three_ratio_name[] = {"nu12", "nu23", "nu31"};
 static const char *const three_shear_name[] = {"G12", "G23", "G31"};
 
-/* Says where the line stands in front of what is already raised. */
+/* Puts file and line in front of the current error. */
 static OstStatus add_place(const OstLineReader *reader, OstStatus status)
 {
     char text[2048];
@@ -46,7 +46,7 @@ static OstStatus add_material(OstVeg *veg, const char *name, const OstOrthotropi
     return ost_veg_names_add(veg, &veg->material_names, "*MATERIAL", name);
 }
 
-/* Axes are rows; the file's rotation is written row by row and its columns are the axes. */
+/* Our axes are rows. The file has the rotation row by row, and its columns are the axes. */
 static OstStatus read_rotation(OstVeg *veg, const char *name, double axes[9])
 {
     static const char *const entry[] = {"R0", "R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8"};

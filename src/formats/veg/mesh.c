@@ -11,7 +11,7 @@
 
 enum { SHORTEST_VERTEX = 8, SHORTEST_ELEMENT = 10 };
 
-/* A section's header line, of which only the count matters. */
+/* A section's header line; only its first number, the count, is needed. */
 static OstStatus read_count(OstVeg *veg, const char *what, OstGlobal *count)
 {
     char message[64];
@@ -37,8 +37,8 @@ static OstStatus next_item(OstVeg *veg, const char *what, OstGlobal stated, OstG
                           read);
 }
 
-/* How many items to make room for: what is stated, but no more than can be in this file, until included ones turn up.
- */
+/* How many items to allocate: as many as stated, but no more than fit into this file; more if included files bring
+ * them. */
 static OstGlobal room_for(const OstVeg *veg, OstGlobal stated, OstGlobal room, OstGlobal shortest)
 {
     const OstGlobal possible = veg->reader[0].bytes / shortest + 1;
@@ -53,7 +53,7 @@ static OstStatus check_id(OstVeg *veg, const char *what, OstGlobal id)
     return OST_RAISE_LINE(ost_veg_reader(veg), "%s number %" PRId64 " found, expected 0, 1, 2, ...", what, id);
 }
 
-/* Vega takes the n-th line for vertex n whatever its number is; we go by the numbers. */
+/* Vega takes the n-th line for vertex n and ignores its number; here the number counts. */
 static OstStatus index_ids(OstVeg *veg, const char *what, OstGlobal count, const OstGlobal *id, OstLabelIndex *index)
 {
     OstLineReader *reader = ost_veg_reader(veg);

@@ -6,7 +6,7 @@
 #include <search.h>
 #include <string.h>
 
-/* Names in a search tree: files may define a material for each element. */
+/* Names are kept in a search tree: a file may define a material for each element. */
 
 typedef struct Entry {
     int number;

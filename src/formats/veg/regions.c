@@ -19,7 +19,7 @@ static OstStatus add_set(OstVeg *veg, const char *name)
     return ost_copy_string(veg->ctx, name, &veg->set[number].name);
 }
 
-/* Set 0 is that of all elements. */
+/* Set 0 has all elements. */
 static OstStatus need_sets(OstVeg *veg, const char *keyword)
 {
     if (veg->element_count == 0)
@@ -45,7 +45,7 @@ static OstStatus add_element(OstVeg *veg, OstVegSet *set, OstGlobal id)
     return OST_SUCCESS;
 }
 
-/* A set goes on until the next keyword, which is left to be read again. */
+/* A set ends at the next keyword, which is left to be read again. */
 OstStatus ost_veg_set(OstVeg *veg)
 {
     char name[OST_VEG_NAME_SIZE];
@@ -101,7 +101,7 @@ OstStatus ost_veg_region(OstVeg *veg)
     return OST_SUCCESS;
 }
 
-/* Which set gives each element its material: that of the last *REGION it is in; -1 if it is in none. */
+/* The set that determines each element's material: the one of the last *REGION it is in; -1 if it is in none. */
 static void choose_sets(const OstVeg *veg, int32_t *chosen)
 {
     const int whole = veg->set_names.count > 0 && veg->set[0].region >= 0 ? 0 : -1;
@@ -127,8 +127,8 @@ static OstStatus add_region(OstVeg *veg, int material, OstFileMaterials *materia
     return OST_SUCCESS;
 }
 
-/* A region for every set that gave an element its material, in the order of the file; then one for the elements that no
- * set has, which take the last material. region[s + 1] is the number of set s, region[0] that of the rest. */
+/* A region for every set that determined some element's material, in the order of the file; then one for elements in no
+ * such set, which have the last material. region[s + 1] is the region of set s, region[0] that of the rest. */
 static OstStatus make_regions(OstVeg *veg, const int32_t *chosen, int32_t *region, OstMeshChunk *chunk,
                               OstFileMaterials *materials)
 {

@@ -8,7 +8,7 @@
 
 enum { OST_VEG_DEPTH = 16, OST_VEG_NAME_SIZE = 256 };
 
-/* A list of things by name: numbers from 0, and the place where a name is looked up. */
+/* Names, numbered from 0, and the tree that finds them. */
 typedef struct OstVegNames {
     int count;
     void *tree;
@@ -22,14 +22,14 @@ typedef struct OstVegSet {
     int material;
 } OstVegSet;
 
-/* A .veg file as far as it is read. */
+/* A .veg file while it is read. */
 typedef struct OstVeg {
     OstContext *ctx;
-    int depth; /* files open: the first, those that it includes, ... */
+    int depth; /* open files: the first, the one that it includes, ... */
     int included;
     OstLineReader reader[OST_VEG_DEPTH];
     const char *sought; /* a path, or NULL */
-    int met;            /* one of the files that were opened lies there */
+    int met;            /* was one of the opened files this one? */
 
     OstGlobal vertex_count;
     double *coordinates;
@@ -59,10 +59,10 @@ void ost_veg_close(OstVeg *veg);
 OstStatus ost_veg_next(OstVeg *veg, int *found);
 OstLineReader *ost_veg_reader(OstVeg *veg);
 
-/* Local. The next line, which must be there and be no keyword. */
+/* Local. The next line; raises if there is none or if it is a keyword. */
 OstStatus ost_veg_expect(OstVeg *veg, const char *what);
 
-/* Local. Rest of the line, without blanks, as a name; `what` is whose. */
+/* Local. The rest of the line, without blanks at its ends, as a name; `what` has this name. */
 OstStatus ost_veg_name(OstVeg *veg, const char *what, char name[OST_VEG_NAME_SIZE]);
 
 /* Local. Adds a name (refused if known) and looks one up (-1 if unknown). */
@@ -77,10 +77,10 @@ OstStatus ost_veg_material(OstVeg *veg);
 OstStatus ost_veg_set(OstVeg *veg);
 OstStatus ost_veg_region(OstVeg *veg);
 
-/* Local. The mesh and materials of a file that is read to its end. Moves arrays out of `veg`. */
+/* Local. The mesh and materials of a file once all of it is read. Moves arrays out of `veg`. */
 OstStatus ost_veg_chunk(OstVeg *veg, OstMeshChunk **chunk, OstFileMaterials **materials);
 
-/* Local. Adds the material that files without one have: ENU, 1000, 1e9, 0.45. */
+/* Local. Adds the default material of files without one: ENU, 1000, 1e9, 0.45. */
 OstStatus ost_veg_default_material(OstVeg *veg);
 
 #endif

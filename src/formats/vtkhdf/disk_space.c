@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* 0, or why not. Whoever writes it says better why it cannot be opened. */
+/* Returns 0, or errno. A file that cannot be opened is left to the writer, whose message is better. */
 static int allocate(const char *path, OstGlobal bytes, int empties)
 {
     int reason = 0;
@@ -27,10 +27,10 @@ static int allocate(const char *path, OstGlobal bytes, int empties)
 static OstStatus allocate_on_first(OstContext *ctx, const OstAside *file, OstGlobal bytes, int empties)
 {
     const int reason = ost_rank(ctx) == 0 ? allocate(file->aside, bytes, empties) : 0;
-    return ost_agree(ctx, reason == 0
-                              ? OST_SUCCESS
-                              : OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot have the %.3g MiB that it takes: %s",
-                                          file->path, (double)bytes / 1048576.0, strerror(reason)));
+    return ost_agree(ctx, reason == 0 ? OST_SUCCESS
+                                      : OST_RAISE(ctx, OST_FILE_FAILED,
+                                                  "%s: needs %.3g MiB of disk space, which cannot be reserved: %s",
+                                                  file->path, (double)bytes / 1048576.0, strerror(reason)));
 }
 
 OstStatus ost_disk_space_check(OstContext *ctx, const OstAside *file, OstGlobal bytes)

@@ -11,7 +11,7 @@ static const char boundary_names[] = "/Orthostat/BoundaryNames";
 static const char boundary_kinds[] = "/Orthostat/BoundaryKinds";
 static const char boundary_items[] = "/Orthostat/BoundaryItems";
 
-/* The longest item, a face of six nodes, after the number of its boundary. */
+/* The longest row: the number of a boundary, and the six nodes of a face. */
 enum { LONGEST_ROW = 7 };
 
 /* --- writing --- */
@@ -155,7 +155,7 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     if (*width < 2 || *width > LONGEST_ROW || total / size >= INT32_MAX)
         return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: %s has %lld rows of %d; expected rows of 2 to %d", h5->path,
                          boundary_items, (long long)total, *width, LONGEST_ROW);
-    const OstGlobal share = total / size + 1; /* never too few, and no product that could overflow */
+    const OstGlobal share = total / size + 1; /* enough for all, and total * rank would overflow */
     const OstGlobal first = share * ost_rank(h5->ctx) < total ? share * ost_rank(h5->ctx) : total;
     *count = (OstLocal)(total - first < share ? total - first : share);
     OST_TRY(OST_NEW(h5->ctx, items, (size_t)*count * (size_t)*width));
@@ -174,7 +174,7 @@ static OstStatus read_items(const OstHdf5 *h5, OstMeshChunk *chunk, OstLocal *co
     return OST_SUCCESS;
 }
 
-static OstStatus look_at_names(const OstHdf5 *h5, const char *list)
+static OstStatus try_names(const OstHdf5 *h5, const char *list)
 {
     int count = 0;
     char **names = NULL;
@@ -185,15 +185,15 @@ static OstStatus look_at_names(const OstHdf5 *h5, const char *list)
     return status;
 }
 
-OstStatus ost_groups_look(const OstHdf5 *h5)
+OstStatus ost_groups_try(const OstHdf5 *h5)
 {
     const char *const lists[] = {region_names, boundary_names};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        if (look_at_names(h5, lists[i]) == OST_OUT_OF_MEMORY)
+        if (try_names(h5, lists[i]) == OST_OUT_OF_MEMORY)
             return OST_OUT_OF_MEMORY;
-    if (ost_hdf5_look(h5, boundary_kinds, H5T_NATIVE_INT32) == OST_OUT_OF_MEMORY)
+    if (ost_hdf5_try_rows(h5, boundary_kinds, H5T_NATIVE_INT32) == OST_OUT_OF_MEMORY)
         return OST_OUT_OF_MEMORY;
-    return ost_hdf5_look(h5, boundary_items, H5T_NATIVE_INT64);
+    return ost_hdf5_try_rows(h5, boundary_items, H5T_NATIVE_INT64);
 }
 
 /* Global numbers of the nodes with the labels that `items` holds. */

@@ -5,7 +5,7 @@
 #include "formats/vtkhdf/hdf5.h"
 #include "mesh/mesh_data.h"
 
-/* The names a mesh gives to its parts, in a group of the file that VTK does not look at:
+/* Names of regions and boundaries, in a group of the file that VTK ignores:
  *   /Orthostat/RegionNames      strings; the cell array "region" counts them from 0
  *   /Orthostat/BoundaryNames    strings
  *   /Orthostat/BoundaryKinds    of each: dimension, nodes per item
@@ -17,10 +17,10 @@ OstStatus ost_groups_write(OstHdf5 *h5, const OstMesh *mesh);
 /* Local. Region names into the chunk: those of the file, or one region "volume" if it has no such group. */
 OstStatus ost_groups_read_regions(const OstHdf5 *h5, OstMeshChunk *chunk);
 
-/* Collective. Boundaries into the chunk, each rank a share of the items; the chunk has its nodes. */
+/* Collective. Boundaries into the chunk, each rank a share of the items; the chunk must have its nodes. */
 OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk);
 
-/* Local. Looks at all of them, as ost_hdf5_look does. */
-OstStatus ost_groups_look(const OstHdf5 *h5);
+/* Local. Reads all of them for a dry run, as ost_hdf5_try_rows does. */
+OstStatus ost_groups_try(const OstHdf5 *h5);
 
 #endif

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Half of what MPI can count, so that HDF5 need not cut a transfer up itself. */
+/* Half of what MPI can count, so that HDF5 need not split a transfer itself. */
 static const size_t default_block_bytes = (size_t)1 << 30;
 
 OstStatus ost_rows_create(OstContext *ctx, OstGlobal count, OstRows *rows)
@@ -23,7 +23,7 @@ OstStatus ost_rows_create(OstContext *ctx, OstGlobal count, OstRows *rows)
     return ost_max_numbers(ctx, 1, &rows->most);
 }
 
-/* The first entry of a walk upward is the innermost function's. */
+/* Walking upward, HDF5 gives the innermost function's error first. */
 static herr_t keep_innermost(unsigned n, const H5E_error2_t *error, void *reason)
 {
     if (n == 0)
@@ -40,11 +40,10 @@ OstStatus ost_hdf5_raise(const OstHdf5 *h5, const char *action, const char *name
                      reason);
 }
 
-/* Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does not look whether they fit.
- */
+/* Open MPI 4.1 copies the path and some twenty letters of its own into 256 bytes, and does not check that they fit. */
 enum { LONGEST_MPI_PATH = 192 };
 
-/* Nothing is open, and HDF5 keeps quiet. */
+/* Initialises h5 with nothing open, and stops HDF5 from printing errors. */
 static void begin(OstContext *ctx, const char *path, OstHdf5 *h5)
 {
     *h5 = (OstHdf5){.ctx = ctx,
@@ -55,11 +54,12 @@ static void begin(OstContext *ctx, const char *path, OstHdf5 *h5)
                     .links = H5P_DEFAULT,
                     .block_bytes = default_block_bytes};
     H5Eget_auto2(H5E_DEFAULT, &h5->printer, &h5->printer_data);
-    if (!h5->printer_data) /* a rehearsal listens */
+    if (!h5->printer_data) /* a dry run has a handler of its own */
         H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-/* The operating system says best why a file cannot be had; and if rank 0 cannot have it, nobody need try. */
+/* The operating system's message says best why a file cannot be opened. Rank 0 tries first; if it fails, no other rank
+ * need. */
 static OstStatus try_file(OstContext *ctx, const char *path, int flags)
 {
     const int descriptor = open(path, flags, 0666);
@@ -80,7 +80,7 @@ static OstStatus prepare_transfers(OstHdf5 *h5)
     return OST_SUCCESS;
 }
 
-/* The path for MPI: a long one goes through the open folder. */
+/* The path for MPI: a long one is given relative to its folder, which is opened for that. */
 static OstStatus shorten_path(OstHdf5 *h5, char path[LONGEST_MPI_PATH + 1])
 {
     const char *slash = strrchr(h5->path, '/');

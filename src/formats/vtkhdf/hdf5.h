@@ -6,7 +6,7 @@
 
 #include <hdf5.h>
 
-/* HDF5 with our statuses: its error stack becomes the message, and nothing is printed while a file is open here. */
+/* HDF5 with our statuses: its error stack becomes our message, and it prints nothing while a file is open here. */
 
 /* An open file, written by all ranks together or read by each on its own. */
 typedef struct OstHdf5 {
@@ -14,14 +14,14 @@ typedef struct OstHdf5 {
     const char *path; /* for messages; not owned */
     hid_t file;
     int folder;         /* descriptor of the file's folder where its path is long, or -1 */
-    hid_t transfer;     /* how rows are moved: together, or each rank alone */
-    hid_t links;        /* make the groups on the way to a dataset */
-    size_t block_bytes; /* a rank moves no more than this at once: MPI counts bytes in 32 bits */
+    hid_t transfer;     /* transfer mode: collective, or each rank alone */
+    hid_t links;        /* creates the groups in a dataset's path */
+    size_t block_bytes; /* largest transfer of a rank at once: MPI counts bytes in 32 bits */
     H5E_auto2_t printer;
     void *printer_data;
 } OstHdf5;
 
-/* This rank's rows of an array whose ranks follow one another. */
+/* This rank's rows of an array, in which those of rank 0 come first, then those of rank 1, ... */
 typedef struct OstRows {
     OstGlobal first, count;
     OstGlobal total; /* of all ranks */
@@ -34,18 +34,18 @@ OstStatus ost_rows_create(OstContext *ctx, OstGlobal count, OstRows *rows);
 /* Collective. Creates or empties a file that all ranks write. Close it even after a failure. */
 OstStatus ost_hdf5_create(OstContext *ctx, const char *path, OstHdf5 *h5);
 
-/* Local. Opens a file for reading by this rank alone, so that a damaged file fails here and leaves nobody waiting.
+/* Local. Opens a file for reading by this rank alone, so that a damaged file fails here and no rank waits for another.
  * Close it even after a failure. */
 OstStatus ost_hdf5_open(OstContext *ctx, const char *path, OstHdf5 *h5);
 
-/* Collective for a file that was created, else local. Raises OST_FILE_FAILED if what was written did not arrive. */
+/* Collective for a file that was created, else local. Raises OST_FILE_FAILED if not all was written. */
 OstStatus ost_hdf5_close(OstHdf5 *h5);
 
 /* Local. Raises OST_FILE_FAILED as "path: could not <action>: <HDF5's innermost reason>". */
 OstStatus ost_hdf5_raise(const OstHdf5 *h5, const char *action, const char *name);
 
-/* Collective. Writes a new dataset of rows with `components` numbers each (one-dimensional if 1), with the groups its
- * name passes through. */
+/* Collective. Writes a new dataset of rows with `components` numbers each (one-dimensional if 1), and creates the
+ * groups in its name. */
 OstStatus ost_hdf5_write_rows(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows,
                               const void *values);
 
@@ -53,21 +53,22 @@ OstStatus ost_hdf5_write_rows(OstHdf5 *h5, const char *name, hid_t type, int com
 OstStatus ost_hdf5_write_integers(OstHdf5 *h5, const char *group, const char *name, int count, const int *values);
 OstStatus ost_hdf5_write_text(OstHdf5 *h5, const char *group, const char *name, const char *text);
 
-/* Local. Is there a link of this name? (Every group on the way is looked for.) */
+/* Local. Is there a link of this name, and a group for each part of its path? */
 int ost_hdf5_has(const OstHdf5 *h5, const char *name);
 
-/* Local. Rows of a dataset, after a look at its shape; raises OST_INVALID_INPUT unless it is there and has one or two
- * dimensions. */
+/* Local. The shape of a dataset; raises OST_INVALID_INPUT unless it exists and has one or two dimensions. */
 OstStatus ost_hdf5_shape(const OstHdf5 *h5, const char *name, OstGlobal *rows, int *components);
 
 /* Local. Rows first .. first + count - 1 of a dataset that must have `total` rows of `components` numbers (integers if
- * `type` is one). Raises OST_INVALID_INPUT where the dataset is another, OST_FILE_FAILED where it cannot be read. */
+ * `type` is one). Raises OST_INVALID_INPUT if the dataset has another shape or type, OST_FILE_FAILED if it cannot be
+ * read. */
 OstStatus ost_hdf5_read_rows(const OstHdf5 *h5, const char *name, hid_t type, int components, OstGlobal total,
                              OstGlobal first, OstGlobal count, void *values);
 
-/* Local. Has HDF5 do what reading rows of a dataset, if there is one, could fail at: the first row is read; of rows
- * that lie in chunks or elsewhere, which HDF5 must find and unpack, this rank's share. For a rehearsal. */
-OstStatus ost_hdf5_look(const OstHdf5 *h5, const char *name, hid_t type);
+/* Local. For a dry run: makes HDF5 read enough of a dataset, if there is one, to meet any fault in it. Contiguous rows
+ * are read in order or refused whatever their number, so one is read; of chunked or external rows, which HDF5 must find
+ * and decompress, this rank's share. */
+OstStatus ost_hdf5_try_rows(const OstHdf5 *h5, const char *name, hid_t type);
 
 /* Local. Attributes; raise OST_INVALID_INPUT if missing or of another kind. */
 OstStatus ost_hdf5_read_integers(const OstHdf5 *h5, const char *group, const char *name, int count, int *values);

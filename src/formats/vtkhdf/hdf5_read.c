@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* More than deflate can compress. A dataset that claims to hold more than its bytes can is not believed. */
+/* Deflate compresses by less than this. A dataset that claims to hold more than that in its bytes is refused. */
 enum { LARGEST_COMPRESSION = 1100 };
 
 /* Of any array that is read: axes have nine numbers a tet. */
@@ -80,7 +80,7 @@ OstStatus ost_hdf5_shape(const OstHdf5 *h5, const char *name, OstGlobal *rows, i
     return OST_SUCCESS;
 }
 
-/* Numbers may widen from integers to reals, and strings stay strings; nothing else is converted. */
+/* Integers may be read as reals; strings must be strings; no other conversion is allowed. */
 static OstStatus check_class(const OstHdf5 *h5, const char *name, hid_t dataset, hid_t wanted)
 {
     const hid_t type = H5Dget_type(dataset);
@@ -137,8 +137,9 @@ OstStatus ost_hdf5_read_rows(const OstHdf5 *h5, const char *name, hid_t type, in
     return status;
 }
 
-/* Rows that are had at once. Rows in one stretch are read in order or refused, whatever their number: one is enough. */
-static hsize_t rows_of_a_look(hid_t dataset, const hsize_t extent[2], hsize_t *end)
+/* How many rows to read at once: a chunk of them. Sets the end to one row if they are contiguous (see
+ * ost_hdf5_try_rows). */
+static hsize_t rows_at_once(hid_t dataset, const hsize_t extent[2], hsize_t *end)
 {
     hsize_t chunk[2] = {1, 1};
     const hid_t made = H5Dget_create_plist(dataset);
@@ -152,12 +153,12 @@ static hsize_t rows_of_a_look(hid_t dataset, const hsize_t extent[2], hsize_t *e
     return chunk[0] < extent[0] ? chunk[0] : extent[0];
 }
 
-static OstStatus look_at_rows(const OstHdf5 *h5, const char *name, hid_t dataset, hid_t type, const hsize_t extent[2])
+static OstStatus try_rows(const OstHdf5 *h5, const char *name, hid_t dataset, hid_t type, const hsize_t extent[2])
 {
     const hsize_t share = extent[0] / (hsize_t)ost_size(h5->ctx) + 1;
     const hsize_t first = share * (hsize_t)ost_rank(h5->ctx);
     hsize_t end = first + share < extent[0] ? first + share : extent[0];
-    const hsize_t step = rows_of_a_look(dataset, extent, &end);
+    const hsize_t step = rows_at_once(dataset, extent, &end);
     void *values = NULL;
     OST_TRY(ost_allocate(h5->ctx, step * extent[1], H5Tget_size(type), &values));
     OstStatus status = OST_SUCCESS;
@@ -168,7 +169,7 @@ static OstStatus look_at_rows(const OstHdf5 *h5, const char *name, hid_t dataset
     return status;
 }
 
-OstStatus ost_hdf5_look(const OstHdf5 *h5, const char *name, hid_t type)
+OstStatus ost_hdf5_try_rows(const OstHdf5 *h5, const char *name, hid_t type)
 {
     hid_t dataset = H5I_INVALID_HID;
     hsize_t extent[2] = {0, 0};
@@ -178,7 +179,7 @@ OstStatus ost_hdf5_look(const OstHdf5 *h5, const char *name, hid_t type)
     if (status == OST_SUCCESS)
         status = check_class(h5, name, dataset, type);
     if (status == OST_SUCCESS && extent[1] <= MOST_COMPONENTS)
-        status = look_at_rows(h5, name, dataset, type, extent);
+        status = try_rows(h5, name, dataset, type, extent);
     if (dataset >= 0)
         H5Dclose(dataset);
     return status;
@@ -219,7 +220,7 @@ OstStatus ost_hdf5_read_integers(const OstHdf5 *h5, const char *group, const cha
     return status;
 }
 
-/* Other programs write strings of variable length too. */
+/* Other programs also write strings of variable length. */
 static herr_t read_string(hid_t attribute, hid_t type, char *text, size_t size)
 {
     if (H5Tis_variable_str(type) > 0) {

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Every element is written, so HDF5 need not fill the dataset first. */
+/* All elements get written, so HDF5 need not fill the dataset first. */
 static OstStatus create_dataset(OstHdf5 *h5, const char *name, hid_t type, int components, OstGlobal rows,
                                 hid_t *dataset)
 {
@@ -24,7 +24,7 @@ static OstStatus create_dataset(OstHdf5 *h5, const char *name, hid_t type, int c
     return status;
 }
 
-/* Writes rows first .. first + count - 1 together with the other ranks; a count of 0 takes part with nothing. */
+/* Collective. Writes rows first .. first + count - 1; count may be 0. */
 static OstStatus write_block(OstHdf5 *h5, const char *name, hid_t dataset, hid_t type, int components, OstGlobal first,
                              OstGlobal count, const void *values)
 {
@@ -88,7 +88,7 @@ OstStatus ost_hdf5_write_integers(OstHdf5 *h5, const char *group, const char *na
     return status;
 }
 
-/* A type for strings of `length` bytes with no end mark. */
+/* A type for strings of `length` bytes without a terminator. */
 static hid_t string_type(size_t length, H5T_cset_t characters)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);

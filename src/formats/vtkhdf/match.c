@@ -7,7 +7,7 @@
 #include "core/parallel/route.h"
 #include "core/scatter.h"
 
-/* The rank where a key meets its equals. */
+/* The rank where equal keys meet. */
 static int rank_of(OstContext *ctx, const OstKey *key)
 {
     uint64_t hash = 0;
@@ -27,7 +27,7 @@ static OstStatus create_route(OstContext *ctx, OstLocal count, const OstKey *key
     return status;
 }
 
-/* The least value of equal keys moves to where the index has the key. */
+/* Puts the smallest value of equal keys at their place in the index. */
 static OstStatus fill_index(OstLocal count, const OstKey *key, OstGlobal *value, OstIndex *index)
 {
     OstLocal place = 0;

@@ -4,7 +4,8 @@
 
 #include "orthostat/context.h"
 
-/* Finds equal keys on different ranks. Keys meet on the rank their hash names, so none ever holds them all. */
+/* Finds equal keys on different ranks. All equal keys are sent to the rank that their hash names, so no rank holds all
+ * keys. */
 
 /* Four words that are compared bit by bit: a label, a point's coordinates, ... */
 enum { OST_KEY_WORDS = 4 };
@@ -13,8 +14,8 @@ typedef struct OstKey {
     OstGlobal word[OST_KEY_WORDS];
 } OstKey;
 
-/* Collective. Every rank puts in `pool_count` keys with a value each (0 or more), and asks for `query_count` keys: each
- * answer is the smallest value that any rank put in under an equal key, or -1 if none did. */
+/* Collective. Every rank contributes `pool_count` keys, each with a value of 0 or more, and asks for `query_count`
+ * keys. Each answer is the smallest value that any rank contributed for an equal key, or -1 if none did. */
 OstStatus ost_match_keys(OstContext *ctx, OstLocal pool_count, const OstKey *pool_key, const OstGlobal *pool_value,
                          OstLocal query_count, const OstKey *query_key, OstGlobal *answer);
 

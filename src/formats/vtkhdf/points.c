@@ -9,17 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What two points must have in common to be matched. */
-typedef enum { PLACE = 1, PIECE = 2, PLACE_AND_LABEL = 4 } Likeness;
+/* What must be equal for two points to match. */
+typedef enum { PLACE = 1, PIECE = 2, PLACE_AND_LABEL = 4 } Criterion;
 
 /* Work arrays of a merge, one entry a point of this rank's share. */
 typedef struct Merge {
     const OstHdf5 *h5;
     OstFilePoints *points;
     OstKey *key;
-    OstGlobal *self;  /* number in the file */
-    OstGlobal *like;  /* the first point of the file that is like it */
-    OstGlobal *chief; /* the first point of the file that is the same node */
+    OstGlobal *self;           /* each point's number in the file */
+    OstGlobal *matched;        /* the first point in the file that matches it */
+    OstGlobal *representative; /* the first point in the file that is the same node */
 } Merge;
 
 void ost_file_points_free(OstFilePoints *points)
@@ -43,14 +43,15 @@ static OstGlobal piece_of(const OstFilePoints *points, OstGlobal point)
     return low;
 }
 
-/* Keys of the points: label or place, and on top of that the piece, or the place. */
-static void fill_keys(Merge *merge, Likeness likeness)
+/* Keys of the points: label, or place if there are no labels; and for some criteria the piece, or the place, as well.
+ */
+static void fill_keys(Merge *merge, Criterion criterion)
 {
     const OstFilePoints *points = merge->points;
     for (OstLocal i = 0; i < points->count; i++) {
         OstKey *key = &merge->key[i];
         *key = (OstKey){{0}};
-        if (!points->label || likeness == PLACE_AND_LABEL) {
+        if (!points->label || criterion == PLACE_AND_LABEL) {
             double place[3];
             for (int k = 0; k < 3; k++)
                 place[k] = points->coordinates[3 * (size_t)i + (size_t)k] + 0.0; /* -0 becomes 0 */
@@ -60,22 +61,22 @@ static void fill_keys(Merge *merge, Likeness likeness)
         } else {
             key->word[0] = points->label[i];
         }
-        if (likeness == PIECE)
+        if (criterion == PIECE)
             key->word[3] = piece_of(points, merge->self[i]);
     }
 }
 
-static OstStatus match(Merge *merge, Likeness likeness, OstGlobal *answer)
+static OstStatus match(Merge *merge, Criterion criterion, OstGlobal *answer)
 {
     const OstLocal n = merge->points->count;
-    fill_keys(merge, likeness);
+    fill_keys(merge, criterion);
     return ost_match_keys(merge->h5->ctx, n, merge->key, merge->self, n, merge->key, answer);
 }
 
-static OstStatus raise_twin(const Merge *merge, OstLocal i)
+static OstStatus raise_duplicate(const Merge *merge, OstLocal i)
 {
     const OstFilePoints *points = merge->points;
-    const long long a = merge->like[i], b = merge->self[i];
+    const long long a = merge->matched[i], b = merge->self[i];
     const long long piece = piece_of(points, b);
     if (points->label)
         return OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
@@ -83,61 +84,61 @@ static OstStatus raise_twin(const Merge *merge, OstLocal i)
                          "labels must differ within a piece",
                          merge->h5->path, a, b, piece, (long long)points->label[i]);
     return OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
-                     "%s: points %lld and %lld of piece %lld are at the same place, so it cannot be told which of them "
+                     "%s: points %lld and %lld of piece %lld are at the same place, so it is unknown which of them "
                      "other pieces share; give the points labels (an integer point array \"vertex\")",
                      merge->h5->path, a, b, piece);
 }
 
-/* Within a piece every point is a node of its own. */
-static OstStatus check_twins(Merge *merge)
+/* Two points of one piece must not match. */
+static OstStatus refuse_duplicates(Merge *merge)
 {
     OstStatus status = OST_SUCCESS;
-    OST_TRY(match(merge, PIECE, merge->like));
+    OST_TRY(match(merge, PIECE, merge->matched));
     for (OstLocal i = 0; i < merge->points->count && status == OST_SUCCESS; i++)
-        if (merge->like[i] != merge->self[i])
-            status = raise_twin(merge, i);
+        if (merge->matched[i] != merge->self[i])
+            status = raise_duplicate(merge, i);
     return ost_agree(merge->h5->ctx, status);
 }
 
-/* A label is at one place only. */
+/* Points of one label must be at one place. */
 static OstStatus check_places(Merge *merge)
 {
     OstStatus status = OST_SUCCESS;
-    OST_TRY(match(merge, PLACE_AND_LABEL, merge->like));
+    OST_TRY(match(merge, PLACE_AND_LABEL, merge->matched));
     for (OstLocal i = 0; i < merge->points->count && status == OST_SUCCESS; i++)
-        if (merge->like[i] != merge->chief[i])
+        if (merge->matched[i] != merge->representative[i])
             status = OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
                                "%s: points %lld and %lld are both vertex %lld but lie at different places; the labels "
                                "in the array \"vertex\" must say which points are one",
-                               merge->h5->path, (long long)merge->chief[i], (long long)merge->self[i],
+                               merge->h5->path, (long long)merge->representative[i], (long long)merge->self[i],
                                (long long)merge->points->label[i]);
     return ost_agree(merge->h5->ctx, status);
 }
 
-static OstStatus find_chiefs(Merge *merge)
+static OstStatus find_representatives(Merge *merge)
 {
     const int many = merge->points->piece_count > 1;
-    memcpy(merge->chief, merge->self, (size_t)merge->points->count * sizeof *merge->self);
+    memcpy(merge->representative, merge->self, (size_t)merge->points->count * sizeof *merge->self);
     if (many || merge->points->label)
-        OST_TRY(check_twins(merge));
+        OST_TRY(refuse_duplicates(merge));
     if (!many)
         return OST_SUCCESS;
-    OST_TRY(match(merge, PLACE, merge->chief));
+    OST_TRY(match(merge, PLACE, merge->representative));
     return merge->points->label ? check_places(merge) : OST_SUCCESS;
 }
 
-/* The chunk's nodes are the chiefs of this rank's share. */
+/* The chunk's nodes are the representatives in this rank's share. */
 static OstStatus take_nodes(const Merge *merge, OstMeshChunk *chunk)
 {
     const OstFilePoints *points = merge->points;
     OstLocal n = 0;
     for (OstLocal i = 0; i < points->count; i++)
-        n += merge->chief[i] == merge->self[i];
+        n += merge->representative[i] == merge->self[i];
     OST_TRY(OST_NEW(chunk->ctx, &chunk->coordinates, 3 * (size_t)n));
     if (points->label)
         OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, n));
     for (OstLocal i = 0; i < points->count; i++) {
-        if (merge->chief[i] != merge->self[i])
+        if (merge->representative[i] != merge->self[i])
             continue;
         const size_t node = (size_t)chunk->node_count++;
         memcpy(chunk->coordinates + 3 * node, points->coordinates + 3 * (size_t)i, 3 * sizeof(double));
@@ -147,15 +148,15 @@ static OstStatus take_nodes(const Merge *merge, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* Chiefs have their numbers; the other points ask for their chief's. */
+/* Numbers the representatives; the other points ask for their representative's number. */
 static OstStatus number_points(Merge *merge, const OstMeshChunk *chunk)
 {
     OstFilePoints *points = merge->points;
     OstLocal pool = 0;
     for (OstLocal i = 0; i < points->count; i++)
-        if (merge->chief[i] == merge->self[i]) {
+        if (merge->representative[i] == merge->self[i]) {
             points->node[i] = chunk->first_node + pool;
-            merge->like[pool] = points->node[i];
+            merge->matched[pool] = points->node[i];
             merge->key[pool++] = (OstKey){{merge->self[i]}};
         }
     if (points->piece_count == 1)
@@ -163,9 +164,9 @@ static OstStatus number_points(Merge *merge, const OstMeshChunk *chunk)
     OstKey *query = NULL;
     OstStatus status = ost_agree(merge->h5->ctx, OST_NEW(merge->h5->ctx, &query, points->count));
     for (OstLocal i = 0; status == OST_SUCCESS && i < points->count; i++)
-        query[i].word[0] = merge->chief[i];
+        query[i].word[0] = merge->representative[i];
     if (status == OST_SUCCESS)
-        status = ost_match_keys(merge->h5->ctx, pool, merge->key, merge->like, points->count, query, points->node);
+        status = ost_match_keys(merge->h5->ctx, pool, merge->key, merge->matched, points->count, query, points->node);
     OST_FREE(query);
     return status;
 }
@@ -175,8 +176,8 @@ static OstStatus allocate_merge(OstContext *ctx, Merge *merge)
     const OstLocal n = merge->points->count;
     OST_TRY(OST_NEW(ctx, &merge->key, n));
     OST_TRY(OST_NEW(ctx, &merge->self, n));
-    OST_TRY(OST_NEW(ctx, &merge->like, n));
-    OST_TRY(OST_NEW(ctx, &merge->chief, n));
+    OST_TRY(OST_NEW(ctx, &merge->matched, n));
+    OST_TRY(OST_NEW(ctx, &merge->representative, n));
     OST_TRY(OST_NEW(ctx, &merge->points->node, n));
     for (OstLocal i = 0; i < n; i++)
         merge->self[i] = merge->points->first + i;
@@ -190,7 +191,7 @@ OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMes
     OstStatus status = OST_SUCCESS;
     OstRows nodes;
     OST_TRY_DONE(ost_agree(ctx, allocate_merge(ctx, &merge)));
-    OST_TRY_DONE(find_chiefs(&merge));
+    OST_TRY_DONE(find_representatives(&merge));
     OST_TRY_DONE(ost_agree(ctx, take_nodes(&merge, chunk)));
     OST_TRY_DONE(ost_rows_create(ctx, chunk->node_count, &nodes));
     chunk->first_node = nodes.first;
@@ -199,8 +200,8 @@ OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMes
 done:
     OST_FREE(merge.key);
     OST_FREE(merge.self);
-    OST_FREE(merge.like);
-    OST_FREE(merge.chief);
+    OST_FREE(merge.matched);
+    OST_FREE(merge.representative);
     return status;
 }
 

@@ -5,12 +5,12 @@
 #include "formats/vtkhdf/hdf5.h"
 #include "mesh/mesh_data.h"
 
-/* Pieces of a file each hold the points they use, so a node on the border of pieces is there several times. The first
- * of its points in the file becomes the node; nodes are numbered in the order of their points. */
+/* Each piece of a file has its own copy of the points it uses, so a node on the border of pieces occurs several times.
+ * The first of these points in the file becomes the node; nodes are numbered in the order of their points. */
 
-/* This rank's share of the file's points, wherever the pieces begin and end. */
+/* This rank's share of the file's points, regardless of where pieces begin and end. */
 typedef struct OstFilePoints {
-    OstGlobal first, total; /* in the file, all pieces in a row */
+    OstGlobal first, total; /* in the file, over all pieces */
     OstLocal count;
     OstGlobal piece_count;
     OstGlobal *piece_start; /* piece_count + 1: first point of each piece */
@@ -19,9 +19,9 @@ typedef struct OstFilePoints {
     OstGlobal *node;        /* number of the node each point is, once merged */
 } OstFilePoints;
 
-/* Collective. Finds which points are one node: those with equal labels, or with exactly equal coordinates where the
- * file has no labels. Gives the chunk its nodes, and every point its node's number. Raises OST_INVALID_INPUT where a
- * piece has a label twice, or a label is at two places. */
+/* Collective. Finds which points are one node: those with equal labels, or with bitwise equal coordinates if the file
+ * has no labels. Fills the chunk's nodes, and each point's node number. Raises OST_INVALID_INPUT if a piece has a label
+ * twice, or a label is at two places. */
 OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMeshChunk *chunk);
 
 /* Collective. Replaces points of the file (numbers over all pieces) by their nodes' numbers. */

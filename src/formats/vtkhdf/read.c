@@ -4,16 +4,16 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "formats/vtkhdf/dry_run.h"
 #include "formats/vtkhdf/groups.h"
 #include "formats/vtkhdf/points.h"
-#include "formats/vtkhdf/rehearsal.h"
 
 #include <string.h>
 
 /* VTK's numbers of the cell types we know. */
 enum { VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
 
-/* What is known of a file while it is read. Every rank reads its own share of points and tets. */
+/* A file while it is read. Every rank reads its own share of points and tets. */
 typedef struct Reader {
     OstHdf5 h5;
     OstFilePoints points;
@@ -42,7 +42,7 @@ static OstStatus check_kind(Reader *reader)
     return OST_SUCCESS;
 }
 
-/* Where each piece begins, from the numbers of its entries; room for one more at the end. */
+/* The first entry of each piece, from the pieces' counts; and one more, the total. */
 static OstStatus read_starts(const OstHdf5 *h5, const char *name, OstGlobal pieces, OstGlobal **start)
 {
     OST_TRY(OST_NEW(h5->ctx, start, pieces + 1));
@@ -57,7 +57,7 @@ static OstStatus read_starts(const OstHdf5 *h5, const char *name, OstGlobal piec
     return OST_SUCCESS;
 }
 
-/* Rank r's share of `total` entries begins at total·r/size; no rank can hold more than it can number. */
+/* Rank r's share of `total` entries begins at total·r/size; refused if a share exceeds 2^31 - 1. */
 static OstStatus take_share(const OstHdf5 *h5, const char *what, OstGlobal total, OstGlobal *first, OstLocal *count)
 {
     const OstGlobal size = ost_size(h5->ctx), rank = ost_rank(h5->ctx);
@@ -94,7 +94,7 @@ static OstStatus read_points(Reader *reader)
     static const char labels[] = "/VTKHDF/PointData/vertex";
     OstGlobal rows = 0;
     int components = 0;
-    OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/Points", &rows, &components)); /* before memory is had for them */
+    OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/Points", &rows, &components)); /* before memory is allocated for them */
     if (rows != points->total || components != 3)
         return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: Points has %lld rows of %d; the pieces count %lld of 3",
                          h5->path, (long long)rows, components, (long long)points->total);
@@ -139,7 +139,7 @@ static OstStatus read_types(Reader *reader)
     return status;
 }
 
-/* Collective. Tets are of one kind on all ranks; a rank with no tets takes the others'. */
+/* Collective. All ranks must have the same kind of tets; a rank without tets takes it from the others. */
 static OstStatus agree_on_kind(Reader *reader)
 {
     OstMeshChunk *chunk = reader->chunk;
@@ -159,7 +159,7 @@ static OstGlobal piece_of_tet(const Reader *reader, OstGlobal piece, OstGlobal t
     return piece;
 }
 
-/* Every piece lists one offset more than it has tets, so tet t of piece p has entries t + p and t + p + 1. */
+/* A piece has one offset more than tets, so tet t of piece p has entries t + p and t + p + 1. */
 static OstStatus check_offsets(const Reader *reader, const OstGlobal *offset, OstGlobal first_piece)
 {
     const OstMeshChunk *chunk = reader->chunk;
@@ -199,7 +199,7 @@ static OstStatus read_offsets(const Reader *reader)
     return status;
 }
 
-/* The tets' nodes as points of the file, all pieces in a row. */
+/* The tets' nodes as points of the file, numbered over all pieces. */
 static OstStatus read_connectivity(Reader *reader)
 {
     OstMeshChunk *chunk = reader->chunk;
@@ -234,7 +234,7 @@ static OstStatus read_tet_array(const Reader *reader, const char *name, hid_t ty
                               chunk->tet_count, *values);
 }
 
-/* Without our group an array called region may be anything: the whole is one region. */
+/* In a file without our group an array called region may be anything: the mesh is then one region. */
 static OstStatus read_regions(Reader *reader)
 {
     static const char name[] = "/VTKHDF/CellData/region";
@@ -271,8 +271,8 @@ static OstStatus read_tets(Reader *reader)
     return OST_SUCCESS;
 }
 
-/* Local. All that is needed before the ranks must speak to each other. */
-static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader)
+/* Local. Opens the file and reads what does not need other ranks. */
+static OstStatus open_and_read(OstContext *ctx, const char *path, Reader *reader)
 {
     OST_TRY(OST_NEW(ctx, &reader->chunk, 1));
     reader->chunk->ctx = ctx;
@@ -283,9 +283,9 @@ static OstStatus open_and_look(OstContext *ctx, const char *path, Reader *reader
     return read_points(reader);
 }
 
-/* Local. Has HDF5 do all that the reading will ask of it, if not with all the numbers: past what it refuses as well, as
- * the reading comes by in another order. */
-static OstStatus rehearse(OstContext *ctx, const char *path)
+/* Local. Makes HDF5 do all that reading will ask of it, but with few of the numbers. It goes on after an array that
+ * HDF5 refuses, because the real reading has another order. */
+static OstStatus dry_run(OstContext *ctx, const char *path)
 {
     const struct {
         const char *name;
@@ -301,11 +301,11 @@ static OstStatus rehearse(OstContext *ctx, const char *path)
         status = check_kind(&reader);
     const int can_be_read = status == OST_SUCCESS;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
-        const OstStatus one = ost_hdf5_look(&reader.h5, arrays[i].name, arrays[i].type);
+        const OstStatus one = ost_hdf5_try_rows(&reader.h5, arrays[i].name, arrays[i].type);
         status = one == OST_SUCCESS ? status : one;
     }
     if (can_be_read && status != OST_OUT_OF_MEMORY)
-        status = ost_groups_look(&reader.h5);
+        status = ost_groups_try(&reader.h5);
     ost_hdf5_close(&reader.h5);
     return status;
 }
@@ -315,8 +315,8 @@ OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chun
     Reader reader = {.h5.file = H5I_INVALID_HID};
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
-    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_rehearse(ctx, path, rehearse)));
-    OST_TRY_DONE(ost_agree(ctx, open_and_look(ctx, path, &reader)));
+    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, dry_run)));
+    OST_TRY_DONE(ost_agree(ctx, open_and_read(ctx, path, &reader)));
     OST_TRY_DONE(agree_on_kind(&reader));
     OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));
     OST_TRY_DONE(ost_file_points_merge(&reader.h5, &reader.points, reader.chunk));

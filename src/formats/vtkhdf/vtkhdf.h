@@ -17,8 +17,8 @@ typedef struct OstOutputArray {
     const void *values;
 } OstOutputArray;
 
-/* Says in the file that its fields are no answer: an attribute Status of /VTKHDF, the reasons as /Orthostat/Objections,
- * and field data arrays `refused` and, where so, `unfinished` (1), which VTK's reader hands on. */
+/* Marks the fields of a file as no answer: an attribute Status of /VTKHDF, the reasons in /Orthostat/Objections, and
+ * field data arrays `refused` and, if so, `unfinished` (1), which VTK's reader passes on. */
 typedef struct OstOutputMark {
     const char *status; /* one word */
     int unfinished;
@@ -26,15 +26,15 @@ typedef struct OstOutputMark {
     char *const *reasons;
 } OstOutputMark;
 
-/* Collective. Writes a VTKHDF 1.0 UnstructuredGrid, one piece per rank (its owned tets and their nodes), in parallel.
- * The file appears under its name only when complete (core/write_aside.h); on failure what was there stays. `mark` is
- * NULL for an answer. Labels, region names and boundaries go along, so that the file can be read back as a mesh. Every
- * array's values must be finite. */
+/* Collective. Writes a VTKHDF 1.0 UnstructuredGrid in parallel, one piece per rank (its owned tets and their nodes).
+ * The file gets its name only when complete (core/write_aside.h); after a failure an earlier file is still there.
+ * `mark` is NULL for an answer. Labels, region names and boundaries are written too, so that the file can be read back
+ * as a mesh. All values must be finite. */
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
                            const OstOutputArray *arrays, const OstOutputMark *mark);
 
 /* Collective. The mesh of a VTKHDF file of tets (types 10 and 24 only), each rank reading its share; nodes that pieces
- * share are merged by their labels, or where a file of another program has none, by exactly equal coordinates. */
+ * share are merged by their labels or, in a file of another program without labels, by bitwise equal coordinates. */
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 
 #endif

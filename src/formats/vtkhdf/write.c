@@ -59,7 +59,7 @@ static OstStatus raise_not_finite(OstContext *ctx, const char *path, const OstOu
                      at % (size_t)array->components + 1, array->components);
 }
 
-/* x - x is 0 for finite x only; the sum lets the compiler go through many at once. */
+/* x - x is 0 for finite x only; a sum can be vectorised, a loop with an exit cannot. */
 static int all_finite(size_t count, const double *values)
 {
     double sum = 0.0;
@@ -104,7 +104,7 @@ static OstStatus write_array(OstHdf5 *h5, OstPiece *piece, const OstOutputArray 
                                on_nodes ? ost_piece_gather(piece, row_bytes(array), array->values) : array->values);
 }
 
-/* Labels, and the regions and axes unless the caller passes arrays of that name. */
+/* Labels, and regions and axes unless the caller passes arrays of that name. */
 static OstStatus write_own_arrays(OstHdf5 *h5, OstPiece *piece, int count, const OstOutputArray *arrays)
 {
     const OstMesh *mesh = piece->mesh;
@@ -146,7 +146,7 @@ static OstStatus write_contents(OstHdf5 *h5, OstPiece *piece, int count, const O
     return ost_groups_write(h5, piece->mesh);
 }
 
-/* At most, beside what HDF5 needs for itself: ghosts are counted with the nodes, as some of them are written twice. */
+/* An upper bound, without what HDF5 needs for itself: all ghosts are counted, as some nodes are written twice. */
 static double piece_bytes(const OstMesh *mesh, int count, const OstOutputArray *arrays)
 {
     double node = 24.0 + 8.0;                                       /* place and label */
@@ -170,7 +170,7 @@ static OstStatus find_bytes(const OstMesh *mesh, int count, const OstOutputArray
     return OST_SUCCESS;
 }
 
-/* A full disk is found before HDF5 has anything to write, and the room is kept for as long as it writes. */
+/* Tests for disk space before HDF5 writes anything, and reserves it until the file is written. */
 static OstStatus write_file(const OstAside *aside, OstPiece *piece, int count, const OstOutputArray *arrays,
                             const OstOutputMark *mark)
 {

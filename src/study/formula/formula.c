@@ -188,6 +188,6 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact)
     exact->ctx = c->ctx;
     exact->axes = stated->axes;
     exact->field =
-        (OstExactField){exact, exact_displacement, exact_gradient, exact_stiffness, exact_stress, exact_body_force};
+        (OstClosedForm){exact, exact_displacement, exact_gradient, exact_stiffness, exact_stress, exact_body_force};
     return exact->formula->prepare(c, parameter, &exact->data);
 }

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 #define ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 
-#include "assembly/exact.h"
+#include "assembly/closed_form.h"
 #include "case/verify.h"
 
 /* Closed-form solutions with which answers are compared. A formula takes shape and material from the case, and gives a
@@ -40,7 +40,7 @@ int ost_formula_find_value(const OstFormula *formula, const char *name);
 /* The closed-form solution of a case: strain from the formula's displacement, stress by the material in its axes at the
  * point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
 typedef struct OstExact {
-    OstExactField field; /* field.data is this object */
+    OstClosedForm field; /* field.data is this object */
     OstContext *ctx;
     const OstFormula *formula;
     OstFormulaData data;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf/rehearsal.h"
+#include "formats/vtkhdf/dry_run.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* Takes the place of the library's: a fork for each file, dear under the address sanitizer, would leave a few dozen
- * files a second. Here a process rehearses one file after the other, until one of them ends it or it has had enough of
+ * files a second. Here a process reads one file after the other, until one of them ends it or it has had enough of
  * them for what HDF5 leaves behind. */
 
 enum { FILES_PER_PROCESS = 500, NO_PROCESS = 0 };
@@ -29,7 +29,7 @@ static void give_up(const char *what)
     exit(1);
 }
 
-static void rehearse_on_request(OstContext *ctx, const char *path, OstReading *read_file)
+static void dry_run_on_request(OstContext *ctx, const char *path, OstReading *read_file)
 {
     char word = 0;
     const int silence = open("/dev/null", O_WRONLY);
@@ -38,7 +38,7 @@ static void rehearse_on_request(OstContext *ctx, const char *path, OstReading *r
     if (__sanitizer_set_death_callback)
         __sanitizer_set_death_callback(NULL);
     while (read(wire, &word, 1) == 1) {
-        ost_hdf5_rehearse_here(ctx, path, read_file);
+        ost_hdf5_dry_run_here(ctx, path, read_file);
         if (write(wire, &word, 1) != 1)
             break;
     }
@@ -51,14 +51,14 @@ static void start(OstContext *ctx, const char *path, OstReading *read_file)
     H5set_free_list_limits(-1, -1, 4 << 20, 256 << 10, 16 << 20,
                            1 << 20); /* keep the largest nodes; the rest as it is */
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
-        give_up("rehearse: socketpair");
+        give_up("dry run: socketpair");
     process = fork();
     if (process < 0)
-        give_up("rehearse: fork");
+        give_up("dry run: fork");
     wire = ends[process == 0];
     close(ends[process != 0]);
     if (process == 0)
-        rehearse_on_request(ctx, path, read_file);
+        dry_run_on_request(ctx, path, read_file);
     files = 0;
 }
 
@@ -69,18 +69,18 @@ static int finish(void)
     close(wire);
     while (waitpid(process, &how, 0) < 0)
         if (errno != EINTR)
-            give_up("rehearse: waitpid");
+            give_up("dry run: waitpid");
     process = NO_PROCESS;
     return how;
 }
 
-OstStatus ost_hdf5_rehearse(OstContext *ctx, const char *path, OstReading *read_file)
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file)
 {
     char word = 0;
     if (process == NO_PROCESS)
         start(ctx, path, read_file);
     if (write(wire, &word, 1) != 1)
-        give_up("rehearse: write");
+        give_up("dry run: write");
     if (read(wire, &word, 1) != 1)
         return ost_hdf5_raise_lost(ctx, path, finish());
     if (++files == FILES_PER_PROCESS)

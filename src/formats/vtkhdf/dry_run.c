@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf/rehearsal.h"
+#include "formats/vtkhdf/dry_run.h"
 
 #include "core/error.h"
 
@@ -8,18 +8,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-OstStatus ost_hdf5_rehearse(OstContext *ctx, const char *path, OstReading *read)
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read)
 {
     int how = 0;
     const pid_t child = fork();
     if (child == 0) {
-        ost_hdf5_rehearse_here(ctx, path, read);
+        ost_hdf5_dry_run_here(ctx, path, read);
         _exit(0);
     }
     if (child < 0)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: no process could be started to try it: %s", path, strerror(errno));
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: no process could be started to test it: %s", path, strerror(errno));
     while (waitpid(child, &how, 0) < 0)
         if (errno != EINTR)
-            return OST_RAISE(ctx, OST_FILE_FAILED, "%s: could not be tried: %s", path, strerror(errno));
+            return OST_RAISE(ctx, OST_FILE_FAILED, "%s: could not be tested: %s", path, strerror(errno));
     return WIFEXITED(how) && WEXITSTATUS(how) == 0 ? OST_SUCCESS : ost_hdf5_raise_lost(ctx, path, how);
 }

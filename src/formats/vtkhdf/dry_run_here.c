@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "formats/vtkhdf/rehearsal.h"
+#include "formats/vtkhdf/dry_run.h"
 
 #include "core/error.h"
 
@@ -14,7 +14,8 @@
 
 enum { OUT_OF_MEMORY = 1, MEMORY_FACTOR = 10, LIBRARY_BYTES = 64 << 20, BYTES_PER_SECOND = 10 << 20 };
 
-/* Memory on top of what the process maps already; the second grows with the tables of a large file. */
+/* Limits memory to ten times the file beyond what is mapped already, plus 64 MiB for HDF5; and the processor time,
+ * which grows with the file. */
 static int set_limits(const char *path)
 {
     struct stat facts;
@@ -44,8 +45,8 @@ static herr_t find_no_memory(unsigned n, const H5E_error2_t *error, void *found)
     return 0;
 }
 
-/* Called by HDF5 wherever it fails. What it refuses in good order now it will refuse again; but not so where it was
- * memory that it lacked. */
+/* HDF5 calls this at each of its errors. Lack of memory ends the process: with the limit lifted the real reading would
+ * go on. All other errors will come again in the real reading. */
 static herr_t exit_without_memory(hid_t stack, void *ctx)
 {
     int found = 0;
@@ -56,11 +57,11 @@ static herr_t exit_without_memory(hid_t stack, void *ctx)
     return 0;
 }
 
-void ost_hdf5_rehearse_here(OstContext *ctx, const char *path, OstReading *read)
+void ost_hdf5_dry_run_here(OstContext *ctx, const char *path, OstReading *read)
 {
     static const int fatal[] = {SIGPROF, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
     for (size_t i = 0; i < sizeof fatal / sizeof *fatal; i++)
-        signal(fatal[i], SIG_DFL); /* MPI's would print */
+        signal(fatal[i], SIG_DFL); /* MPI's handlers would print */
     if (set_limits(path) != 0)
         return;
     H5Eset_auto2(H5E_DEFAULT, exit_without_memory, ctx);
@@ -71,7 +72,7 @@ void ost_hdf5_rehearse_here(OstContext *ctx, const char *path, OstReading *read)
 OstStatus ost_hdf5_raise_lost(OstContext *ctx, const char *path, int how)
 {
     return OST_RAISE(ctx, OST_FILE_FAILED, "%s: the file is damaged: reading it HDF5 %s; write it again", path,
-                     WIFEXITED(how)             ? "asks for memory without measure"
+                     WIFEXITED(how)             ? "asks for too much memory"
                      : WTERMSIG(how) == SIGPROF ? "does not come to an end"
                                                 : "crashes");
 }
