@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The word `exact`, which stands for the closed-form solution of the case (assembly/exact.h). */
+/* The word `exact`, which stands for the closed-form solution of the case (assembly/closed_form.h). */
 static int is_closed_form(const OstYaml *yaml, const OstYamlNode *node)
 {
     const char *text = "";

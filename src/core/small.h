@@ -26,6 +26,21 @@ static inline void ost_cross3(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static inline double ost_dot6(const double a[6], const double b[6])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 6; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* y = C x for a 6×6 matrix: a stress from a strain. */
+static inline void ost_apply6(const double c[36], const double x[6], double y[6])
+{
+    for (int i = 0; i < 6; i++)
+        y[i] = ost_dot6(c + 6 * i, x);
+}
+
 /* gathered[3 a + i] = component i of vectors' entry nodes[a]. */
 static inline void ost_gather3(int count, const OstLocal *nodes, const double *vectors, double *gathered)
 {
