@@ -69,17 +69,10 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
     enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, ACCURACY, SOLVER, OUTPUT, WATCH, VERIFY, SECTIONS };
     OstYamlKey keys[SECTIONS] = {
-        [TITLE] = {"title", OST_OPTIONAL, NULL},
-        [MESH] = {"mesh", OST_NEEDED, NULL},
-        [ELEMENT] = {"element", OST_OPTIONAL, NULL},
-        [MATERIALS] = {"materials", OST_OPTIONAL, NULL},
-        [CONSTRAINTS] = {"constraints", OST_OPTIONAL, NULL},
-        [LOADS] = {"loads", OST_OPTIONAL, NULL},
-        [ACCURACY] = {"accuracy", OST_OPTIONAL, NULL},
-        [SOLVER] = {"solver", OST_OPTIONAL, NULL},
-        [OUTPUT] = {"output", OST_OPTIONAL, NULL},
-        [WATCH] = {"watch", OST_OPTIONAL, NULL},
-        [VERIFY] = {"verify", OST_OPTIONAL, NULL},
+        [TITLE] = {.name = "title"},         [MESH] = {.name = "mesh", .needed = 1},  [ELEMENT] = {.name = "element"},
+        [MATERIALS] = {.name = "materials"}, [CONSTRAINTS] = {.name = "constraints"}, [LOADS] = {.name = "loads"},
+        [ACCURACY] = {.name = "accuracy"},   [SOLVER] = {.name = "solver"},           [OUTPUT] = {.name = "output"},
+        [WATCH] = {.name = "watch"},         [VERIFY] = {.name = "verify"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
         [MESH] = ost_read_mesh,     [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,

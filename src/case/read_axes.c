@@ -20,19 +20,15 @@ static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, const 
 
 static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
 {
-    enum { DEGREES, SEQUENCE };
-    OstYamlKey keys[] = {
-        [DEGREES] = {"degrees", OST_NEEDED, NULL},
-        [SEQUENCE] = {"sequence", OST_OPTIONAL, NULL},
-    };
     const char *sequence = "zxz";
     double degrees[3];
+    OstYamlKey keys[] = {{.name = "degrees", .needed = 1, .read = ost_yaml_vector, .into = degrees},
+                         {.name = "sequence"}};
     (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[DEGREES].value, 3, degrees));
-    if (keys[SEQUENCE].value)
-        OST_TRY(ost_yaml_text(yaml, keys[SEQUENCE].value, &sequence));
-    const OstYamlNode *at = keys[SEQUENCE].value ? keys[SEQUENCE].value : node;
+    const OstYamlNode *at = keys[1].value ? keys[1].value : node;
+    if (keys[1].value)
+        OST_TRY(ost_yaml_text(yaml, at, &sequence));
     return ost_yaml_located(yaml, at, ost_axes_from_euler(yaml->ctx, sequence, degrees, axes->fixed));
 }
 
@@ -75,17 +71,14 @@ static OstStatus read_order(const OstYaml *yaml, const OstYamlNode *node, OstCyl
 
 static OstStatus read_cylindrical(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
 {
-    enum { ORIGIN, AXIS, ORDER };
     OstYamlKey keys[] = {
-        [ORIGIN] = {"origin", OST_NEEDED, NULL},
-        [AXIS] = {"axis", OST_NEEDED, NULL},
-        [ORDER] = {"order", OST_NEEDED, NULL},
+        {.name = "order", .needed = 1},
+        {.name = "origin", .needed = 1, .read = ost_yaml_vector, .into = axes->origin},
+        {.name = "axis", .needed = 1, .read = ost_yaml_direction, .into = axes->axis},
     };
     (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, axes->origin));
-    OST_TRY(ost_yaml_direction(yaml, keys[AXIS].value, axes->axis));
-    return read_order(yaml, keys[ORDER].value, axes->order);
+    return read_order(yaml, keys[0].value, axes->order);
 }
 
 static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
@@ -109,35 +102,30 @@ static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAx
 
 static OstStatus read_curve(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
 {
-    enum { POINTS, UP, ORDER };
     OstYamlKey keys[] = {
-        [POINTS] = {"points", OST_NEEDED, NULL},
-        [UP] = {"up", OST_OPTIONAL, NULL},
-        [ORDER] = {"order", OST_OPTIONAL, NULL},
+        {.name = "points", .needed = 1},
+        {.name = "order"},
+        {.name = "up", .read = ost_yaml_direction, .into = axes->up},
     };
     (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(read_points(yaml, keys[POINTS].value, axes));
-    if (keys[UP].value)
-        OST_TRY(ost_yaml_direction(yaml, keys[UP].value, axes->up));
-    return keys[ORDER].value ? read_order(yaml, keys[ORDER].value, axes->order) : OST_SUCCESS;
+    OST_TRY(read_points(yaml, keys[0].value, axes));
+    return keys[1].value ? read_order(yaml, keys[1].value, axes->order) : OST_SUCCESS;
 }
 
 static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
 {
-    const char *text;
     (void)what;
-    OST_TRY(ost_yaml_text(yaml, node, &text));
-    return strcmp(text, "mesh") == 0 ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
+    return ost_yaml_says(yaml, node, "mesh") ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
 }
 
 static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
 {
-    OstYamlKey keys[] = {{"e1", OST_NEEDED, NULL}, {"e2", OST_NEEDED, NULL}};
+    OstYamlKey keys[] = {{.name = "e1", .needed = 1}, {.name = "e2", .needed = 1}};
     (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     for (int i = 0; i < 2; i++) {
-        OstYamlKey ends[] = {{"from", OST_NEEDED, NULL}, {"to", OST_NEEDED, NULL}};
+        OstYamlKey ends[] = {{.name = "from", .needed = 1}, {.name = "to", .needed = 1}};
         OST_TRY(ost_yaml_mapping(yaml, keys[i].value, ends, OST_COUNT_OF(ends)));
         OST_TRY(ost_read_string(yaml, ends[0].value, &axes->from[i]));
         OST_TRY(ost_read_string(yaml, ends[1].value, &axes->to[i]));
@@ -164,7 +152,7 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
         {OST_AXES_GRADIENT, "gradient", read_gradient},
     };
     enum { FORMS = sizeof forms / sizeof *forms };
-    OstYamlKey keys[FORMS] = {{NULL, OST_OPTIONAL, NULL}};
+    OstYamlKey keys[FORMS] = {{.name = NULL}};
     char what[128];
     int form;
     for (int f = 0; f < FORMS; f++)
