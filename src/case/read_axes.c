@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     int count;
     OST_TRY(ost_yaml_list(yaml, node, "three rows e1, e2, e3 of three numbers", &count));
@@ -15,16 +15,15 @@ static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, const 
     const OstYamlNode *row = ost_yaml_first(yaml, node);
     for (int i = 0; i < 3; i++, row = ost_yaml_next(yaml, row))
         OST_TRY(ost_yaml_numbers(yaml, row, 3, axes->fixed + 3 * (size_t)i));
-    return ost_yaml_located(yaml, node, ost_axes_check(yaml->ctx, what, axes->fixed));
+    return OST_SUCCESS;
 }
 
-static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     const char *sequence = "zxz";
     double degrees[3];
     OstYamlKey keys[] = {{.name = "degrees", .needed = 1, .read = ost_yaml_vector, .into = degrees},
                          {.name = "sequence"}};
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     const OstYamlNode *at = keys[1].value ? keys[1].value : node;
     if (keys[1].value)
@@ -32,10 +31,9 @@ static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, const 
     return ost_yaml_located(yaml, at, ost_axes_from_euler(yaml->ctx, sequence, degrees, axes->fixed));
 }
 
-static OstStatus read_quaternion(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_quaternion(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     double quaternion[4];
-    (void)what;
     OST_TRY(ost_yaml_numbers(yaml, node, 4, quaternion));
     return ost_yaml_located(yaml, node, ost_axes_from_quaternion(yaml->ctx, quaternion, axes->fixed));
 }
@@ -69,16 +67,15 @@ static OstStatus read_order(const OstYaml *yaml, const OstYamlNode *node, OstCyl
     return OST_SUCCESS;
 }
 
-static OstStatus read_cylindrical(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_cylindrical(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     OstYamlKey keys[] = {
-        {.name = "order", .needed = 1},
         {.name = "origin", .needed = 1, .read = ost_yaml_vector, .into = axes->origin},
         {.name = "axis", .needed = 1, .read = ost_yaml_direction, .into = axes->axis},
+        {.name = "order", .needed = 1},
     };
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    return read_order(yaml, keys[0].value, axes->order);
+    return read_order(yaml, keys[2].value, axes->order);
 }
 
 static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
@@ -100,29 +97,26 @@ static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAx
     return OST_SUCCESS;
 }
 
-static OstStatus read_curve(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_curve(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     OstYamlKey keys[] = {
         {.name = "points", .needed = 1},
-        {.name = "order"},
         {.name = "up", .read = ost_yaml_direction, .into = axes->up},
+        {.name = "order"},
     };
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(read_points(yaml, keys[0].value, axes));
-    return keys[1].value ? read_order(yaml, keys[1].value, axes->order) : OST_SUCCESS;
+    return keys[2].value ? read_order(yaml, keys[2].value, axes->order) : OST_SUCCESS;
 }
 
-static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    (void)what;
     return ost_yaml_says(yaml, node, "mesh") ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
 }
 
-static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     OstYamlKey keys[] = {{.name = "e1", .needed = 1}, {.name = "e2", .needed = 1}};
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     for (int i = 0; i < 2; i++) {
         OstYamlKey ends[] = {{.name = "from", .needed = 1}, {.name = "to", .needed = 1}};
@@ -141,7 +135,7 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
     static const struct {
         OstAxesKind kind;
         const char *word;
-        OstStatus (*read)(const OstYaml *, const OstYamlNode *, const char *, OstAxesSpec *);
+        OstStatus (*read)(const OstYaml *, const OstYamlNode *, OstAxesSpec *);
     } forms[] = {
         {OST_AXES_FIXED, "fixed", read_fixed},
         {OST_AXES_CYLINDRICAL, "cylindrical", read_cylindrical},
@@ -159,9 +153,12 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
         keys[f].name = forms[f].word;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, FORMS));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
-    snprintf(what, sizeof what, "axes of region '%.80s'", region);
     axes->kind = forms[form].kind;
-    return forms[form].read(yaml, keys[form].value, what, axes);
+    OST_TRY(forms[form].read(yaml, keys[form].value, axes));
+    if (axes->kind != OST_AXES_FIXED)
+        return OST_SUCCESS;
+    snprintf(what, sizeof what, "axes of region '%.80s'", region);
+    return ost_yaml_located(yaml, keys[form].value, ost_axes_check(yaml->ctx, what, axes->fixed));
 }
 
 void ost_axes_spec_release(OstAxesSpec *axes)

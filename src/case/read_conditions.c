@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "case/regions.h"
 #include "case/sections.h"
 #include "case/yaml/message.h"
 #include "core/error.h"

@@ -167,12 +167,6 @@ static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node,
     return OST_SUCCESS;
 }
 
-static OstStatus read_density(const OstYaml *yaml, const OstYamlNode *node, double *density)
-{
-    OST_TRY(ost_yaml_number(yaml, node, density));
-    return *density >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a density, 0 or above", "");
-}
-
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
 {
     enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES };
@@ -199,7 +193,9 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     if (keys[SHEAR].value)
         OST_TRY(read_shear(yaml, keys[SHEAR].value, &stated));
     if (keys[DENSITY].value)
-        OST_TRY(read_density(yaml, keys[DENSITY].value, &density));
+        OST_TRY(ost_yaml_number(yaml, keys[DENSITY].value, &density));
+    if (!(density >= 0.0))
+        return ost_yaml_raise_type(yaml, keys[DENSITY].value, "a density, 0 or above", "");
     OST_TRY(resolve_constants(yaml, keys[POISSONS].value, what, &stated, &constants));
     OST_TRY(
         ost_yaml_located(yaml, keys[POISSONS].value,

@@ -41,20 +41,19 @@ static OstStatus read_angle(const OstYaml *yaml, const OstYamlNode *node, double
 static OstStatus read_round(const OstYaml *yaml, const OstYamlNode *node, int is_sector, OstSectorShape *shape)
 {
     static const char *const axis_words[] = {"x", "y", "z"};
-    enum { AXIS, DIVISIONS };
     OstYamlKey keys[] = {
-        [AXIS] = {.name = "axis", .needed = 1},
-        [DIVISIONS] = {.name = "divisions", .needed = 1},
+        {.name = "axis", .needed = 1},
         {.name = "length", .needed = 1, .read = ost_yaml_positive, .into = &shape->length},
         {.name = "radii", .needed = 1, .read = read_radii, .into = shape->radii},
+        {.name = "divisions", .needed = 1},
         {.name = "origin", .read = ost_yaml_vector, .into = shape->origin},
         {.name = "angle", .needed = 1, .read = read_angle, .into = &shape->angle},
     };
     OstYamlKey counts[] = {
         {.name = "around", .needed = 1}, {.name = "radial", .needed = 1}, {.name = "axial", .needed = 1}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys) - !is_sector));
-    OST_TRY(ost_yaml_word(yaml, keys[AXIS].value, "axis", axis_words, 3, &shape->axis));
-    OST_TRY(ost_yaml_mapping(yaml, keys[DIVISIONS].value, counts, OST_COUNT_OF(counts)));
+    OST_TRY(ost_yaml_word(yaml, keys[0].value, "axis", axis_words, 3, &shape->axis));
+    OST_TRY(ost_yaml_mapping(yaml, keys[3].value, counts, OST_COUNT_OF(counts)));
     OST_TRY(read_divisions(yaml, counts[0].value, is_sector ? 1 : 3, &shape->around));
     OST_TRY(read_divisions(yaml, counts[1].value, 1, &shape->radial));
     return read_divisions(yaml, counts[2].value, 1, &shape->axial);
@@ -82,13 +81,13 @@ static OstStatus read_sector(const OstYaml *yaml, const OstYamlNode *node, OstCa
 static OstStatus read_octant(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstYamlKey keys[] = {
-        {.name = "divisions", .needed = 1},
         {.name = "radii", .needed = 1, .read = read_radii, .into = c->octant.radii},
+        {.name = "divisions", .needed = 1},
         {.name = "centre", .read = ost_yaml_vector, .into = c->octant.centre},
     };
     OstYamlKey divisions[] = {{.name = "around", .needed = 1}, {.name = "radial", .needed = 1}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_mapping(yaml, keys[0].value, divisions, 2));
+    OST_TRY(ost_yaml_mapping(yaml, keys[1].value, divisions, 2));
     OST_TRY(read_divisions(yaml, divisions[0].value, 1, &c->octant.around));
     return read_divisions(yaml, divisions[1].value, 1, &c->octant.radial);
 }
@@ -102,16 +101,16 @@ static OstStatus read_block(const OstYaml *yaml, const OstYamlNode *node, OstCas
 {
     OstBlockShape *block = &c->block;
     OstYamlKey keys[] = {
-        {.name = "divisions", .needed = 1},
         {.name = "size", .needed = 1, .read = read_sides, .into = block->size},
+        {.name = "divisions", .needed = 1},
         {.name = "origin", .read = ost_yaml_vector, .into = block->origin},
     };
     int count;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_list(yaml, keys[0].value, "a list of 3 whole numbers", &count));
+    OST_TRY(ost_yaml_list(yaml, keys[1].value, "a list of 3 whole numbers", &count));
     if (count != 3)
-        return ost_yaml_raise(yaml, keys[0].value, "found %d divisions, expected 3: along x, y and z", count);
-    const OstYamlNode *item = ost_yaml_first(yaml, keys[0].value);
+        return ost_yaml_raise(yaml, keys[1].value, "found %d divisions, expected 3: along x, y and z", count);
+    const OstYamlNode *item = ost_yaml_first(yaml, keys[1].value);
     for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item))
         OST_TRY(read_divisions(yaml, item, 1, &block->divisions[i]));
     return OST_SUCCESS;

@@ -364,10 +364,8 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude);
+    OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(look_at_body(result, &body));
     ost_visit_means(mesh, problem->field, result->displacement, add_tets, &tets);

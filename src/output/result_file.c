@@ -118,8 +118,7 @@ OstStatus ost_result_write(const OstResult *result, unsigned fields, const char 
         if ((fields >> field & 1U) != 0 && has_field(result, (OstOutputFieldBit)field))
             status = describe_field(result, (OstOutputFieldBit)field, &derived, &arrays[count++]);
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_vtkhdf_write(ctx, path, result->mesh, count, arrays, objections->count > 0 ? &mark : NULL);
+    OST_THEN(ost_vtkhdf_write(ctx, path, result->mesh, count, arrays, objections->count > 0 ? &mark : NULL));
     OST_FREE(derived.axes);
     OST_FREE(derived.rank);
     ost_ledger_leave(ctx);

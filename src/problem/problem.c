@@ -2,7 +2,7 @@
 #include "problem/problem.h"
 
 #include "assembly/means.h"
-#include "case/plan_parts.h"
+#include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"

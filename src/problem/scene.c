@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/scene_data.h"
 
-#include "case/regions.h"
+#include "case/case_data.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -65,8 +65,7 @@ static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMateri
         status = ost_mesh_linear(scene->mesh, &linear, NULL);
         on_vertices.mesh = linear;
     }
-    if (status == OST_SUCCESS)
-        status = fill_gradient_axes(&on_vertices, materials, *axes);
+    OST_THEN(fill_gradient_axes(&on_vertices, materials, *axes));
     ost_mesh_destroy(&linear);
     ost_ledger_leave(scene->ctx);
     return status;
@@ -89,13 +88,11 @@ static OstStatus create_field(const OstMesh *mesh, const OstEffects *effects, co
     if (ost_effect_on(effects, OST_EFFECT_VARYING_AXES) && needs_centroids(mesh, materials, axes)) {
         ost_ledger_enter(ctx, OST_EFFECT_VARYING_AXES);
         status = OST_NEW(ctx, &centroids, (size_t)mesh->tet_count * 3);
-        if (status == OST_SUCCESS)
-            status = ost_mesh_tet_centroids(mesh, centroids);
+        OST_THEN(ost_mesh_tet_centroids(mesh, centroids));
         ost_ledger_leave(ctx);
     }
-    if (status == OST_SUCCESS)
-        status = ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
-                                  mesh->tet_label, centroids, tet_axes, field);
+    OST_THEN(ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
+                              mesh->tet_label, centroids, tet_axes, field));
     OST_FREE(centroids);
     return ost_agree(ctx, status);
 }
@@ -115,9 +112,8 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_GRADIENT_AXES))
         status = solve_gradient_axes(scene, materials, &gradient_axes);
-    if (status == OST_SUCCESS)
-        status = create_field(mesh, effects, materials->material, materials->axes,
-                              gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field);
+    OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
+                          gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
     return status;
 }

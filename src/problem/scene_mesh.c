@@ -118,12 +118,9 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     const OstShapeSurface surface = true_surface(c);
     *mesh = NULL;
     OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
-    if (status == OST_SUCCESS)
-        status = ost_scene_partition(materials, chunk, mesh);
-    if (status == OST_SUCCESS)
-        status = refine(c, &surface, mesh);
-    if (status == OST_SUCCESS)
-        status = change_order(c, &surface, mesh);
+    OST_THEN(ost_scene_partition(materials, chunk, mesh));
+    OST_THEN(refine(c, &surface, mesh));
+    OST_THEN(change_order(c, &surface, mesh));
     if (status != OST_SUCCESS)
         ost_mesh_destroy(mesh);
     return status;
@@ -136,12 +133,9 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *mesh = NULL;
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
-    if (status == OST_SUCCESS)
-        status = ost_scene_read_cell_axes(c, chunk);
-    if (status == OST_SUCCESS)
-        status = merge_vertices(c, chunk);
-    if (status == OST_SUCCESS)
-        status = ost_scene_distribute(c, *from_file, &chunk, mesh, materials);
+    OST_THEN(ost_scene_read_cell_axes(c, chunk));
+    OST_THEN(merge_vertices(c, chunk));
+    OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);
     if (status != OST_SUCCESS)
         ost_file_materials_destroy(from_file);

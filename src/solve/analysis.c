@@ -91,8 +91,7 @@ OstStatus ost_problem_solve(OstProblem *problem, const OstSolverOptions *options
     OstAnalysis *analysis = NULL;
     OST_TRY(ost_result_create(problem, result));
     OstStatus status = ost_analysis_create(problem, options, &analysis);
-    if (status == OST_SUCCESS)
-        status = solve(analysis, 1, fields, *result);
+    OST_THEN(solve(analysis, 1, fields, *result));
     ost_analysis_destroy(&analysis);
     ost_problem_release_stiffness(problem);
     return status;
@@ -102,8 +101,7 @@ OstStatus ost_problem_dry_run(OstProblem *problem, const OstSolverOptions *optio
 {
     OstAnalysis *analysis = NULL;
     OstStatus status = ost_analysis_create(problem, options, &analysis);
-    if (status == OST_SUCCESS)
-        status = prepare(analysis);
+    OST_THEN(prepare(analysis));
     ost_analysis_destroy(&analysis);
     ost_problem_release_stiffness(problem);
     return status;
@@ -113,8 +111,7 @@ OstStatus ost_scene_dry_run(const OstScene *scene)
 {
     OstProblem *problem = NULL;
     OstStatus status = ost_scene_problem(scene, &problem);
-    if (status == OST_SUCCESS)
-        status = ost_problem_dry_run(problem, &scene->c->solver);
+    OST_THEN(ost_problem_dry_run(problem, &scene->c->solver));
     ost_problem_destroy(&problem);
     return status;
 }
@@ -125,8 +122,7 @@ OstStatus ost_scene_solve(const OstScene *scene, OstResult **result)
     OstProblem *problem = NULL;
     *result = NULL;
     OstStatus status = ost_scene_problem(scene, &problem);
-    if (status == OST_SUCCESS)
-        status = ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result);
+    OST_THEN(ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result));
     ost_problem_destroy(&problem);
     return status;
 }

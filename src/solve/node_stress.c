@@ -101,15 +101,12 @@ OstStatus ost_result_recover_node_stress(OstResult *result)
     const OstMesh *mesh = result->mesh;
     Sums sums = {0};
     OstStatus status = OST_NEW(ctx, &sums.stress, 6 * (size_t)mesh->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &sums.volume, mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &sums.region, mesh->owned_nodes);
+    OST_THEN(OST_NEW(ctx, &sums.volume, mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &sums.region, mesh->owned_nodes));
     if (status == OST_SUCCESS)
         average(result, &sums);
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), sums.stress));
+    OST_THEN(ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), sums.stress)));
     OST_FREE(sums.volume);
     OST_FREE(sums.region);
     if (status != OST_SUCCESS)

@@ -3,7 +3,6 @@
 #define ORTHOSTAT_CASE_YAML_READ_H
 
 #include "case/yaml/message.h"
-#include "case/yaml/place.h"
 
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
  * "path:line:column: what was found, what was expected". */

@@ -180,10 +180,8 @@ static OstStatus write_file(const OstAside *aside, OstPiece *piece, int count, c
     OST_TRY(find_bytes(piece->mesh, count, arrays, &bytes));
     OST_TRY(ost_disk_space_check(ctx, aside, bytes));
     OstStatus status = ost_hdf5_create(ctx, aside->aside, &h5);
-    if (status == OST_SUCCESS)
-        status = ost_disk_space_keep(ctx, aside, bytes);
-    if (status == OST_SUCCESS)
-        status = write_contents(&h5, piece, count, arrays, mark);
+    OST_THEN(ost_disk_space_keep(ctx, aside, bytes));
+    OST_THEN(write_contents(&h5, piece, count, arrays, mark));
     const OstStatus closed = ost_hdf5_close(&h5);
     return ost_agree(ctx, status != OST_SUCCESS ? status : closed);
 }
@@ -197,12 +195,9 @@ OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mes
     for (int a = 0; a < array_count; a++)
         largest_row = row_bytes(&arrays[a]) > largest_row ? row_bytes(&arrays[a]) : largest_row;
     OstStatus status = ost_agree(ctx, check_arrays(mesh, path, array_count, arrays));
-    if (status == OST_SUCCESS)
-        status = ost_piece_create(mesh, largest_row, &piece);
-    if (status == OST_SUCCESS)
-        status = ost_aside_open_together(ctx, path, &aside);
-    if (status == OST_SUCCESS)
-        status = ost_aside_finish_together(ctx, &aside, write_file(&aside, &piece, array_count, arrays, mark));
+    OST_THEN(ost_piece_create(mesh, largest_row, &piece));
+    OST_THEN(ost_aside_open_together(ctx, path, &aside));
+    OST_THEN(ost_aside_finish_together(ctx, &aside, write_file(&aside, &piece, array_count, arrays, mark)));
     ost_piece_free(&piece);
     return status;
 }
