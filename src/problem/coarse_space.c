@@ -5,7 +5,6 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "orthostat/refine.h"
-#include "problem/coarse_parents.h"
 
 void ost_linear_space_destroy(OstLinearSpace **space)
 {

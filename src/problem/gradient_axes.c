@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/gradient_axes.h"
+#include "problem/scene_parts.h"
 
 #include "algebra/solver.h"
 #include "assembly/laplacian.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/scene_materials.h"
+#include "problem/scene_parts.h"
 
 #include "case/case_data.h"
 #include "case/select.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "solve/result.h"
+#include "solve/strategy.h"
 
 #include "core/error.h"
 #include "core/memory.h"

@@ -211,14 +211,6 @@ static int is_mine(const OstFilePoints *points, OstGlobal point)
     return point >= points->first && point < points->first + points->count;
 }
 
-static void fill_number_keys(const OstFilePoints *points, OstKey *pool, const OstNumberSet *others, OstKey *query)
-{
-    for (OstLocal i = 0; i < points->count; i++)
-        pool[i].word[0] = points->first + i;
-    for (OstLocal i = 0; i < others->count; i++)
-        query[i].word[0] = others->number[i];
-}
-
 OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points, size_t count, OstGlobal *point)
 {
     OstNumberSet others = {0};
@@ -234,7 +226,10 @@ OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points,
     OST_THEN(OST_NEW(ctx, &query, others.count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_size(ctx) > 1) {
-        fill_number_keys(points, pool, &others, query);
+        for (OstLocal i = 0; i < points->count; i++)
+            pool[i].word[0] = points->first + i;
+        for (OstLocal i = 0; i < others.count; i++)
+            query[i].word[0] = others.number[i];
         OST_TRY_DONE(ost_match_keys(ctx, points->count, pool, points->node, others.count, query, node));
     }
     for (size_t i = 0; i < count; i++) {
