@@ -52,7 +52,7 @@ static OstStatus hold_ends(Bench *bench)
     for (OstLocal node = 0; node < bench->mesh->owned_nodes; node++) {
         const double y = bench->mesh->coordinates[3 * (size_t)node + 1];
         for (int i = 0; i < 3 && (y == 0.0 || y == 10.0); i++)
-            OST_TRY(ost_supports_hold(bench->supports, node, unit[i], 0.0));
+            OST_TRY(ost_supports_constrain(bench->supports, node, unit[i], 0.0));
     }
     return ost_supports_complete(bench->supports);
 }

@@ -36,9 +36,8 @@ enum { OST_STATUS_TABLE(OST_STATUS_ENUM) OST_STATUS_COUNT };
 
 typedef int OstStatus;
 
-/* Local. The status's name ("OST_INVALID_INPUT"), its meaning in words, and the program's exit code for it. */
+/* Local. The status's name ("OST_INVALID_INPUT"), and the program's exit code for it. */
 const char *ost_status_name(OstStatus status);
-const char *ost_status_meaning(OstStatus status);
 int ost_status_exit_code(OstStatus status);
 
 OST_API_END

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/matrix/residual.h"
+#include "algebra/direct/direct.h"
+#include "algebra/krylov/cg.h"
 #include "algebra/matrix/vector.h"
+#include "algebra/multigrid/metric.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
-#include "algebra/strategy.h"
 #include "algebra/trilinos/epetra.h"
+#include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -19,7 +21,11 @@ struct OstSolver {
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
     OstSolverPlan plan;
-    OstStrategy *strategy; /* the current one; NULL if there are no unknowns */
+    /* the current strategy: */
+    OstMethod method;              /* AUTO if there is none */
+    OstSmoothedAggregation *plain; /* one of these three is set up */
+    OstMetric *metric;
+    OstDirect *direct;
     OstEpetraMap *map;
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
@@ -44,6 +50,48 @@ static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstMethod method,
     return noted;
 }
 
+static void destroy_strategy(OstSolver *solver)
+{
+    ost_smoothed_aggregation_destroy(&solver->plain);
+    ost_metric_destroy(&solver->metric);
+    ost_direct_destroy(&solver->direct);
+    solver->method = OST_METHOD_AUTO;
+}
+
+/* Sets up the method that `options` names. METRIC's hierarchy is kept for STRONG; anything else is destroyed before the
+ * new one is built. On failure there is no strategy. */
+static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
+{
+    OstStatus status = OST_SUCCESS;
+    if (solver->method == OST_METHOD_METRIC && options->method == OST_METHOD_STRONG) {
+        ost_metric_strengthen(solver->metric, options);
+    } else {
+        destroy_strategy(solver);
+        if (options->method == OST_METHOD_PLAIN)
+            status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
+        else if (options->method == OST_METHOD_DIRECT)
+            status = ost_direct_create(solver->matrix, options->factor_memory, &solver->direct);
+        else
+            status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
+    }
+    solver->method = status == OST_SUCCESS ? options->method : OST_METHOD_AUTO;
+    return status;
+}
+
+/* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
+static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    if (solver->metric)
+        return ost_metric_improve(solver->metric, f, u, goal, report);
+    if (solver->direct)
+        return ost_direct_solve(solver->direct, f, u, goal, report);
+    const OstPreconditioner cycle = {.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
+    const OstCgSystem system = {.matrix = solver->matrix};
+    ost_smoothed_aggregation_report(solver->plain, report);
+    snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML V-cycle of %d levels of its own", report->levels);
+    return ost_cg_solve(&system, &cycle, f, u, goal, report);
+}
+
 /* Could another strategy succeed? Not if the input is wrong or MPI fails. */
 static int is_mendable(OstStatus status)
 {
@@ -59,7 +107,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
         const double start = ost_seconds();
         ost_solver_strategy_options(&solver->plan.options, method, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
-        const OstStatus status = ost_strategy_prepare(solver->matrix, &solver->geometry, &options, &solver->strategy);
+        const OstStatus status = set_up(solver, &options);
         ost_ledger_leave(solver->ctx);
         solver->strategy_seconds = ost_seconds() - start;
         solver->setup_seconds += solver->strategy_seconds;
@@ -155,12 +203,11 @@ done:
 
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
-    const OstMethod current = solver->strategy ? ost_strategy_method(solver->strategy) : OST_METHOD_AUTO;
     /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
-    const int may_stay = current >= OST_METHOD_METRIC && current <= OST_METHOD_TWO_LEVEL;
+    const int may_stay = solver->method >= OST_METHOD_METRIC && solver->method <= OST_METHOD_TWO_LEVEL;
     if (how == OST_UPDATE_KEEP && may_stay)
         return OST_SUCCESS;
-    ost_strategy_destroy(&solver->strategy);
+    destroy_strategy(solver);
     return start(solver, &solver->options);
 }
 
@@ -168,7 +215,7 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    ost_strategy_destroy(&(*solver)->strategy);
+    destroy_strategy(*solver);
     ost_epetra_map_destroy(&(*solver)->map);
     OST_FREE(*solver);
 }
@@ -179,21 +226,16 @@ static OstStatus measure_residual(const OstSolver *solver, const double *f, cons
 {
     OstContext *ctx = solver->ctx;
     const size_t n = 3 * (size_t)solver->matrix->rows;
-    double *vector = NULL;
-    double *residual = NULL;
-    double norm = 0.0;
-    double f_norm = 0.0;
-    OstStatus status = OST_NEW(ctx, &vector, 3 * (size_t)solver->matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &residual, n);
-    OST_TRY_DONE(ost_agree(ctx, status));
+    double *residual = NULL, norm = 0.0, f_norm = 0.0;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &residual, n + 3 * (size_t)solver->matrix->columns)));
+    double *vector = residual + n;
     memcpy(vector, u, n * sizeof *u);
     OST_TRY_DONE(ost_residual(solver->matrix, f, vector, compensated, residual));
     OST_TRY_DONE(ost_epetra_norm(solver->map, residual, &norm));
     OST_TRY_DONE(ost_epetra_norm(solver->map, f, &f_norm));
     *relative = f_norm > 0.0 ? norm / f_norm : norm;
 done:
-    OST_FREE(vector);
     OST_FREE(residual);
     return status;
 }
@@ -203,11 +245,11 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 {
     const double start = ost_seconds();
     const int before = goal->iterations;
-    const OstStatus status = ost_strategy_improve(solver->strategy, f, u, goal, report);
+    const OstStatus status = improve(solver, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
                           : goal->end == OST_END_REACHED ? "reached the requested residual"
                                                          : goal->words;
-    OstSolveStep *step = note_step(report->step, &report->steps, ost_strategy_method(solver->strategy), outcome);
+    OstSolveStep *step = note_step(report->step, &report->steps, solver->method, outcome);
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
@@ -224,7 +266,7 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int mendable =
         goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return may_change(solver) && mendable && ost_strategy_method(solver->strategy) < OST_METHOD_DIRECT;
+    return may_change(solver) && mendable && solver->method < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
@@ -243,7 +285,7 @@ static OstMethod fastest(const OstSolveReport *report)
 /* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstMethod from = ost_strategy_method(solver->strategy);
+    const OstMethod from = solver->method;
     const OstStatus status = build(solver, (OstMethod)(from + 1), report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
@@ -265,30 +307,25 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
     return OST_SUCCESS;
 }
 
-static void report_goal(const OstSolver *solver, const OstGoal *goal, OstSolveReport *report)
-{
-    report->method = solver->strategy ? ost_strategy_method(solver->strategy) : solver->plan.first;
-    report->iterations = goal->iterations;
-    if (goal->start > 0.0) {
-        report->relative_residual = goal->norm / goal->start;
-        report->attainable_residual = ost_goal_attainable(goal);
-        report->rounding_limited = goal->end == OST_END_ROUNDING;
-    }
-}
-
 /* Solves with f scaled to order 1. */
 static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     OstGoal goal;
-    if (!solver->strategy && solver->matrix->global_rows > 0)
+    if (solver->method == OST_METHOD_AUTO && solver->matrix->global_rows > 0)
         return OST_RAISE(
             solver->ctx, OST_NOT_CONVERGED,
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
     OstStatus status = OST_SUCCESS;
-    if (solver->strategy)
+    if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
-    report_goal(solver, &goal, report);
+    report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
+    report->iterations = goal.iterations;
+    if (goal.start > 0.0) {
+        report->relative_residual = goal.norm / goal.start;
+        report->attainable_residual = ost_goal_attainable(&goal);
+        report->rounding_limited = goal.end == OST_END_ROUNDING;
+    }
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
 
-void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstLanes *lanes)
+void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered)
 {
     for (int a = 0; a < nodes; a++)
-        for (int lane = 0; lane < OST_LANES; lane++) {
-            const double *vector = vectors + 3 * (size_t)batch->node[lane][a];
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            const double *vector = vectors + 3 * (size_t)batch->node[slot][a];
             for (int i = 0; i < 3; i++)
-                lanes[3 * a + i][lane] = vector[i];
+                gathered[3 * a + i][slot] = vector[i];
         }
 }
 
@@ -15,12 +15,12 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
                       int count, const OstLocal *tets)
 {
     const int nodes = element->nodes;
-    OstLanes places[3 * OST_MAX_POINTS]; /* asked for where axes come from a formula alone */
+    OstSimd places[3 * OST_MAX_POINTS]; /* read only where axes come from a formula */
     batch->count = count;
-    for (int lane = 0; lane < OST_LANES; lane++) {
-        const OstLocal tet = tets[lane < count ? lane : count - 1];
-        batch->tet[lane] = tet;
-        ost_order_nodes(nodes, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        const OstLocal tet = tets[slot < count ? slot : count - 1];
+        batch->tet[slot] = tet;
+        ost_order_nodes(nodes, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[slot]);
     }
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
     if (field->region_formula && element->points > 0)
@@ -32,8 +32,8 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
                            const OstMaterialField *field, OstLocal first, OstLocal end)
 {
     const OstLocal left = end - first;
-    OstLocal tets[OST_LANES];
-    for (int lane = 0; lane < OST_LANES; lane++)
-        tets[lane] = first + lane;
-    ost_batch_gather(batch, element, mesh, field, left < OST_LANES ? (int)left : OST_LANES, tets);
+    OstLocal tets[OST_SIMD_WIDTH];
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        tets[slot] = first + slot;
+    ost_batch_gather(batch, element, mesh, field, left < OST_SIMD_WIDTH ? (int)left : OST_SIMD_WIDTH, tets);
 }

@@ -5,18 +5,18 @@
 #include "element/element.h"
 #include "mesh/mesh_data.h"
 
-/* As many tets as there are lanes, with what the kernels read of them. Where fewer are left, the last one fills the
- * other lanes, and only the first `count` lanes may be used. */
+/* OST_SIMD_WIDTH tets side by side, with what the kernels read of them. If only `count` tets are left, the last one
+ * fills the other slots; only the first `count` results mean something. */
 typedef struct OstBatch {
     int count;
-    OstLocal tet[OST_LANES];
-    OstLocal node[OST_LANES][OST_MAX_TET_NODES];
-    OstLanes x[3 * OST_MAX_TET_NODES];
+    OstLocal tet[OST_SIMD_WIDTH];
+    OstLocal node[OST_SIMD_WIDTH][OST_MAX_TET_NODES];
+    OstSimd x[3 * OST_MAX_TET_NODES];
     OstElasticity elasticity;
 } OstBatch;
 
-/* A linear tet's vertices in ascending order. Stiffness and forces do not depend on the order, and in this one every
- * block of the upper triangle of the tet's matrix is in the upper triangle of the body's. */
+/* A linear tet's vertices in ascending order. Stiffness and forces do not depend on the order, and with this one the
+ * upper triangle of the tet's matrix adds to the upper triangle of K. */
 static inline void ost_sort_vertices(const OstLocal *vertices, OstLocal *sorted)
 {
     const OstLocal low01 = vertices[0] < vertices[1] ? vertices[0] : vertices[1];
@@ -31,7 +31,7 @@ static inline void ost_sort_vertices(const OstLocal *vertices, OstLocal *sorted)
     sorted[3] = high01 < high23 ? high23 : high01;
 }
 
-/* A tet's nodes in the order that batches and the pattern take them in. */
+/* A tet's nodes in the order that batches and the matrix's pattern use. */
 static inline void ost_order_nodes(int count, const OstLocal *nodes, OstLocal *ordered)
 {
     if (count == 4) {
@@ -42,15 +42,15 @@ static inline void ost_order_nodes(int count, const OstLocal *nodes, OstLocal *o
         ordered[a] = nodes[a];
 }
 
-/* Local. Takes up `count` tets (1 to OST_LANES): nodes, coordinates, elasticity. */
+/* Local. Reads nodes, coordinates and elasticity of `count` tets (1 to OST_SIMD_WIDTH). */
 void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh *mesh, const OstMaterialField *field,
                       int count, const OstLocal *tets);
 
-/* Local. The tets from `first` on, as many as there are lanes, up to `end`. */
+/* Local. The same for the next OST_SIMD_WIDTH tets from `first` on, or as many as there are before `end`. */
 void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,
                            const OstMaterialField *field, OstLocal first, OstLocal end);
 
-/* Local. Three numbers of each node, into lanes. */
-void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstLanes *lanes);
+/* Local. Reads the vectors of the batch's nodes: vectors[3 n + i] is component i at local node n. */
+void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered);
 
 #endif

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/apply_supports.h"
 #include "assembly/batch.h"
-#include "assembly/held.h"
 #include "assembly/system.h"
 #include "assembly/triangle.h"
 #include "core/error.h"
 #include "element/element.h"
 
-/* Of one tet's blocks, rounded up to whole lanes. */
-enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_LANES };
+/* Numbers in one tet's blocks, rounded up to a multiple of the SIMD width. */
+enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_SIMD_WIDTH };
 
 static inline void add_block(double *sum, const double *block)
 {
-    for (int i = 0; i < 8; i += OST_LANES)
-        *(OstAnyLanes *)(sum + i) += *(const OstAnyLanes *)(block + i);
+    for (int i = 0; i < 8; i += OST_SIMD_WIDTH)
+        *(OstSimdUnaligned *)(sum + i) += *(const OstSimdUnaligned *)(block + i);
     sum[8] += block[8];
 }
 
@@ -23,15 +23,15 @@ static inline void add_transposed(double *restrict sum, const double *restrict b
             sum[3 * i + j] += block[3 * j + i];
 }
 
-/* Sorts the numbers by tets: `width` numbers of each, rounded up to OST_LANES. */
-static int blocks_by_tet(const OstLanes *blocks, int count, double *numbers)
+/* Transposes the blocks, so that each tet's numbers are contiguous: returns how many there are, padding included. */
+static int blocks_by_tet(const OstSimd *blocks, int count, double *numbers)
 {
-    const int width = (count + OST_LANES - 1) / OST_LANES * OST_LANES;
-    for (int i = 0; i < width; i += OST_LANES) {
-        OstLanes turned[OST_LANES];
-        ost_lanes_transpose(blocks + i, turned);
-        for (int lane = 0; lane < OST_LANES; lane++)
-            *(OstAnyLanes *)(numbers + lane * width + i) = turned[lane];
+    const int width = (count + OST_SIMD_WIDTH - 1) / OST_SIMD_WIDTH * OST_SIMD_WIDTH;
+    for (int i = 0; i < width; i += OST_SIMD_WIDTH) {
+        OstSimd turned[OST_SIMD_WIDTH];
+        ost_simd_transpose(blocks + i, turned);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            *(OstSimdUnaligned *)(numbers + slot * width + i) = turned[slot];
     }
     return width;
 }
@@ -40,10 +40,10 @@ static void scatter(const OstBatch *batch, int nodes, const OstLocal *block_of_t
                     double *value)
 {
     const int pairs = ost_pair_count(nodes);
-    for (int lane = 0; lane < batch->count; lane++) {
-        const OstLocal *target = block_of_tet + (size_t)pairs * (size_t)batch->tet[lane];
-        const OstLocal *node = batch->node[lane];
-        const double *block = numbers + lane * width;
+    for (int slot = 0; slot < batch->count; slot++) {
+        const OstLocal *target = block_of_tet + (size_t)pairs * (size_t)batch->tet[slot];
+        const OstLocal *node = batch->node[slot];
+        const double *block = numbers + slot * width;
         for (int a = 0; a < nodes; a++)
             for (int b = a; b < nodes; b++, target++, block += 9) {
                 if (*target < 0)
@@ -61,7 +61,7 @@ static inline OstLocal least(OstLocal a, OstLocal b)
     return a < b ? a : b;
 }
 
-/* Asks the memory for the blocks that the next tets will add to, while the processor works on these. */
+/* Prefetches the blocks of K that the next tets will add to. */
 static inline void fetch_ahead(const OstLocal *block_of_tet, size_t first, size_t end, const double *value)
 {
     for (size_t i = first; i < end; i++)
@@ -78,13 +78,13 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field)
     const size_t pairs = (size_t)ost_pair_count(element->nodes);
     const int count = 9 * (int)pairs;
     OstBatch batch;
-    OstLanes blocks[BLOCK_NUMBERS];
-    double numbers[BLOCK_NUMBERS * OST_LANES];
+    OstSimd blocks[BLOCK_NUMBERS];
+    double numbers[BLOCK_NUMBERS * OST_SIMD_WIDTH];
     ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.metric_suffices = element->points == 0; /* the stiffness is all that is asked of this batch */
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
-        fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_LANES, mesh->tet_count),
-                    pairs * (size_t)least(first + 2 * OST_LANES, mesh->tet_count), system->matrix->value);
+    batch.elasticity.stretch_suffices = element->points == 0; /* only the stiffness is computed from this batch */
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_SIMD_WIDTH, mesh->tet_count),
+                    pairs * (size_t)least(first + 2 * OST_SIMD_WIDTH, mesh->tet_count), system->matrix->value);
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         element->stiffness(batch.x, &batch.elasticity, blocks);
         const int width = blocks_by_tet(blocks, count, numbers);
@@ -97,7 +97,7 @@ OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field)
     OstContext *ctx = system->ctx;
     if (!system->block_of_tet)
         return OST_RAISE(ctx, OST_INVALID_USAGE,
-                         "the stiffness cannot be filled again once its scatter map is dropped");
+                         "the stiffness cannot be filled again: its scatter map has been released");
     ost_ledger_enter(ctx, OST_LEDGER_STIFFNESS);
     ost_triangle_clear(system->matrix);
     sum_tets(system, field);

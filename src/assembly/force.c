@@ -11,17 +11,17 @@
 void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel, const double *u, double scale,
                          OstLocal owned, double *force)
 {
-    OstLanes displacement[3 * OST_MAX_TET_NODES];
-    OstLanes of_tets[3 * OST_MAX_TET_NODES];
+    OstSimd displacement[3 * OST_MAX_TET_NODES];
+    OstSimd of_tets[3 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(batch, nodes, u, displacement);
     kernel(batch->x, &batch->elasticity, displacement, of_tets);
-    for (int lane = 0; lane < batch->count; lane++)
+    for (int slot = 0; slot < batch->count; slot++)
         for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[lane][a];
+            const OstLocal node = batch->node[slot][a];
             if (node >= owned)
                 continue;
             for (int i = 0; i < 3; i++)
-                force[3 * (size_t)node + (size_t)i] += scale * of_tets[3 * a + i][lane];
+                force[3 * (size_t)node + (size_t)i] += scale * of_tets[3 * a + i][slot];
         }
 }
 
@@ -38,7 +38,7 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     if (magnitude)
         memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         ost_batch_add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
         if (magnitude)
@@ -47,57 +47,43 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     return OST_SUCCESS;
 }
 
-static int is_moved(const OstSupport *support)
+/* Is a displacement other than 0 prescribed at the node? */
+static int is_displaced(const OstSupport *support)
 {
-    return (support->held > 0 && support->given[0] != 0.0) || (support->held > 1 && support->given[1] != 0.0) ||
-           (support->held > 2 && support->given[2] != 0.0);
+    return (support->constrained > 0 && support->prescribed[0] != 0.0) ||
+           (support->constrained > 1 && support->prescribed[1] != 0.0) ||
+           (support->constrained > 2 && support->prescribed[2] != 0.0);
 }
 
-static int any_moved(const OstSupports *supports)
+static int any_displaced(const OstSupports *supports)
 {
     if (!ost_effect_on(supports->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT))
         return 0;
     for (OstLocal s = 0; s < supports->count; s++)
-        if (is_moved(&supports->support[s]))
+        if (is_displaced(&supports->support[s]))
             return 1;
     return 0;
 }
 
-static int touches_moved(const OstMesh *mesh, const OstSupports *supports, OstLocal tet)
+static int touches_displaced(const OstMesh *mesh, const OstSupports *supports, OstLocal tet)
 {
     const OstLocal *nodes = mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet;
     for (int a = 0; a < mesh->nodes_per_tet; a++) {
         const OstLocal index = supports->index[nodes[a]];
-        if (index >= 0 && is_moved(&supports->support[index]))
+        if (index >= 0 && is_displaced(&supports->support[index]))
             return 1;
     }
     return 0;
 }
 
-/* force -= K g, from the tets that touch a node with g != 0. `g` is 3 × node_count, `force` 3 × owned_nodes. */
-static void subtract_moved(const OstSystem *system, const OstMaterialField *field, const double *g, double *force)
+/* Fills `force` (3 × owned_nodes, zero) with -K g, from the tets that touch a node with g != 0. */
+static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialField *field, double *force)
 {
     const OstMesh *mesh = system->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    OstLocal tets[OST_LANES];
+    OstLocal tets[OST_SIMD_WIDTH];
     OstBatch batch;
     int count = 0;
-    ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
-        if (touches_moved(mesh, system->supports, tet))
-            tets[count++] = tet;
-        if (count == OST_LANES || (count > 0 && tet == mesh->tet_count - 1)) {
-            ost_batch_gather(&batch, element, mesh, field, count, tets);
-            ost_batch_add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
-            count = 0;
-        }
-    }
-}
-
-/* Fills `force` (3 × owned_nodes, zero) with -K g. */
-static OstStatus force_of_given(const OstSystem *system, const OstMaterialField *field, double *force)
-{
-    const OstMesh *mesh = system->mesh;
     double *g = NULL;
     OST_TRY(OST_NEW(system->ctx, &g, 3 * (size_t)mesh->node_count));
     for (OstLocal node = 0; node < mesh->node_count; node++) {
@@ -105,7 +91,16 @@ static OstStatus force_of_given(const OstSystem *system, const OstMaterialField 
         if (system->supports->index[node] >= 0)
             ost_supports_get(system->supports, node, projector, g + 3 * (size_t)node);
     }
-    subtract_moved(system, field, g, force);
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        if (touches_displaced(mesh, system->supports, tet))
+            tets[count++] = tet;
+        if (count == OST_SIMD_WIDTH || (count > 0 && tet == mesh->tet_count - 1)) {
+            ost_batch_gather(&batch, element, mesh, field, count, tets);
+            ost_batch_add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
+            count = 0;
+        }
+    }
     OST_FREE(g);
     return OST_SUCCESS;
 }
@@ -114,25 +109,25 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
                                      double *rhs)
 {
     OstContext *ctx = system->ctx;
-    double *moved = NULL;
+    double *of_prescribed = NULL;
     OstStatus status = OST_SUCCESS;
-    if (any_moved(system->supports)) {
+    if (any_displaced(system->supports)) {
         ost_ledger_enter(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
-        status = OST_NEW(ctx, &moved, 3 * (size_t)system->mesh->owned_nodes);
+        status = OST_NEW(ctx, &of_prescribed, 3 * (size_t)system->mesh->owned_nodes);
         if (status == OST_SUCCESS)
-            status = force_of_given(system, field, moved);
+            status = force_of_prescribed(system, field, of_prescribed);
         ost_ledger_leave(ctx);
     }
     for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
         const size_t node = (size_t)system->node_of_row[row];
         double total[3];
         double projector[9];
-        double given[3];
+        double prescribed[3];
         for (size_t i = 0; i < 3; i++)
-            total[i] = force[3 * node + i] + (moved ? moved[3 * node + i] : 0.0);
-        ost_supports_get(system->supports, (OstLocal)node, projector, given);
+            total[i] = force[3 * node + i] + (of_prescribed ? of_prescribed[3 * node + i] : 0.0);
+        ost_supports_get(system->supports, (OstLocal)node, projector, prescribed);
         ost_apply3(projector, total, rhs + 3 * (size_t)row);
     }
-    OST_FREE(moved);
+    OST_FREE(of_prescribed);
     return status;
 }

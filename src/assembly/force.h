@@ -5,9 +5,9 @@
 #include "assembly/batch.h"
 
 /* OstElement.force or OstElement.magnitude. */
-typedef void (*OstForceKernel)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force);
+typedef void (*OstForceKernel)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-/* Local. Adds scale × the kernel's forces of the tets of a batch to `force`, 3 numbers for each of the first `owned`
+/* Local. Adds scale × the kernel's forces on a batch to `force`, which has 3 numbers for each of the first `owned`
  * local nodes. */
 void ost_batch_add_force(const OstBatch *batch, int nodes, OstForceKernel kernel, const double *u, double scale,
                          OstLocal owned, double *force);

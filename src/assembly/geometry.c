@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* Mean over each row's tets; every tet of an owned node is here. */
+/* Mean of the material metric over the tets of each row's node, all of which this rank has. */
 static OstStatus mean_metric(const OstSystem *system, const OstMaterialField *field, double *metric)
 {
     const OstMesh *mesh = system->mesh;
@@ -37,7 +37,7 @@ static OstStatus mean_metric(const OstSystem *system, const OstMaterialField *fi
     return OST_SUCCESS;
 }
 
-/* Without orthotropy the metric is Euclid's. */
+/* Without orthotropy the material metric is the identity. */
 static void euclidean_metric(OstLocal rows, double *metric)
 {
     for (OstLocal row = 0; row < rows; row++)
@@ -45,7 +45,9 @@ static void euclidean_metric(OstLocal rows, double *metric)
             metric[6 * (size_t)row + i] = i < 3 ? 1.0 : 0.0;
 }
 
-/* Collective. Middle of all ranks' rows: rotations about one and the same point, close by for rounding's sake. */
+/* Collective. The mean of all rows' coordinates. Rotations are taken about it: a near point keeps rounding errors
+ * small.
+ */
 static OstStatus find_middle(const OstSystem *system, const double *coordinates, double middle[3])
 {
     middle[0] = middle[1] = middle[2] = 0.0;
@@ -60,8 +62,8 @@ static void project_modes(const OstSystem *system, double *modes)
     const size_t length = 3 * (size_t)system->matrix->rows;
     for (OstLocal row = 0; row < system->matrix->rows; row++) {
         double projector[9];
-        double given[3];
-        if (ost_supports_get(system->supports, system->node_of_row[row], projector, given) == 0)
+        double prescribed[3];
+        if (ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed) == 0)
             continue;
         for (size_t m = 0; m < 6; m++) {
             double *mode = modes + m * length + 3 * (size_t)row;

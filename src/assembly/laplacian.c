@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/laplacian.h"
 
+#include "assembly/apply_supports.h"
 #include "assembly/batch.h"
-#include "assembly/held.h"
 #include "assembly/triangle.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -18,18 +18,12 @@ typedef struct TetLaplacian {
     double pairs[MAX_PAIRS];
 } TetLaplacian;
 
-static void gather(int count, const OstLocal *nodes, const double *values, double *gathered)
-{
-    for (int a = 0; a < count; a++)
-        memcpy(gathered + 3 * a, values + 3 * (size_t)nodes[a], 3 * sizeof *gathered);
-}
-
 static void laplacian_of(const OstMesh *mesh, const OstElement *element, OstLocal tet, TetLaplacian *laplacian)
 {
     const int n = element->nodes;
     double x[3 * OST_MAX_TET_NODES];
     ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)tet, laplacian->node);
-    gather(n, laplacian->node, mesh->coordinates, x);
+    ost_gather3(n, laplacian->node, mesh->coordinates, x);
     element->laplacian(x, laplacian->pairs);
 }
 
@@ -41,9 +35,9 @@ static void add_to_matrix(const OstSystem *system, int pairs, OstLocal tet, cons
             system->matrix->value[9 * (size_t)target[p] + (size_t)i] += laplacian->pairs[p];
 }
 
-/* given is g, 3 × node_count; force (3 × rows) -= L g. */
-static void subtract_given(const OstSystem *system, int n, const TetLaplacian *laplacian, const double *given,
-                           double *force)
+/* force -= L g: `prescribed` is g, 3 × node_count; force is 3 × rows. */
+static void subtract_prescribed(const OstSystem *system, int n, const TetLaplacian *laplacian, const double *prescribed,
+                                double *force)
 {
     for (int a = 0; a < n; a++) {
         const OstLocal row = system->row_of_node[laplacian->node[a]];
@@ -52,7 +46,7 @@ static void subtract_given(const OstSystem *system, int n, const TetLaplacian *l
         for (int b = 0; b < n; b++) {
             const double weight = laplacian->pairs[a <= b ? ost_pair_index(n, a, b) : ost_pair_index(n, b, a)];
             for (size_t i = 0; i < 3; i++)
-                force[3 * (size_t)row + i] -= weight * given[3 * (size_t)laplacian->node[b] + i];
+                force[3 * (size_t)row + i] -= weight * prescribed[3 * (size_t)laplacian->node[b] + i];
         }
     }
 }
@@ -64,8 +58,8 @@ static void project(const OstSystem *system, double *rhs)
         double *at = rhs + 3 * (size_t)row;
         const double whole[3] = {at[0], at[1], at[2]};
         double projector[9];
-        double given[3];
-        ost_supports_get(system->supports, system->node_of_row[row], projector, given);
+        double prescribed[3];
+        ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed);
         ost_apply3(projector, whole, at);
     }
 }
@@ -74,13 +68,14 @@ OstStatus ost_system_fill_laplacian(OstSystem *system, double *rhs)
 {
     const OstMesh *mesh = system->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    double *given = NULL;
+    double *prescribed = NULL;
     if (!system->block_of_tet)
-        return OST_RAISE(system->ctx, OST_INVALID_USAGE, "the matrix cannot be filled once its scatter map is dropped");
-    OST_TRY(OST_NEW(system->ctx, &given, 3 * (size_t)mesh->node_count));
+        return OST_RAISE(system->ctx, OST_INVALID_USAGE,
+                         "the matrix cannot be filled: its scatter map has been released");
+    OST_TRY(OST_NEW(system->ctx, &prescribed, 3 * (size_t)mesh->node_count));
     for (OstLocal node = 0; node < mesh->node_count; node++) {
         double projector[9];
-        ost_supports_get(system->supports, node, projector, given + 3 * (size_t)node);
+        ost_supports_get(system->supports, node, projector, prescribed + 3 * (size_t)node);
     }
     ost_triangle_clear(system->matrix);
     memset(rhs, 0, 3 * (size_t)system->matrix->rows * sizeof *rhs);
@@ -88,9 +83,9 @@ OstStatus ost_system_fill_laplacian(OstSystem *system, double *rhs)
         TetLaplacian laplacian;
         laplacian_of(mesh, element, tet, &laplacian);
         add_to_matrix(system, ost_pair_count(element->nodes), tet, &laplacian);
-        subtract_given(system, element->nodes, &laplacian, given, rhs);
+        subtract_prescribed(system, element->nodes, &laplacian, prescribed, rhs);
     }
-    OST_FREE(given);
+    OST_FREE(prescribed);
     OST_TRY(ost_triangle_mirror(system->matrix));
     ost_system_apply_supports(system);
     project(system, rhs);
@@ -103,7 +98,7 @@ void ost_tet_component_gradients(const OstMesh *mesh, OstLocal tet, const double
     const OstLocal *nodes = mesh->tet_nodes + (size_t)element->nodes * (size_t)tet;
     double x[3 * OST_MAX_TET_NODES];
     double values[3 * OST_MAX_TET_NODES];
-    gather(element->nodes, nodes, mesh->coordinates, x);
-    gather(element->nodes, nodes, u, values);
+    ost_gather3(element->nodes, nodes, mesh->coordinates, x);
+    ost_gather3(element->nodes, nodes, u, values);
     element->gradient(x, values, gradients);
 }

@@ -4,11 +4,11 @@
 
 #include "assembly/system.h"
 
-/* Three harmonic potentials at once, in place of the three components of the displacement: what axes that follow
- * gradients are made of. */
+/* Three harmonic potentials at once, in place of the three components of the displacement. Their gradients give the
+ * axes of materials with gradient axes. */
 
-/* Local. Fills the system's matrix with the Laplacian L of each component, under the supports as K would be, and `rhs`
- * (3 × rows) with -P L g. */
+/* Local. Fills the system's matrix with the Laplacian L of each component, constrained as K would be, and `rhs` (3 ×
+ * rows) with -P L g. */
 OstStatus ost_system_fill_laplacian(OstSystem *system, double *rhs);
 
 /* Local. Mean gradient of each component in a tet: du_i/dx_j at 3i + j. u has 3 numbers a node. */

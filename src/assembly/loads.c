@@ -49,7 +49,7 @@ OstStatus ost_load_shared_force(const OstMesh *mesh, OstLocal count, const OstLo
     return status;
 }
 
-/* The kind of tet whose faces have this many nodes. */
+/* The mesh's kind of tet; raises OST_INVALID_INPUT if its faces have another number of nodes (0: not asked). */
 static OstStatus find_element(const OstMesh *mesh, int nodes_per_face, const OstElement **element)
 {
     *element = ost_element_of(mesh->nodes_per_tet);
@@ -62,14 +62,7 @@ static OstStatus find_element(const OstMesh *mesh, int nodes_per_face, const Ost
     return OST_SUCCESS;
 }
 
-static void gather(const OstMesh *mesh, int count, const OstLocal *nodes, double *x)
-{
-    for (int a = 0; a < count; a++)
-        for (int i = 0; i < 3; i++)
-            x[3 * a + i] = mesh->coordinates[3 * (size_t)nodes[a] + (size_t)i];
-}
-
-/* A face load is a traction along (times area) plus a pressure against (times area vector) each node's share. */
+/* Adds to each owned node traction × its share of the area, minus pressure × its share of the area vector. */
 static void load_faces(const OstMesh *mesh, const OstElement *element, OstLocal face_count, const OstLocal *faces,
                        const double traction[3], double pressure, double *force)
 {
@@ -79,7 +72,7 @@ static void load_faces(const OstMesh *mesh, const OstElement *element, OstLocal 
         double x[3 * OST_MAX_FACE_NODES];
         double areas[OST_MAX_FACE_NODES];
         double area_vectors[3 * OST_MAX_FACE_NODES];
-        gather(mesh, n, nodes, x);
+        ost_gather3(n, nodes, mesh->coordinates, x);
         element->node_areas(x, areas, area_vectors);
         for (int a = 0; a < n; a++) {
             if (nodes[a] >= mesh->owned_nodes)
@@ -113,7 +106,7 @@ OstStatus ost_load_pressure(const OstMesh *mesh, OstLocal face_count, const OstL
     return OST_SUCCESS;
 }
 
-/* Area of the faces that this rank owns: the owner of a face's lowest global number counts it. */
+/* Area of the faces that this rank owns: a face's owner is that of its node with the lowest global number. */
 static double owned_area(const OstMesh *mesh, const OstElement *element, OstLocal face_count, const OstLocal *faces)
 {
     const int n = element->nodes_per_face;
@@ -128,7 +121,7 @@ static double owned_area(const OstMesh *mesh, const OstElement *element, OstLoca
             local[a] = nodes[a];
         if (!ost_mesh_owns(mesh, n, local))
             continue;
-        gather(mesh, n, nodes, x);
+        ost_gather3(n, nodes, mesh->coordinates, x);
         element->node_areas(x, areas, area_vectors);
         for (int a = 0; a < n; a++)
             sum += areas[a];
@@ -145,7 +138,7 @@ OstStatus ost_faces_area(const OstMesh *mesh, OstLocal face_count, const OstLoca
     return ost_sum(mesh->ctx, 1, area);
 }
 
-/* Force per volume `vector`, times the density if a field is given. */
+/* Adds the force per volume `vector`, times the density if `field` is not NULL. */
 static OstStatus load_volumes(const OstMesh *mesh, const OstMaterialField *field, int region, const double vector[3],
                               double *force)
 {
@@ -159,7 +152,7 @@ static OstStatus load_volumes(const OstMesh *mesh, const OstMaterialField *field
         if (region >= 0 && mesh->tet_region[tet] != region)
             continue;
         const double density = field ? ost_field_density(field, tet) : 1.0;
-        gather(mesh, element->nodes, nodes, x);
+        ost_gather3(element->nodes, nodes, mesh->coordinates, x);
         element->node_volumes(x, volumes);
         for (int a = 0; a < element->nodes; a++)
             if (nodes[a] < mesh->owned_nodes)

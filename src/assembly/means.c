@@ -7,8 +7,8 @@ void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const d
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_LANES) {
-        OstLanes of_nodes[3 * OST_MAX_TET_NODES];
+    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+        OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstMeans means;
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
         ost_batch_gather_vectors(&batch, element->nodes, u, of_nodes);

@@ -4,12 +4,12 @@
 
 #include "assembly/batch.h"
 
-/* What is done with a batch of owned tets, the displacements of their nodes, and their means of strain, stress and
- * energy. */
-typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+/* Called with each batch of owned tets, the displacements u of their nodes, and their means. */
+typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                               const OstMeans *means);
 
-/* Local. Visits the owned tets batch by batch under the displacement u (3 × node_count). */
+/* Local. Computes the means of strain, stress and energy of the owned tets under the displacement u (3 × node_count),
+ * batch by batch. */
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
                      void *data);
 

@@ -6,12 +6,12 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-/* Which tets meet at a row, and which rows meet at a tet. */
+/* The rows of each tet, and the tets of each row. */
 typedef struct RowTets {
     int nodes;           /* per tet */
     OstLocal *row;       /* tet_count × nodes: row or column of each node in ost_order_nodes' order, -1: none */
     OstLocal *tet_start; /* rows + 1 */
-    OstLocal *tet;       /* tet_start[rows] */
+    OstLocal *tet;       /* tet_start[rows]: the tets of row r start at tet_start[r] */
 } RowTets;
 
 static void incidence_free(RowTets *incidence)
@@ -21,33 +21,31 @@ static void incidence_free(RowTets *incidence)
     OST_FREE(incidence->tet);
 }
 
-static void find_rows_of_tets(const OstSystem *system, RowTets *incidence)
+/* A counting sort of the tets by the rows that they touch. */
+static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
 {
     const OstMesh *mesh = system->mesh;
-    const size_t n = (size_t)incidence->nodes;
+    const OstLocal rows = system->matrix->rows;
+    const OstLocal n = mesh->nodes_per_tet;
+    incidence->nodes = n;
+    OST_TRY(OST_NEW(system->ctx, &incidence->row, mesh->tet_count * n));
+    OST_TRY(OST_NEW(system->ctx, &incidence->tet_start, rows + 1));
+    OstLocal *start = incidence->tet_start;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         OstLocal ordered[OST_MAX_TET_NODES];
-        ost_order_nodes(incidence->nodes, mesh->tet_nodes + n * (size_t)t, ordered);
-        for (size_t a = 0; a < n; a++)
-            incidence->row[n * (size_t)t + a] = system->row_of_node[ordered[a]];
+        ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
+        for (OstLocal a = 0; a < n; a++) {
+            const OstLocal row = system->row_of_node[ordered[a]];
+            incidence->row[n * t + a] = row;
+            if (row >= 0 && row < rows)
+                start[row]++;
+        }
     }
-}
-
-/* Counting sort of the tets by the rows that they touch. */
-static OstStatus find_tets_of_rows(const OstSystem *system, RowTets *incidence)
-{
-    const OstLocal rows = system->matrix->rows;
-    const OstLocal n = incidence->nodes;
-    const OstLocal total = system->mesh->tet_count * n;
-    OstLocal *start = incidence->tet_start;
-    for (OstLocal i = 0; i < total; i++)
-        if (incidence->row[i] >= 0 && incidence->row[i] < rows)
-            start[incidence->row[i]]++;
     for (OstLocal r = 0; r < rows; r++)
         start[r + 1] += start[r];
     OST_TRY(OST_NEW(system->ctx, &incidence->tet, start[rows]));
-    /* filled from the back, so that start[r] ends where row r begins */
-    for (OstLocal t = system->mesh->tet_count - 1; t >= 0; t--)
+    /* Filled from the back: each entry moves start[r] down, in the end to where row r begins. */
+    for (OstLocal t = mesh->tet_count - 1; t >= 0; t--)
         for (OstLocal a = 0; a < n; a++) {
             const OstLocal row = incidence->row[n * t + a];
             if (row >= 0 && row < rows)
@@ -56,16 +54,8 @@ static OstStatus find_tets_of_rows(const OstSystem *system, RowTets *incidence)
     return OST_SUCCESS;
 }
 
-static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
-{
-    incidence->nodes = system->mesh->nodes_per_tet;
-    OST_TRY(OST_NEW(system->ctx, &incidence->row, system->mesh->tet_count * incidence->nodes));
-    OST_TRY(OST_NEW(system->ctx, &incidence->tet_start, system->matrix->rows + 1));
-    find_rows_of_tets(system, incidence);
-    return find_tets_of_rows(system, incidence);
-}
-
-/* Columns of a row, each once, in the order found. `seen` holds for each column the last row that had it. */
+/* Lists the columns of a row, each once, in the order found; with columns NULL only counts them. seen[c] is the last
+ * row that had column c. */
 static OstLocal collect_columns(const RowTets *incidence, OstLocal row, OstLocal *seen, OstLocal *columns)
 {
     OstLocal count = 0;
@@ -113,7 +103,7 @@ static OstStatus allocate_blocks(OstSystem *system)
     return OST_SUCCESS;
 }
 
-/* A row has some fifteen columns: insertion is quickest. */
+/* Insertion sort: a row has about fifteen columns. */
 static void sort_ascending(OstLocal *columns, OstLocal count)
 {
     for (OstLocal i = 1; i < count; i++) {
@@ -125,7 +115,7 @@ static void sort_ascending(OstLocal *columns, OstLocal count)
     }
 }
 
-/* Notes where the blocks of a row go: those right of the diagonal, for every tet that touches the row. */
+/* Fills block_of_tet for one row: the blocks from the diagonal to the right, of every tet that touches the row. */
 static void map_row(OstSystem *system, const RowTets *incidence, OstLocal row, const OstLocal *block_of_column)
 {
     const int n = incidence->nodes;

@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-/* Directions closer than this to what is already held, and displacements that differ by no more of their size, count as
- * the same. */
+/* A direction counts as dependent on the constrained ones if less than this of it is left, and displacements agree if
+ * they differ by no more than this, relative to the largest. */
 static const double same = 1e-10;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports)
@@ -62,67 +62,68 @@ static OstStatus support_of(OstSupports *supports, OstLocal node, OstSupport **s
     return OST_SUCCESS;
 }
 
-static OstStatus raise_contradiction(const OstSupports *supports, OstLocal node, const double direction[3], double held,
-                                     double given)
+static OstStatus raise_contradiction(const OstSupports *supports, OstLocal node, const double direction[3],
+                                     double earlier, double prescribed)
 {
     return OST_RAISE(
         supports->ctx, OST_INVALID_INPUT,
-        "vertex %lld is held to %g along (%g, %g, %g) and to %g by another constraint; make them agree, or "
+        "vertex %lld is constrained to %g along (%g, %g, %g) and to %g by another constraint; make them agree, or "
         "leave one out",
-        (long long)supports->mesh->node_label[node], held, direction[0], direction[1], direction[2], given);
+        (long long)supports->mesh->node_label[node], earlier, direction[0], direction[1], direction[2], prescribed);
 }
 
-/* Takes from `rest` its part along the directions held (twice, for rounding's sake), and returns the displacement that
- * they give along that part. */
-static double take_held_part(const OstSupport *support, double rest[3])
+/* Removes from `rest` its part along the constrained directions (twice, against rounding errors), and returns the
+ * displacement already prescribed along that part. */
+static double remove_constrained_part(const OstSupport *support, double rest[3])
 {
-    double held = 0.0;
+    double earlier = 0.0;
     for (int pass = 0; pass < 2; pass++)
-        for (int k = 0; k < support->held; k++) {
+        for (int k = 0; k < support->constrained; k++) {
             const double *along = support->direction + 3 * k;
             const double part = ost_dot3(rest, along);
-            held += part * support->given[k];
+            earlier += part * support->prescribed[k];
             for (int i = 0; i < 3; i++)
                 rest[i] -= part * along[i];
         }
-    return held;
+    return earlier;
 }
 
-/* The largest displacement in play, against which agreement is measured. */
-static double size_of_given(const OstSupport *support, double given)
+/* The largest prescribed displacement of the node, with the new one: agreement is relative to it. */
+static double largest_prescribed(const OstSupport *support, double prescribed)
 {
-    double size = fabs(given);
-    for (int k = 0; k < support->held; k++)
-        size = fmax(size, fabs(support->given[k]));
+    double size = fabs(prescribed);
+    for (int k = 0; k < support->constrained; k++)
+        size = fmax(size, fabs(support->prescribed[k]));
     return size;
 }
 
-OstStatus ost_supports_hold(OstSupports *supports, OstLocal node, const double direction[3], double given)
+OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const double direction[3], double prescribed)
 {
     const double length = ost_norm3(direction);
-    if (!(length > 0.0) || !isfinite(length) || !isfinite(given))
+    if (!(length > 0.0) || !isfinite(length) || !isfinite(prescribed))
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
-                         "vertex %lld is to be held to %g along (%g, %g, %g); expected finite numbers and a direction "
-                         "that is not zero",
-                         (long long)supports->mesh->node_label[node], given, direction[0], direction[1], direction[2]);
+                         "vertex %lld is to be constrained to %g along (%g, %g, %g); expected finite numbers and a "
+                         "direction that is not zero",
+                         (long long)supports->mesh->node_label[node], prescribed, direction[0], direction[1],
+                         direction[2]);
     OstSupport *support;
     OST_TRY(support_of(supports, node, &support));
     const double unit[3] = {direction[0] / length, direction[1] / length, direction[2] / length};
     double rest[3] = {unit[0], unit[1], unit[2]};
-    const double held = take_held_part(support, rest);
+    const double earlier = remove_constrained_part(support, rest);
     const double rest_length = ost_norm3(rest);
-    if (rest_length <= same || support->held == 3) {
-        if (fabs(given - held) > same * size_of_given(support, given))
-            return raise_contradiction(supports, node, unit, held, given);
+    if (rest_length <= same || support->constrained == 3) {
+        if (fabs(prescribed - earlier) > same * largest_prescribed(support, prescribed))
+            return raise_contradiction(supports, node, unit, earlier, prescribed);
         return OST_SUCCESS;
     }
     for (int i = 0; i < 3; i++)
-        support->direction[3 * support->held + i] = rest[i] / rest_length;
-    support->given[support->held++] = (given - held) / rest_length;
+        support->direction[3 * support->constrained + i] = rest[i] / rest_length;
+    support->prescribed[support->constrained++] = (prescribed - earlier) / rest_length;
     return OST_SUCCESS;
 }
 
-/* Puts the supports in the order of their nodes and makes room for `count` of them, the ghosts' behind. */
+/* Sorts the supports by node and makes room for `count` of them, the ghosts' last. */
 static OstStatus order_by_node(OstSupports *supports, const OstLocal *order, OstLocal count)
 {
     OstSupport *ordered = NULL;
@@ -137,7 +138,7 @@ static OstStatus order_by_node(OstSupports *supports, const OstLocal *order, Ost
     return OST_SUCCESS;
 }
 
-/* Gives the nodes with a support, ghosts included, new numbers in the order of nodes: what a halo of them asks for. */
+/* Numbers the nodes with a support, ghosts included, in the order of nodes, as ost_halo_subset needs it. */
 static OstStatus number_supported(const OstSupports *supports, OstLocal *order, OstLocal *count)
 {
     const OstMesh *mesh = supports->mesh;
@@ -170,43 +171,43 @@ done:
     return status;
 }
 
-static OstStatus check_anything_held(const OstSupports *supports)
+static OstStatus check_anything_constrained(const OstSupports *supports)
 {
-    OstGlobal held = supports->count;
-    OST_TRY(ost_sum_numbers(supports->ctx, 1, &held));
-    if (held == 0)
+    OstGlobal constrained = supports->count;
+    OST_TRY(ost_sum_numbers(supports->ctx, 1, &constrained));
+    if (constrained == 0)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
-                         "nothing is held: no vertex has a given displacement or slides on a plane, so the body can "
-                         "move away as a whole; add constraints");
+                         "nothing is constrained: no vertex has a prescribed displacement or slides on a plane, so the "
+                         "body can move away as a whole; add constraints");
     return OST_SUCCESS;
 }
 
 OstStatus ost_supports_complete(OstSupports *supports)
 {
     ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
-    OstStatus status = ost_agree(supports->ctx, check_anything_held(supports));
+    OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
     if (status == OST_SUCCESS)
         status = share_with_ghosts(supports);
     ost_ledger_leave(supports->ctx);
     return status;
 }
 
-int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double given[3])
+int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
 {
     const OstLocal index = supports->index[node];
     const OstSupport *support = index < 0 ? NULL : &supports->support[index];
-    const int held = support ? support->held : 0;
+    const int constrained = support ? support->constrained : 0;
     for (int i = 0; i < 9; i++)
-        projector[i] = i % 4 == 0 && held < 3 ? 1.0 : 0.0;
-    given[0] = given[1] = given[2] = 0.0;
-    for (int k = 0; k < held; k++)
+        projector[i] = i % 4 == 0 && constrained < 3 ? 1.0 : 0.0;
+    prescribed[0] = prescribed[1] = prescribed[2] = 0.0;
+    for (int k = 0; k < constrained; k++)
         for (int i = 0; i < 3; i++) {
             const double *along = support->direction + 3 * k;
-            given[i] += support->given[k] * along[i];
-            for (int j = 0; j < 3 && held < 3; j++)
+            prescribed[i] += support->prescribed[k] * along[i];
+            for (int j = 0; j < 3 && constrained < 3; j++)
                 projector[3 * i + j] -= along[i] * along[j];
         }
-    return held;
+    return constrained;
 }
 
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,

@@ -27,10 +27,10 @@ void ost_system_release_scatter(OstSystem *system)
 static int is_free(const OstSupports *supports, OstLocal node)
 {
     const OstLocal index = supports->index[node];
-    return index < 0 || supports->support[index].held < 3;
+    return index < 0 || supports->support[index].constrained < 3;
 }
 
-/* Gives every node that is free in some direction a row, or as a ghost a column, in the order of nodes. */
+/* Numbers the nodes that are free in some direction, in their order: owned nodes get a row, ghosts a column. */
 static OstStatus number_rows(const OstMesh *mesh, const OstSupports *supports, OstSystem *system)
 {
     OstContext *ctx = mesh->ctx;
@@ -59,7 +59,7 @@ static OstStatus number_rows(const OstMesh *mesh, const OstSupports *supports, O
     return OST_SUCCESS;
 }
 
-/* Collective. Where this rank's rows are among all ranks'. */
+/* Collective. Finds the global number of this rank's first row. */
 static OstStatus number_globally(OstSystem *system)
 {
     OstContext *ctx = system->ctx;
@@ -67,7 +67,8 @@ static OstStatus number_globally(OstSystem *system)
     OST_TRY(ost_number_from(ctx, matrix->rows, &matrix->first_row, &matrix->global_rows));
     if (matrix->global_rows == 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "every vertex is held in all directions, so there is nothing to solve for; leave some free");
+                         "every vertex is constrained in all directions, so there is nothing to solve for; leave some "
+                         "free");
     return ost_limit_unknowns(ctx, matrix->global_rows);
 }
 
@@ -102,12 +103,12 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
         const OstLocal row = system->row_of_node[node];
         double *displacement = u + 3 * (size_t)node;
         double projector[9];
-        double given[3];
-        ost_supports_get(system->supports, node, projector, given);
+        double prescribed[3];
+        ost_supports_get(system->supports, node, projector, prescribed);
         if (row >= 0)
             ost_apply3(projector, v + 3 * (size_t)row, displacement);
         for (int i = 0; i < 3; i++)
-            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + t * given[i];
+            displacement[i] = (row >= 0 ? displacement[i] : 0.0) + t * prescribed[i];
     }
     return ost_agree(system->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), u));
 }

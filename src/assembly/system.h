@@ -7,41 +7,39 @@
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
 
-/* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), by 3×3 blocks. Fully held
- * nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+/* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Fully
+ * constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
 typedef struct OstSystem {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstSupports *supports;
     OstBlockMatrix *matrix;
-    OstLocal *row_of_node;  /* node_count: local row or ghost column, -1 if fully held */
+    OstLocal *row_of_node;  /* node_count: local row or ghost column, -1 if fully constrained */
     OstLocal *node_of_row;  /* matrix->columns */
-    OstLocal *block_of_tet; /* tet_count × n(n+1)/2: which block of matrix->value each pair of a tet's nodes adds to,
-                               -1: none. Only the upper triangle is summed; the lower is its mirror image. May be NULL
-                               once filled (ost_system_release_scatter) */
+    OstLocal *block_of_tet; /* tet_count × n(n+1)/2, the scatter map: which block of matrix->value each pair of a tet's
+                               nodes adds to, -1: none. Only the upper triangle is summed, and then mirrored. NULL after
+                               ost_system_release_scatter */
 } OstSystem;
 
-/* Collective. Numbers the rows and makes the pattern (account OST_LEDGER_PATTERN). Raises OST_LIMIT_EXCEEDED with the
- * limit that a library below would break (Epetra, ML: 2^31 unknowns in all ranks, nonzeros of a rank), before anything
- * large is made. */
+/* Collective. Numbers the rows and makes the pattern (account OST_LEDGER_PATTERN). Raises OST_LIMIT_EXCEEDED if a
+ * library's limit would be exceeded (Epetra, ML: 2^31 unknowns of all ranks, nonzeros of a rank), before it allocates
+ * anything large. */
 OstStatus ost_system_create(const OstMesh *mesh, const OstSupports *supports, OstSystem **system);
 void ost_system_destroy(OstSystem **system);
 
-/* Local. With the rows numbered, makes the matrix's row_start, column, diagonal and (zero) values, and the system's
- * block_of_tet; a step of ost_system_create. Raises OST_LIMIT_EXCEEDED once the blocks are counted, before they are
- * made. */
+/* Local. A step of ost_system_create, after the rows are numbered: makes the matrix's row_start, column, diagonal and
+ * (zero) values, and the system's block_of_tet. Raises OST_LIMIT_EXCEEDED before it allocates too many blocks. */
 OstStatus ost_system_make_pattern(OstSystem *system);
 
-/* Local. Fills K (OST_LEDGER_STIFFNESS), then applies what partly held nodes may do (OST_LEDGER_SUPPORTS /
- * OST_EFFECT_SLIDING). */
+/* Local. Fills K (OST_LEDGER_STIFFNESS), then applies the constraints of partly constrained nodes (OST_LEDGER_SUPPORTS
+ * or OST_EFFECT_SLIDING). */
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
 
-/* Local. Drops block_of_tet, once no further fill is wanted. */
+/* Local. Frees block_of_tet; the system cannot be filled again. */
 void ost_system_release_scatter(OstSystem *system);
 
 /* Local. Right-hand side of the rows, P (force - K g): `force` are the loads on local nodes (3 × node_count, complete
- * on owned). The term K g is evaluated on the tets that touch a node with g != 0 alone. `rhs` has 3 × matrix->rows
- * numbers. */
+ * on owned nodes); K g is computed only on tets that touch a node with g != 0. `rhs` has 3 × matrix->rows numbers. */
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
                                      double *rhs);
 
@@ -49,15 +47,15 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
  * 3 × matrix->rows numbers. */
 OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u);
 
-/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u 3 × node_count, force 3 × owned_nodes.
- * `magnitude` (as force, or NULL) takes the sums of absolute values |B'| |C| |B| |u|, of which rounding leaves a few
- * 1e-16 in the forces. */
+/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u is 3 × node_count, force 3 × owned_nodes.
+ * `magnitude` (as force, or NULL) gets the sums of absolute values |B'| |C| |B| |u|: rounding errors of the forces are
+ * a few 1e-16 of these. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
                              double *magnitude);
 
-/* Collective. What multigrid wants to know of the rows: coordinates (3 × rows), metric (6 × rows, method R of Li-Barbič
- * materials: mean over a node's tets of R^T diag(sqrt(E_min/E_k)) R) and the six rigid body modes about the
- * middle of all rows, projected on P (column-major, 6 × 3 × rows). `metric` may be NULL. */
+/* Collective. What multigrid needs of the rows: coordinates (3 × rows), material metric (6 × rows: mean over a node's
+ * tets of R' diag(sqrt(E_min/E_k)) R, with R the axes) and the six rigid body modes about the middle of all rows, times
+ * P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
 

@@ -15,8 +15,8 @@ void ost_triangle_clear(OstBlockMatrix *matrix)
     }
 }
 
-/* As rows ascend, the blocks right of a row's diagonal are asked for in their order, so that one place in each row is
- * all there is to keep. */
+/* As rows ascend, each row's blocks right of the diagonal are needed in their order: next[r] is the next one of row r.
+ */
 OstStatus ost_triangle_mirror(OstBlockMatrix *matrix)
 {
     OstLocal *next = NULL;

@@ -4,8 +4,8 @@
 
 #include "algebra/matrix/block_matrix.h"
 
-/* A symmetric matrix is summed in its upper triangle alone: in each row, from the diagonal to the end, ghost columns
- * included (their rows are another rank's, and lie below). */
+/* A symmetric matrix is summed in its upper triangle only: in each row from the diagonal to the end, ghost columns
+ * included (columns of ghosts come last). */
 
 /* Local. Zeroes the upper triangle. */
 void ost_triangle_clear(OstBlockMatrix *matrix);

@@ -42,8 +42,8 @@ typedef struct OstConstraint {
     OstConstraintKind kind;
     int line;
     OstSelection on;
-    int constrained[3];     /* DISPLACEMENT: is the component constrained? (0: the word free) */
-    int exact[3];           /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/exact.h */
+    int constrained[3]; /* DISPLACEMENT: is the component constrained? (0: the word free) */
+    int exact[3];       /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/closed_form.h */
     double displacement[3]; /* DISPLACEMENT: the prescribed value */
     double normal[3];       /* SLIDE: the plane's normal */
 } OstConstraint;

@@ -5,7 +5,7 @@
 #include "core/memory.h"
 
 /* Three components, each a number or the word free or exact; or the one word exact, which stands for the closed-form
- * solution of the case (assembly/exact.h). */
+ * solution of the case (assembly/closed_form.h). */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
 {
     static const char expected[] = "a list of three, each a number or the word free";

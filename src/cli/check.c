@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/select.h"
-#include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "core/error.h"
@@ -13,8 +12,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char doc[] = "Read a case, make its mesh, materials, axes, selections and equations, and report what "
-                          "is wrong with them. Nothing is solved.";
+static const struct argp_option options[] = {{"json", 'j', 0, 0, "Print what was found as JSON", 0}, {0}};
+
+static const struct argp check_argp = {
+    .options = options,
+    .parser = ost_cli_take,
+    .args_doc = "CASE",
+    .doc = "Read a case, make its mesh, materials, axes, selections and equations, and report what is wrong with them. "
+           "Nothing is solved.",
+};
 
 /* What the checks found besides errors. */
 typedef struct Findings {
@@ -158,45 +164,36 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
     return ost_json_write(scene->ctx, root, "-");
 }
 
-static OstStatus look_at_case(OstContext *ctx, const OstCaseArguments *arguments, Findings *findings)
+static OstStatus check_case(OstContext *ctx, void *input)
 {
+    const OstArguments *arguments = input;
+    Findings findings = {.warnings = json_array()};
     OstCase *c = NULL;
     OstScene *scene = NULL;
-    OstStatus status = ost_case_read(ctx, arguments->path, &c);
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(ost_choose_output(c, NULL, findings->output));
+    OstStatus status = OST_SUCCESS;
+    ost_warn_listen(ctx, hear_warning, &findings);
+    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
-    OST_TRY_DONE(check_conditions(scene, findings));
+    OST_TRY_DONE(check_conditions(scene, &findings));
     OST_TRY_DONE(dry_run(scene));
     OST_TRY_DONE(ost_watch_check(scene));
-    look_for_oddities(scene, findings);
-    if (ost_rank(ctx) == 0 && arguments->json)
-        status = print_json(scene, findings);
+    look_for_oddities(scene, &findings);
+    if (ost_rank(ctx) == 0 && arguments->text['j'])
+        status = print_json(scene, &findings);
     else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
-        print_findings(scene, findings);
+        print_findings(scene, &findings);
     status = ost_agree(ctx, status);
 done:
+    ost_warn_listen(ctx, NULL, NULL);
+    json_decref(findings.warnings);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
     return status;
 }
 
-static OstStatus check_case(OstContext *ctx, const OstCaseArguments *arguments)
-{
-    Findings findings = {.warnings = json_array()};
-    ost_warn_listen(ctx, hear_warning, &findings);
-    const OstStatus status = look_at_case(ctx, arguments, &findings);
-    ost_warn_listen(ctx, NULL, NULL);
-    json_decref(findings.warnings);
-    return status;
-}
-
 int ost_cli_check(OstContext *ctx, int argc, char **argv)
 {
-    OstCaseArguments arguments = {0};
-    int exit_code;
-    if (!ost_cli_parse_case(ctx, doc, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    return ost_cli_finish(ctx, check_case(ctx, &arguments));
+    OstArguments arguments = {0};
+    return ost_cli_run(ctx, &check_argp, argc, argv, &arguments, check_case);
 }

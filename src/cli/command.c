@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 
-#include <argp.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,31 +46,44 @@ static int asks_for_help(int argc, char **argv)
     return 0;
 }
 
-int ost_cli_parse(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input, int *exit_code)
+error_t ost_cli_take(int key, char *value, struct argp_state *state)
+{
+    OstArguments *arguments = state->input;
+    const char *path = arguments->case_path;
+    if (key == ARGP_KEY_ARG && path) {
+        argp_error(state, "one case at a time: '%s' came after '%s'", value, path);
+        return EINVAL;
+    }
+    if (key == ARGP_KEY_ARG) {
+        arguments->case_path = value;
+    } else if (key == ARGP_KEY_END && !path) {
+        argp_error(state, "which case? Give the path of its YAML file");
+        return EINVAL;
+    } else if (key > 0 && key <= 'z') {
+        arguments->text[key] = value ? value : "";
+    } else {
+        return ARGP_ERR_UNKNOWN;
+    }
+    return 0;
+}
+
+int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                OstStatus (*work)(OstContext *ctx, void *input))
 {
     const struct argp_child children[] = {{argp, 0, NULL, 0}, {0}};
     const struct argp whole = {common_options, parse_common, NULL, NULL, children, NULL, NULL};
     Common common = {ctx, input};
-    *exit_code = 0;
     if (asks_for_help(argc, argv)) {
         if (ost_rank(ctx) == 0)
             argp_help(&whole, stdout, ARGP_HELP_USAGE | ARGP_HELP_LONG | ARGP_HELP_DOC, argv[0]);
         return 0;
     }
     const unsigned flags = ARGP_NO_EXIT | ARGP_NO_HELP | (ost_rank(ctx) == 0 ? 0U : (unsigned)ARGP_NO_ERRS);
-    const error_t failure = argp_parse(&whole, argc, argv, flags, NULL, &common);
-    if (failure == 0)
-        return 1;
-    *exit_code = ost_status_exit_code(OST_INVALID_USAGE);
-    return 0;
-}
-
-int ost_cli_finish(OstContext *ctx, OstStatus status)
-{
+    if (argp_parse(&whole, argc, argv, flags, NULL, &common) != 0)
+        return ost_status_exit_code(OST_INVALID_USAGE);
+    const OstStatus status = work(ctx, input);
     ost_progress(ctx, "", -1.0);
-    if (status == OST_SUCCESS)
-        return 0;
-    if (ost_rank(ctx) == 0) {
+    if (status != OST_SUCCESS && ost_rank(ctx) == 0) {
         fprintf(stderr, "orthostat: error: %s\n", ost_error_text(ctx));
         if (ost_log_level(ctx) == OST_LOG_VERBOSE)
             fprintf(stderr, "orthostat: %s, raised at %s\n", ost_status_name(status), ost_error_origin(ctx));

@@ -62,28 +62,20 @@ static void folder_of(const char *path, char folder[OST_LONGEST_PATH])
     snprintf(folder, OST_LONGEST_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
 }
 
-static int same_inode(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
 static int is_same_existing_file(const char *path, const char *other)
 {
     struct stat a, b;
-    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && same_inode(&a, &b);
+    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 /* The same file, or the same name in the same folder where there is none yet. */
 static int is_same_place(const char *path, const char *other)
 {
     char one[OST_LONGEST_PATH], two[OST_LONGEST_PATH];
-    struct stat a, b;
-    if (is_same_existing_file(path, other))
-        return 1;
     folder_of(path, one);
     folder_of(other, two);
-    return strcmp(name_in_folder(path), name_in_folder(other)) == 0 && stat(one, &a) == 0 && stat(two, &b) == 0 &&
-           same_inode(&a, &b);
+    return is_same_existing_file(path, other) ||
+           (strcmp(name_in_folder(path), name_in_folder(other)) == 0 && is_same_existing_file(one, two));
 }
 
 static int is_list_of(const OstSelection *on, const char *path)
@@ -148,9 +140,9 @@ static OstStatus check_file(const OstCase *c, const char *path, char **target)
     return check_folder(c->ctx, *target);
 }
 
-static int is_stdout(const char *path)
+int ost_cli_is_stdout(const char *path)
 {
-    return strcmp(path, "-") == 0;
+    return path && strcmp(path, "-") == 0;
 }
 
 /* Paths that are NULL are not written. */
@@ -161,14 +153,15 @@ static OstStatus check_files(const OstCase *c, int count, const char *const *pat
     for (int i = 0; i < count && status == OST_SUCCESS; i++) {
         if (!paths[i])
             continue;
-        if (!is_stdout(paths[i]))
+        if (!ost_cli_is_stdout(paths[i]))
             status = check_file(c, paths[i], &target[i]);
         for (int j = 0; j < i && status == OST_SUCCESS; j++)
-            if (is_stdout(paths[i]) ? paths[j] && is_stdout(paths[j])
-                                    : target[j] && is_same_place(target[i], target[j]))
+            if (ost_cli_is_stdout(paths[i]) ? ost_cli_is_stdout(paths[j])
+                                            : target[j] && is_same_place(target[i], target[j]))
                 status = OST_RAISE(c->ctx, OST_INVALID_USAGE, "two outputs cannot both go to %s%s%s",
-                                   is_stdout(paths[i]) ? "" : "'", is_stdout(paths[i]) ? "standard output" : paths[i],
-                                   is_stdout(paths[i]) ? "" : "'");
+                                   ost_cli_is_stdout(paths[i]) ? "" : "'",
+                                   ost_cli_is_stdout(paths[i]) ? "standard output" : paths[i],
+                                   ost_cli_is_stdout(paths[i]) ? "" : "'");
     }
     for (int i = 0; i < count; i++)
         OST_FREE(target[i]);

@@ -15,4 +15,7 @@ OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_L
  * another. Raises naming what is in the way. */
 OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *paths);
 
+/* Local. Does "-", standard output, stand for the path? NULL does not. */
+int ost_cli_is_stdout(const char *path);
+
 #endif

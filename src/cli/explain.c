@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_data.h"
 #include "case/plan.h"
-#include "cli/case_arguments.h"
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -13,8 +12,15 @@
 #include <jansson.h>
 #include <stdio.h>
 
-static const char doc[] = "Say which effects a case calls for and why, how it will be solved, and how large the job "
-                          "is. Nothing is assembled; the mesh is made only where it alone tells what a load acts on.";
+static const struct argp_option options[] = {{"json", 'j', 0, 0, "Print what was found as JSON", 0}, {0}};
+
+static const struct argp explain_argp = {
+    .options = options,
+    .parser = ost_cli_take,
+    .args_doc = "CASE",
+    .doc = "Say which effects a case calls for and why, how it will be solved, and how large the job is. Nothing is "
+           "assembled; the mesh is made only where it alone tells what a load acts on.",
+};
 
 /* Makes the mesh, because some load (on a box, or on a boundary of a file) acts on faces or on vertices, and only the
  * mesh tells which. */
@@ -155,25 +161,29 @@ static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
     return failed;
 }
 
-int ost_cli_explain(OstContext *ctx, int argc, char **argv)
+static OstStatus explain(OstContext *ctx, void *input)
 {
-    OstCaseArguments arguments = {0};
+    const OstArguments *arguments = input;
     OstCase *c = NULL;
     OstPlan plan;
-    int exit_code;
-    if (!ost_cli_parse_case(ctx, doc, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    OstStatus status = ost_case_read(ctx, arguments.path, &c);
-    if (status == OST_SUCCESS)
-        status = make_plan(ctx, c, &plan);
-    if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
-        if (arguments.json && print_json(c, &plan, ost_size(ctx)))
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(make_plan(ctx, c, &plan));
+    if (ost_rank(ctx) == 0 && arguments->text['j']) {
+        if (print_json(c, &plan, ost_size(ctx)))
             status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
                                c->path);
-        if (!arguments.json && ost_log_level(ctx) != OST_LOG_QUIET)
-            print_plan(c, &plan, ost_size(ctx));
+    } else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET) {
+        print_plan(c, &plan, ost_size(ctx));
     }
     status = ost_agree(ctx, status);
+done:
     ost_case_destroy(&c);
-    return ost_cli_finish(ctx, status);
+    return status;
+}
+
+int ost_cli_explain(OstContext *ctx, int argc, char **argv)
+{
+    OstArguments arguments = {0};
+    return ost_cli_run(ctx, &explain_argp, argc, argv, &arguments, explain);
 }

@@ -37,22 +37,13 @@ void ost_cli_cases_folder(char *path, size_t size)
         snprintf(path, size, "%s", access("cases/verify", R_OK) == 0 ? "cases" : ORTHOSTAT_SCRIPTS "/../cases");
 }
 
-static OstStatus wait_for(OstContext *ctx, const char *script, pid_t child)
-{
-    int ending = 0;
-    while (waitpid(child, &ending, 0) < 0)
-        if (errno != EINTR)
-            return OST_RAISE(ctx, OST_FILE_FAILED, "cannot wait for '%s': %s", script, strerror(errno));
-    return WIFEXITED(ending) && WEXITSTATUS(ending) == 0 ? OST_SUCCESS
-                                                         : OST_RAISE(ctx, OST_FILE_FAILED, "'%s' failed", script);
-}
-
 OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *first, const char *second)
 {
     extern char **environ;
     char script[2 * LONGEST_PATH], one[LONGEST_PATH], two[LONGEST_PATH];
     char *arguments[] = {script, one, two, NULL};
     pid_t child = 0;
+    int ending = 0;
     if (!find_installed(name, script, sizeof script))
         snprintf(script, sizeof script, "%s/%s", ORTHOSTAT_SCRIPTS, name);
     if (access(script, X_OK) != 0)
@@ -62,5 +53,9 @@ OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *firs
     const int failure = posix_spawn(&child, script, NULL, NULL, arguments, environ);
     if (failure != 0)
         return OST_RAISE(ctx, OST_FILE_FAILED, "cannot run '%s': %s", script, strerror(failure));
-    return wait_for(ctx, script, child);
+    while (waitpid(child, &ending, 0) < 0)
+        if (errno != EINTR)
+            return OST_RAISE(ctx, OST_FILE_FAILED, "cannot wait for '%s': %s", script, strerror(errno));
+    return WIFEXITED(ending) && WEXITSTATUS(ending) == 0 ? OST_SUCCESS
+                                                         : OST_RAISE(ctx, OST_FILE_FAILED, "'%s' failed", script);
 }

@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const OstCommand commands[] = {
+static const struct {
+    const char *name, *summary;
+    int (*run)(OstContext *ctx, int argc, char **argv);
+} commands[] = {
     {"solve", "solve a case and write its fields for ParaView", ost_cli_solve},
     {"check", "read a case and its mesh, and report what is wrong with them", ost_cli_check},
     {"explain", "list the effects that a case calls for, and what it will cost", ost_cli_explain},
@@ -54,25 +57,21 @@ static int run_command(OstContext *ctx, int argc, char **argv)
     return ost_status_exit_code(OST_INVALID_USAGE);
 }
 
-/* The log level that an option before the command stands for; -1 if it is none. */
-static int level_of(const char *word)
+/* Removes -q and -v before the command; the last one counts. */
+static OstLogLevel take_level(int *argc, char ***argv)
 {
-    if (is_one_of(word, "-q", "--quiet"))
-        return OST_LOG_QUIET;
-    return is_one_of(word, "-v", "--verbose") ? OST_LOG_VERBOSE : -1;
-}
-
-/* Removes these options; the last one counts. */
-static int take_level(int *argc, char ***argv)
-{
-    int level = -1;
-    while (*argc > 1 && level_of((*argv)[1]) >= 0) {
-        level = level_of((*argv)[1]);
-        (*argv)[1] = (*argv)[0];
-        (*argv)++;
-        (*argc)--;
+    OstLogLevel level = OST_LOG_NORMAL;
+    for (; *argc > 1; (*argv)++, (*argc)--) {
+        char **first = *argv;
+        if (is_one_of(first[1], "-q", "--quiet"))
+            level = OST_LOG_QUIET;
+        else if (is_one_of(first[1], "-v", "--verbose"))
+            level = OST_LOG_VERBOSE;
+        else
+            break;
+        first[1] = first[0];
     }
-    return level < 0 ? OST_LOG_NORMAL : level;
+    return level;
 }
 
 /* Is this rank 0, or no MPI run? Open MPI sets a process's rank in its environment, before MPI starts. */
@@ -112,7 +111,7 @@ static int end_with(int exit_code)
 
 int main(int argc, char **argv)
 {
-    const int level = take_level(&argc, &argv);
+    const OstLogLevel level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)
         return end_with(answered);
@@ -124,7 +123,7 @@ int main(int argc, char **argv)
     OstContext *ctx = NULL;
     int exit_code = 1;
     if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS) {
-        ost_log_set_level(ctx, (OstLogLevel)level);
+        ost_log_set_level(ctx, level);
         exit_code = run_command(ctx, argc, argv);
     } else {
         fputs("orthostat: error: out of memory at the start\n", stderr);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 #include "cli/material_report.h"
-#include "cli/stability_region.h"
 #include "core/error.h"
+#include "core/memory.h"
+#include "core/write_aside.h"
 #include "orthostat/axes.h"
 
-#include <argp.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -46,8 +46,8 @@ enum { GROUP_FAMILY = 1, GROUP_NINE, GROUP_TRANSVERSE, GROUP_REPORT, GROUP_REGIO
 enum { OPTION_TABLE(OPTION_ENUM) OPTION_COUNT };
 #undef OPTION_ENUM
 
-/* Keys of argp above those that are letters. */
-enum { FIRST_KEY = 1000, MOST_NUMBERS = 32 };
+/* Keys of argp above those that are letters; numbers of a list; points of a curve. */
+enum { FIRST_KEY = 1000, MOST_NUMBERS = 32, POINTS = 360 };
 
 static const struct {
     const char *word;
@@ -242,45 +242,63 @@ static OstStatus report_material(const Request *request)
     OstContext *ctx = request->ctx;
     OstOrthotropic constants;
     OstMaterial material;
-    OstMaterialReport report = {0};
+    const char *kind = NULL;
     double axes[9];
     int turned = 0;
-    OST_TRY(read_constants(request, &constants, &report.kind));
+    const int json = request->text[OPTION_JSON] != NULL;
+    OST_TRY(read_constants(request, &constants, &kind));
     OST_TRY(read_axes(request, axes, &turned));
     OST_TRY(ost_material_create(ctx, "as given", &constants, 0.0, &material));
-    OST_TRY(ost_material_report_fill(ctx, &material, turned ? axes : NULL, &report));
-    if (material.isotropic)
-        report.kind = "isotropic";
-    if (ost_rank(ctx) != 0)
+    if (ost_rank(ctx) != 0 || (!json && ost_log_level(ctx) == OST_LOG_QUIET))
         return OST_SUCCESS;
-    if (request->text[OPTION_JSON])
-        return ost_material_report_print_json(ctx, &report);
-    if (ost_log_level(ctx) != OST_LOG_QUIET)
-        ost_material_report_print(&report);
+    return ost_material_report(ctx, &material, material.isotropic ? "isotropic" : kind, turned ? axes : NULL, json);
+}
+
+/* --- the stability region of the naive choice --- */
+
+typedef struct Curves {
+    int count;
+    const double *nu, *ratios;
+} Curves;
+
+static OstStatus write_curves(FILE *file, const void *content)
+{
+    const Curves *curves = content;
+    fputs("nu,E1_over_E2,E3_over_E2\n", file);
+    for (int k = 0; k < curves->count; k++)
+        for (int i = 0; i <= POINTS; i++) { /* the last is the first: a closed curve */
+            const double *point = curves->ratios + 2 * ((size_t)POINTS * (size_t)k + (size_t)(i % POINTS));
+            fprintf(file, "%.12g,%.12g,%.12g\n", curves->nu[k], point[0], point[1]);
+        }
     return OST_SUCCESS;
 }
 
-/* Rank 0's part of --stability-region. */
+/* Rank 0's part of --stability-region: nu,E1_over_E2,E3_over_E2 of a closed curve for each nu. */
 static OstStatus write_stability_region(const Request *request, const char *path)
 {
     double nu[MOST_NUMBERS] = {0.1, 0.2, 0.3, 0.4, 0.45, 0.49};
+    double *ratios = NULL;
     int count = 6;
-    OST_TRY(refuse_options_outside(request, REGION, "--stability-region"));
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(refuse_options_outside(request, REGION, "--stability-region"));
     if (request->text[OPTION_NU])
-        OST_TRY(parse_numbers(request, OPTION_NU, MOST_NUMBERS, nu, &count));
-    return ost_stability_region_write(request->ctx, path, count, nu);
+        OST_TRY_DONE(parse_numbers(request, OPTION_NU, MOST_NUMBERS, nu, &count));
+    OST_TRY_DONE(OST_NEW(request->ctx, &ratios, 2 * POINTS * (size_t)count));
+    for (int k = 0; k < count; k++)
+        OST_TRY_DONE(ost_orthotropic_naive_boundary(request->ctx, nu[k], POINTS, ratios + 2 * POINTS * (size_t)k));
+    status = ost_write_aside(request->ctx, path, write_curves, &(Curves){count, nu, ratios});
+done:
+    OST_FREE(ratios);
+    return status;
 }
 
-static OstStatus run(const Request *request)
+static OstStatus run(OstContext *ctx, void *input)
 {
-    OstContext *ctx = request->ctx;
+    const Request *request = input;
     const char *path = request->text[OPTION_STABILITY_REGION];
-    OstStatus status = OST_SUCCESS;
     if (!path)
         return ost_agree(ctx, report_material(request));
-    if (ost_rank(ctx) == 0)
-        status = write_stability_region(request, path);
-    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? write_stability_region(request, path) : OST_SUCCESS));
     ost_log(ctx, OST_LOG_NORMAL, "wrote %s; draw it with scripts/stability-region %s PICTURE.png", path, path);
     return OST_SUCCESS;
 }
@@ -306,8 +324,5 @@ int ost_cli_material(OstContext *ctx, int argc, char **argv)
         .doc = "Print a material's constants, stiffness, compliance, eigenvalues and stable range.",
     };
     Request request = {.ctx = ctx};
-    int exit_code = 0;
-    if (!ost_cli_parse(ctx, &argp, argc, argv, &request, &exit_code))
-        return exit_code;
-    return ost_cli_finish(ctx, run(&request));
+    return ost_cli_run(ctx, &argp, argc, argv, &request, run);
 }

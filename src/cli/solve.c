@@ -8,17 +8,8 @@
 #include "problem/scene_data.h"
 #include "study/watch.h"
 
-#include <argp.h>
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-
-typedef struct Arguments {
-    const char *case_path;
-    const char *output;
-    const char *json;
-    int keep;
-} Arguments;
 
 static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Write the fields here (default: the case's output file)", 0},
@@ -27,68 +18,33 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static error_t parse_option(int key, char *value, struct argp_state *state)
-{
-    Arguments *arguments = state->input;
-    switch (key) {
-    case 'o':
-        arguments->output = value;
-        return 0;
-    case 'j':
-        arguments->json = value;
-        return 0;
-    case 'k':
-        arguments->keep = 1;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (arguments->case_path) {
-            argp_error(state, "one case at a time: '%s' came after '%s'", value, arguments->case_path);
-            return EINVAL;
-        }
-        arguments->case_path = value;
-        return 0;
-    case ARGP_KEY_END:
-        if (!arguments->case_path) {
-            argp_error(state, "which case? Give the path of its YAML file");
-            return EINVAL;
-        }
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
 static const struct argp solve_argp = {
-    options, parse_option, "CASE", "Solves a case and writes its fields for ParaView.", NULL, NULL, NULL};
+    options, ost_cli_take, "CASE", "Solves a case and writes its fields for ParaView.", NULL, NULL, NULL};
 
-static OstStatus report_watched(const OstScene *scene, const OstResult *result, const OstWatchedValue *watched,
-                                const Arguments *arguments, const char *file)
+static OstStatus report(const OstScene *scene, const OstResult *result, const OstArguments *arguments, const char *file)
 {
+    OstContext *ctx = scene->ctx;
+    const char *json = arguments->text['j'];
+    OstWatchedValue *watched = NULL;
     OstLedgerSummary ledger;
-    OST_TRY(ost_ledger_summarise(scene->ctx, &ledger));
-    const int json_on_stdout = arguments->json && strcmp(arguments->json, "-") == 0;
-    if (ost_log_level(scene->ctx) != OST_LOG_QUIET && !json_on_stdout) {
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_watch_evaluate_all(scene, result, &watched));
+    OST_TRY_DONE(ost_ledger_summarise(ctx, &ledger));
+    if (ost_log_level(ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json)) {
         ost_summary_print(scene, result, file);
-        if (ost_rank(scene->ctx) == 0)
+        if (ost_rank(ctx) == 0)
             ost_watch_print(watched, scene->c->watch_count);
         ost_ledger_print(scene, &ledger);
     }
-    if (!arguments->json)
-        return OST_SUCCESS;
-    return ost_agree(scene->ctx, ost_summary_write_json(scene, result, &ledger, watched, file, arguments->json));
-}
-
-static OstStatus report(const OstScene *scene, const OstResult *result, const Arguments *arguments, const char *file)
-{
-    OstWatchedValue *watched = NULL;
-    OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
-    const OstStatus status = report_watched(scene, result, watched, arguments, file);
+    if (json)
+        status = ost_agree(ctx, ost_summary_write_json(scene, result, &ledger, watched, file, json));
+done:
     OST_FREE(watched);
     return status;
 }
 
 /* Writes fields and summary. Numbers that are not finite are never written to the file of fields. */
-static OstStatus write_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
+static OstStatus write_result(const OstScene *scene, const OstResult *result, const OstArguments *arguments,
                               const char *file)
 {
     OstStatus status = OST_SUCCESS;
@@ -98,7 +54,7 @@ static OstStatus write_result(const OstScene *scene, const OstResult *result, co
 }
 
 /* Writes, with --keep, a result that did not converge or failed a check; still returns that failure. */
-static OstStatus keep_result(const OstScene *scene, const OstResult *result, const Arguments *arguments,
+static OstStatus keep_result(const OstScene *scene, const OstResult *result, const OstArguments *arguments,
                              const char *file, OstStatus failure)
 {
     OstContext *ctx = scene->ctx;
@@ -106,36 +62,32 @@ static OstStatus keep_result(const OstScene *scene, const OstResult *result, con
         return failure;
     char text[OST_MOST_OBJECTIONS * (OST_LONGEST_OBJECTION + 2)];
     snprintf(text, sizeof text, "%s", ost_error_text(ctx));
-    if (!arguments->keep)
+    if (!arguments->text['k'])
         return OST_RAISE(ctx, failure, "%s; nothing was written (--keep would write it, marked as %s)", text,
                          ost_result_status(result));
     const OstStatus written = write_result(scene, result, arguments, file);
     return written == OST_SUCCESS ? OST_RAISE(ctx, failure, "%s", text) : written;
 }
 
-static OstStatus solve(OstContext *ctx, const Arguments *arguments)
+static OstStatus solve(OstContext *ctx, void *input)
 {
+    const OstArguments *arguments = input;
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;
-    OstStatus status = ost_case_read(ctx, arguments->case_path, &c);
     char file[OST_LONGEST_PATH] = "";
-    if (status == OST_SUCCESS)
-        status = ost_choose_output(c, arguments->output, file);
-    if (status == OST_SUCCESS)
-        status = ost_check_outputs(c, 2, (const char *const[]){file, arguments->json});
-    if (status == OST_SUCCESS)
-        status = ost_scene_create(c, &scene);
-    if (status == OST_SUCCESS)
-        status = ost_watch_check(scene);
-    if (status == OST_SUCCESS && !ost_plan_acts(c, &scene->plan))
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_choose_output(c, arguments->text['o'], file));
+    OST_TRY_DONE(ost_check_outputs(c, 2, (const char *const[]){file, arguments->text['j']}));
+    OST_TRY_DONE(ost_scene_create(c, &scene));
+    OST_TRY_DONE(ost_watch_check(scene));
+    if (!ost_plan_acts(c, &scene->plan))
         ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
-    if (status == OST_SUCCESS)
-        status = ost_scene_solve(scene, &result);
-    if (status == OST_SUCCESS)
-        status = write_result(scene, result, arguments, file);
-    else if (scene)
-        status = keep_result(scene, result, arguments, file, status);
+    status = ost_scene_solve(scene, &result);
+    status = status == OST_SUCCESS ? write_result(scene, result, arguments, file)
+                                   : keep_result(scene, result, arguments, file, status);
+done:
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
@@ -144,9 +96,6 @@ static OstStatus solve(OstContext *ctx, const Arguments *arguments)
 
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {NULL, NULL, NULL, 0};
-    int exit_code = 0;
-    if (!ost_cli_parse(ctx, &solve_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    return ost_cli_finish(ctx, solve(ctx, &arguments));
+    OstArguments arguments = {0};
+    return ost_cli_run(ctx, &solve_argp, argc, argv, &arguments, solve);
 }

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <argp.h>
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -19,11 +18,10 @@
 enum { MOST_CASES = 256 };
 
 typedef struct Arguments {
-    int quick;
-    const char *json;
-    const char *picture;
+    OstArguments common;
     int name_count;
     const char *name[MOST_CASES];
+    int all_passed; /* did all cases that were run? */
 } Arguments;
 
 static const struct argp_option options[] = {
@@ -38,18 +36,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
     switch (key) {
-    case 'Q':
-        arguments->quick = 1;
-        return 0;
     case 'H':
         argp_error(state, "the hard grid is a study of its own, in the source: scripts/hard-grid");
         return EINVAL;
-    case 'j':
-        arguments->json = value;
-        return 0;
-    case 'p':
-        arguments->picture = value;
-        return 0;
     case ARGP_KEY_ARG:
         if (arguments->name_count == MOST_CASES) {
             argp_error(state, "at most %d cases at a time", MOST_CASES);
@@ -57,8 +46,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         }
         arguments->name[arguments->name_count++] = value;
         return 0;
+    case ARGP_KEY_END: /* no name: all cases */
+        return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return ost_cli_take(key, value, state);
     }
 }
 
@@ -86,45 +77,33 @@ static int is_case(const struct dirent *entry)
     return length > 5 && strcmp(entry->d_name + length - 5, ".yaml") == 0;
 }
 
-static OstStatus list_folder(OstContext *ctx, const char *folder, CaseList *list)
-{
-    struct dirent **entries = NULL;
-    const int count = scandir(folder, &entries, is_case, alphasort);
-    if (count < 0)
-        return OST_RAISE(ctx, OST_FILE_FAILED,
-                         "cannot read the folder '%s': %s; say where the cases are: ORTHOSTAT_CASES=/path/to/cases",
-                         folder, strerror(errno));
-    OstStatus status = OST_SUCCESS;
-    if (count == 0 || count > MOST_CASES)
-        status = OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
-    for (int i = 0; i < count; i++) {
-        if (status == OST_SUCCESS)
-            snprintf(list->path[list->count++], OST_LONGEST_PATH, "%.3000s/%.1000s", folder, entries[i]->d_name);
-        free(entries[i]);
-    }
-    free(entries);
-    return status;
-}
-
-/* Refuses the name of a case that does not exist, and lists those that do. */
-static OstStatus check_name(OstContext *ctx, const char *folder, const char *name, const char *path)
+/* All cases of a folder; where `missing` is a name, refuses it and lists those that there are. */
+static OstStatus list_folder(OstContext *ctx, const char *folder, const char *missing, CaseList *list)
 {
     struct dirent **entries = NULL;
     char names[OST_LONGEST_PATH] = "";
     size_t length = 0;
-    if (access(path, F_OK) == 0)
-        return OST_SUCCESS;
     const int count = scandir(folder, &entries, is_case, alphasort);
+    if (count < 0 && !missing)
+        return OST_RAISE(ctx, OST_FILE_FAILED,
+                         "cannot read the folder '%s': %s; say where the cases are: ORTHOSTAT_CASES=/path/to/cases",
+                         folder, strerror(errno));
     for (int i = 0; i < count; i++) {
-        const int stem = (int)strlen(entries[i]->d_name) - 5;
+        const char *name = entries[i]->d_name;
+        if (!missing && count <= MOST_CASES)
+            snprintf(list->path[list->count++], OST_LONGEST_PATH, "%.3000s/%.1000s", folder, name);
         if (length < sizeof names)
-            length += (size_t)snprintf(names + length, sizeof names - length, "%s%.*s", i > 0 ? ", " : "", stem,
-                                       entries[i]->d_name);
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%.*s", i > 0 ? ", " : "",
+                                       (int)strlen(name) - 5, name);
         free(entries[i]);
     }
     free(entries);
-    return OST_RAISE(ctx, OST_FILE_FAILED, "there is no case '%s' in '%s', which has: %s", name, folder,
-                     count > 0 ? names : "none");
+    if (missing)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "there is no case '%s' in '%s', which has: %s", missing, folder,
+                         count > 0 ? names : "none");
+    return list->count > 0
+               ? OST_SUCCESS
+               : OST_RAISE(ctx, OST_FILE_FAILED, "found %d cases in '%s', expected 1 to %d", count, folder, MOST_CASES);
 }
 
 static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseList *list)
@@ -134,7 +113,7 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
     ost_cli_cases_folder(cases, sizeof cases);
     snprintf(folder, sizeof folder, "%s/verify", cases);
     if (arguments->name_count == 0)
-        return list_folder(ctx, folder, list);
+        return list_folder(ctx, folder, NULL, list);
     for (int i = 0; i < arguments->name_count; i++) {
         const char *name = arguments->name[i];
         const int is_path = strchr(name, '/') != NULL || strstr(name, ".yaml") != NULL;
@@ -143,8 +122,8 @@ static OstStatus list_cases(OstContext *ctx, const Arguments *arguments, CaseLis
             snprintf(path, OST_LONGEST_PATH, "%s", name);
         else
             snprintf(path, OST_LONGEST_PATH, "%.3000s/%.1000s.yaml", folder, name);
-        if (!is_path)
-            OST_TRY(check_name(ctx, folder, name, path));
+        if (!is_path && access(path, F_OK) != 0)
+            return list_folder(ctx, folder, name, list);
     }
     return OST_SUCCESS;
 }
@@ -168,90 +147,79 @@ typedef struct PicturePaths {
     char picture[OST_LONGEST_PATH];
 } PicturePaths;
 
-static OstStatus name_picture(OstContext *ctx, const char *folder, PicturePaths *paths)
+/* No report may replace a file of a case. */
+static OstStatus check_paths(OstContext *ctx, const CaseList *list, int count, const char *const *paths)
 {
-    const int length = snprintf(paths->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
-    if (length < 0 || length >= OST_LONGEST_PATH)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
-    snprintf(paths->picture, OST_LONGEST_PATH, "%.4000s/verify.png", folder);
-    return OST_SUCCESS;
-}
-
-static OstStatus make_folder(OstContext *ctx, const char *folder)
-{
-    return mkdir(folder, 0777) == 0 || errno == EEXIST
-               ? OST_SUCCESS
-               : OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
-}
-
-static OstStatus check_case_is_safe(OstContext *ctx, const char *case_path, int count, const char *const *paths)
-{
-    OstCase *c = NULL;
-    OstStatus status = ost_case_read(ctx, case_path, &c);
-    if (status == OST_SUCCESS)
-        status = ost_check_outputs(c, count, paths);
-    ost_case_destroy(&c);
+    OstStatus status = OST_SUCCESS;
+    for (int i = 0; i < list->count && status == OST_SUCCESS; i++) {
+        OstCase *c = NULL;
+        status = ost_case_read(ctx, list->path[i], &c);
+        if (status == OST_SUCCESS)
+            status = ost_check_outputs(c, count, paths);
+        ost_case_destroy(&c);
+    }
     return status;
 }
 
-/* Checked before anything runs. No report may replace a case; the readings beside the picture may be the file of
- * --json. */
-static OstStatus check_destinations(OstContext *ctx, const Arguments *arguments, const CaseList *list)
+/* Checked before anything runs. The readings beside the picture may be the file of --json. */
+static OstStatus choose_destinations(OstContext *ctx, const OstArguments *arguments, const CaseList *list,
+                                     PicturePaths *beside)
 {
-    PicturePaths beside;
-    const char *const drawn[] = {beside.readings, beside.picture};
-    for (int i = 0; arguments->json && i < list->count; i++)
-        OST_TRY(check_case_is_safe(ctx, list->path[i], 1, &arguments->json));
-    if (!arguments->picture)
+    const char *folder = arguments->text['p'];
+    const char *const drawn[] = {beside->readings, beside->picture};
+    OstStatus made = OST_SUCCESS;
+    if (arguments->text['j'])
+        OST_TRY(check_paths(ctx, list, 1, &arguments->text['j']));
+    if (!folder)
         return OST_SUCCESS;
-    OST_TRY(name_picture(ctx, arguments->picture, &beside));
-    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? make_folder(ctx, arguments->picture) : OST_SUCCESS));
-    for (int i = 0; i < list->count; i++)
-        OST_TRY(check_case_is_safe(ctx, list->path[i], 2, drawn));
-    return OST_SUCCESS;
+    const int length = snprintf(beside->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
+    if (length < 0 || length >= OST_LONGEST_PATH)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "the path of the folder is too long: %.200s...", folder);
+    snprintf(beside->picture, OST_LONGEST_PATH, "%.4000s/verify.png", folder);
+    if (ost_rank(ctx) == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
+        made = OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
+    OST_TRY(ost_agree(ctx, made));
+    return check_paths(ctx, list, 2, drawn);
 }
 
 /* --- the runs --- */
 
-static OstStatus draw(OstContext *ctx, int count, OstVerifyReport *const *reports, const Arguments *arguments)
+static OstStatus run_all(OstContext *ctx, const OstArguments *arguments, const CaseList *list,
+                         const PicturePaths *beside, OstVerifyReport **reports)
 {
-    PicturePaths paths;
-    if (ost_rank(ctx) != 0)
-        return OST_SUCCESS;
-    OST_TRY(name_picture(ctx, arguments->picture, &paths));
-    OST_TRY(ost_verify_write_json(ctx, count, reports, arguments->quick, paths.readings));
-    return ost_cli_run_script(ctx, "plot-verify", paths.readings, arguments->picture);
-}
-
-static OstStatus run_all(OstContext *ctx, const Arguments *arguments, const CaseList *list, OstVerifyReport **reports)
-{
-    const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !(arguments->json && strcmp(arguments->json, "-") == 0);
+    const int quick = arguments->text['Q'] != NULL;
+    const char *json = arguments->text['j'], *folder = arguments->text['p'];
+    const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json);
     for (int i = 0; i < list->count; i++) {
-        OST_TRY(ost_verify_case(ctx, list->path[i], arguments->quick, &reports[i]));
+        OST_TRY(ost_verify_case(ctx, list->path[i], quick, &reports[i]));
         if (prints)
             ost_verify_print(reports[i], ost_log_level(ctx) == OST_LOG_VERBOSE);
     }
     if (prints)
         ost_verify_print_summary(list->count, reports);
-    if (arguments->json)
-        OST_TRY(ost_agree(ctx, ost_verify_write_json(ctx, list->count, reports, arguments->quick, arguments->json)));
-    return arguments->picture ? ost_agree(ctx, draw(ctx, list->count, reports, arguments)) : OST_SUCCESS;
+    OstStatus status = json ? ost_verify_write_json(ctx, list->count, reports, quick, json) : OST_SUCCESS;
+    OST_TRY(ost_agree(ctx, status));
+    if (folder)
+        status = ost_verify_write_json(ctx, list->count, reports, quick, beside->readings);
+    if (folder && status == OST_SUCCESS && ost_rank(ctx) == 0)
+        status = ost_cli_run_script(ctx, "plot-verify", beside->readings, folder);
+    return ost_agree(ctx, status);
 }
 
-static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_passed)
+static OstStatus verify(OstContext *ctx, void *input)
 {
+    Arguments *arguments = input;
     CaseList list = {0, NULL};
+    PicturePaths beside;
     OstVerifyReport **reports = NULL;
-    OstStatus status = find_cases(ctx, arguments, &list);
-    if (status == OST_SUCCESS)
-        status = check_destinations(ctx, arguments, &list);
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, OST_NEW(ctx, &reports, list.count));
-    if (status == OST_SUCCESS)
-        status = run_all(ctx, arguments, &list, reports);
-    *all_passed = status == OST_SUCCESS;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(find_cases(ctx, arguments, &list));
+    OST_TRY_DONE(choose_destinations(ctx, &arguments->common, &list, &beside));
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &reports, list.count)));
+    status = run_all(ctx, &arguments->common, &list, &beside, reports);
+done:
     for (int i = 0; reports && i < list.count; i++) {
-        *all_passed &= reports[i] != NULL && reports[i]->passed;
+        arguments->all_passed &= reports[i] != NULL && reports[i]->passed;
         ost_verify_report_destroy(&reports[i]);
     }
     OST_FREE(reports);
@@ -261,10 +229,7 @@ static OstStatus verify(OstContext *ctx, const Arguments *arguments, int *all_pa
 
 int ost_cli_verify(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {0};
-    int exit_code = 0, all_passed = 0;
-    if (!ost_cli_parse(ctx, &verify_argp, argc, argv, &arguments, &exit_code))
-        return exit_code;
-    exit_code = ost_cli_finish(ctx, verify(ctx, &arguments, &all_passed));
-    return exit_code == 0 && !all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
+    Arguments arguments = {.all_passed = 1};
+    const int exit_code = ost_cli_run(ctx, &verify_argp, argc, argv, &arguments, verify);
+    return exit_code == 0 && !arguments.all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
 }

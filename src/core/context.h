@@ -6,7 +6,7 @@
 
 enum { OST_ERROR_ORIGIN_SIZE = 256, OST_LEDGER_DEPTH = 32 };
 
-/* The inside of a context, for core/ alone. */
+/* A context's fields; only core/ reads them. */
 struct OstContext {
     MPI_Comm comm;
     int rank;
@@ -23,7 +23,7 @@ struct OstContext {
     const char *label[OST_LEDGER_ACCOUNTS];
     OstAccount stack[OST_LEDGER_DEPTH];
     int depth;
-    double clock; /* when the innermost account's clock was last brought up to date */
+    double clock; /* until when seconds are booked */
     size_t bytes;
     size_t peak_bytes;
 };

@@ -10,9 +10,8 @@
 static const struct {
     const char *name;
     int exit_code;
-    const char *meaning;
 } status_table[OST_STATUS_COUNT] = {
-#define OST_STATUS_ROW(name, exit_code, meaning) {#name, exit_code, meaning},
+#define OST_STATUS_ROW(name, exit_code, meaning) {#name, exit_code},
     OST_STATUS_TABLE(OST_STATUS_ROW)
 #undef OST_STATUS_ROW
 };
@@ -25,11 +24,6 @@ static int is_known(OstStatus status)
 const char *ost_status_name(OstStatus status)
 {
     return is_known(status) ? status_table[status].name : "unknown status";
-}
-
-const char *ost_status_meaning(OstStatus status)
-{
-    return is_known(status) ? status_table[status].meaning : "unknown status";
 }
 
 int ost_status_exit_code(OstStatus status)

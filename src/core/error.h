@@ -11,7 +11,7 @@ OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int
 /* Raises a failure: return OST_RAISE(ctx, OST_INVALID_INPUT, "...", ...); */
 #define OST_RAISE(ctx, status, ...) ost_error_set((ctx), (status), __FILE__, __LINE__, __VA_ARGS__)
 
-/* Passes a failure up at once. For functions that hold nothing to free. */
+/* Returns a failure to the caller at once; for functions with nothing to free. */
 #define OST_TRY(call)                             \
     do {                                          \
         const OstStatus ost_try_status_ = (call); \
@@ -19,7 +19,7 @@ OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int
             return ost_try_status_;               \
     } while (0)
 
-/* Passes a failure to the clean-up label `done`, leaving it in the local variable `status`. */
+/* On failure jumps to the clean-up label `done`; the local variable `status` has the failure. */
 #define OST_TRY_DONE(call)         \
     do {                           \
         status = (call);           \

@@ -4,14 +4,14 @@
 
 #include "orthostat/context.h"
 
-/* Numbers keys by the order in which they first come: a hash table with open addressing. A key is one or more 64-bit
- * words. */
+/* Numbers keys in the order in which they are first added: a hash table with open addressing. A key is one or more
+ * 64-bit words. */
 typedef struct OstIndex {
     OstContext *ctx;
     int words;
     OstLocal count;
     OstGlobal *key; /* count × words, in their order */
-    OstLocal *slot; /* slots: place of the key there, or -1 */
+    OstLocal *slot; /* slots: number of the key in it, or -1 */
     uint64_t slots; /* a power of 2, at least twice the count */
 } OstIndex;
 
@@ -19,10 +19,10 @@ typedef struct OstIndex {
 OstStatus ost_index_create(OstContext *ctx, int words, OstIndex **index);
 void ost_index_destroy(OstIndex **index);
 
-/* The place of a key, which is appended if it is new. Raises OST_LIMIT_EXCEEDED beyond 2^31 - 1 keys. */
+/* The number of a key, which is added if it is new. Raises OST_LIMIT_EXCEEDED beyond 2^31 - 1 keys. */
 OstStatus ost_index_place(OstIndex *index, const OstGlobal *key, OstLocal *place);
 
-/* The place of a key, or -1. */
+/* The number of a key, or -1. */
 OstLocal ost_index_find(const OstIndex *index, const OstGlobal *key);
 
 #endif

@@ -5,6 +5,7 @@
 #include "core/write_aside.h"
 
 #include <math.h>
+#include <string.h>
 
 json_t *ost_json_number(double number)
 {
@@ -23,6 +24,16 @@ static OstStatus dump(FILE *file, const void *content)
         return OST_RAISE(document->ctx, OST_OUT_OF_MEMORY, "out of memory for the text of a JSON file");
     fputc('\n', file);
     return OST_SUCCESS;
+}
+
+json_t *ost_json_text(const char *text)
+{
+    enum { LONGEST_CHARACTER = 4 };
+    const size_t length = strlen(text);
+    json_t *json = json_string(text);
+    for (size_t less = 1; !json && less < LONGEST_CHARACTER && less <= length; less++)
+        json = json_stringn(text, length - less);
+    return json;
 }
 
 OstStatus ost_json_write(OstContext *ctx, json_t *document, const char *path)

@@ -9,7 +9,10 @@
 /* Local. A number, or null for one that is not finite, which JSON cannot write. */
 json_t *ost_json_number(double number);
 
-/* Local. Writes the document aside (core/write_aside.h), or to standard output for "-", and drops the caller's
+/* Local. A text, less what is left of its last character where a buffer has cut that: JSON wants whole ones. */
+json_t *ost_json_text(const char *text);
+
+/* Local. Writes the document as core/write_aside.h does, or to standard output for "-", and releases the caller's
  * reference to it. Raises OST_FILE_FAILED with the system's reason. */
 OstStatus ost_json_write(OstContext *ctx, json_t *document, const char *path);
 

@@ -69,9 +69,9 @@ void ost_warn(OstContext *ctx, const char *format, ...)
     va_end(arguments);
 }
 
-/* Does a person watch? mpirun stands between the program and the terminal; scripts/orthostat looks before it starts it.
- */
-static int is_watched(void)
+/* Does standard error end at a terminal? mpirun stands between, so scripts/orthostat finds out before it starts that
+ * and sets the variable. */
+static int is_on_terminal(void)
 {
     return isatty(STDERR_FILENO) || getenv("ORTHOSTAT_ON_TERMINAL") != NULL;
 }
@@ -87,7 +87,7 @@ void ost_progress(OstContext *ctx, const char *what, double fraction)
         return;
     }
     const double now = ost_seconds();
-    if (now - ctx->progress_time < progress_interval || !is_watched())
+    if (now - ctx->progress_time < progress_interval || !is_on_terminal())
         return;
     ctx->progress_time = now;
     ctx->progress_shown = 1;

@@ -5,26 +5,23 @@
 #include "core/error.h"
 
 #include <malloc.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* In front of every block, so that freeing it needs nothing but the pointer. 32 bytes keep the alignment of malloc. */
+/* Precedes every block, so that freeing it needs only the pointer. Aligned, so that the block behind it is. */
 typedef struct Header {
-    OstContext *ctx;
+    _Alignas(max_align_t) OstContext *ctx;
     size_t bytes;
     OstAccount account;
-    int unused;
-    size_t padding;
 } Header;
-
-_Static_assert(sizeof(Header) % 16 == 0, "the header must keep malloc's alignment");
 
 static OstStatus raise_out_of_memory(OstContext *ctx, size_t count, size_t size)
 {
     return OST_RAISE(
         ctx, OST_OUT_OF_MEMORY,
-        "out of memory: %zu items of %zu bytes (%.1f MiB) could not be had for '%s' on top of %.1f MiB; use "
+        "out of memory: %zu items of %zu bytes (%.1f MiB) could not be allocated for '%s' in addition to %.1f MiB; use "
         "more machines or a smaller mesh",
         count, size, (double)count * (double)size / 1048576.0, ost_ledger_label(ctx, ctx->stack[ctx->depth]),
         (double)ctx->bytes / 1048576.0);

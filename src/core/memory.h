@@ -4,15 +4,15 @@
 
 #include "orthostat/context.h"
 
-/* Local. Zeroed memory, booked to the ledger's open account until it is freed. A count of 0 gives a valid pointer.
- * On failure raises OST_OUT_OF_MEMORY with the size asked for. */
+/* Local. Zeroed memory, booked to the ledger's innermost account until it is freed. A count of 0 gives a valid pointer.
+ * Raises OST_OUT_OF_MEMORY with the size asked for. */
 OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory);
 
-/* Local. Resizes an array from ost_allocate (or NULL) to `count` items; what is added is zeroed. On failure the old
- * array stays as it was. */
+/* Local. Resizes an array from ost_allocate (or NULL) to `count` items; new items are zeroed. On failure the old array
+ * is unchanged. */
 OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory);
 
-/* Local. Gives back to the system what ost_keep_freed_memory has kept. */
+/* Local. Returns to the system the freed memory that ost_keep_freed_memory makes malloc keep. */
 void ost_return_freed_memory(void);
 
 /* Local. A copy of a string in memory from ost_allocate. */

@@ -38,7 +38,7 @@ OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal num
     return low < count && sorted[low] == number ? low : -1;
 }
 
-/* Numbers come many times over: sorting when the array is full keeps it near the size of the set. */
+/* Most numbers are added many times. Removing repetitions before the array grows keeps it near the size of the set. */
 static OstStatus make_room(OstContext *ctx, OstNumberSet *set)
 {
     ost_number_set_close(set);

@@ -12,7 +12,7 @@ OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers);
 /* The place of a number in a sorted set, or -1. */
 OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal number);
 
-/* A set that is collected number by number. Start from {0}. */
+/* A set that grows number by number. Start from {0}. */
 typedef struct OstNumberSet {
     OstLocal count;
     OstLocal capacity;

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* Bits that look random and depend on the number alone, whatever the ranks: what SplitMix64 makes of it (Steele, Lea,
- * Flood, Fast splittable pseudorandom number generators, OOPSLA 2014). */
+/* Pseudorandom bits that depend on the number alone, so that they are the same on any number of ranks: SplitMix64
+ * (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014). */
 static inline uint64_t ost_scatter(uint64_t number)
 {
     number = (number + 1) * UINT64_C(0x9e3779b97f4a7c15);

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Vectors of 3, row-major 3×3 matrices, and small symmetric matrices. Symmetric 3×3 matrices packed in six numbers are
- * ordered 11 22 33 12 23 31, as strains are. */
+/* Vectors of 3, row-major 3×3 matrices, and small symmetric matrices. Symmetric 3×3 matrices in six numbers have the
+ * order of strains, 11 22 33 12 23 31. */
 
 static inline double ost_dot3(const double a[3], const double b[3])
 {
@@ -24,6 +24,29 @@ static inline void ost_cross3(const double a[3], const double b[3], double c[3])
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline double ost_dot6(const double a[6], const double b[6])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 6; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* y = C x for a 6×6 matrix: a stress from a strain. */
+static inline void ost_apply6(const double c[36], const double x[6], double y[6])
+{
+    for (int i = 0; i < 6; i++)
+        y[i] = ost_dot6(c + 6 * i, x);
+}
+
+/* gathered[3 a + i] = component i of vectors' entry nodes[a]. */
+static inline void ost_gather3(int count, const OstLocal *nodes, const double *vectors, double *gathered)
+{
+    for (int a = 0; a < count; a++)
+        for (int i = 0; i < 3; i++)
+            gathered[3 * a + i] = vectors[3 * (size_t)nodes[a] + (size_t)i];
 }
 
 /* y = A x and y = Aᵀ x */
@@ -59,7 +82,7 @@ static inline double ost_determinant3(const double a[9])
     return a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6]) + a[2] * (a[3] * a[7] - a[4] * a[6]);
 }
 
-/* b = A⁻¹ by cofactors; returns det A, and leaves b alone when it is 0. */
+/* b = A⁻¹ by cofactors; returns det A. If that is 0, b is unchanged. */
 static inline double ost_invert3(const double a[9], double b[9])
 {
     const double determinant = ost_determinant3(a);

@@ -55,7 +55,7 @@ OstStatus ost_follow_links(OstContext *ctx, const char *path, char **target)
     return raise_unwritten(ctx, path, strerror(ELOOP));
 }
 
-/* A new file: an existing one, or a link, of that name is never opened. */
+/* Creates the temporary file. O_EXCL: never opens an existing file or a link. */
 static OstStatus create(OstContext *ctx, OstAside *aside)
 {
     char name[sizeof aside_name + 2 * sizeof(long)];
@@ -83,7 +83,7 @@ OstStatus ost_aside_open(OstContext *ctx, const char *path, OstAside *aside)
     OST_TRY(ost_follow_links(ctx, path, &aside->path));
     OstStatus status = OST_SUCCESS;
     if (stat(aside->path, &there) == 0 && !S_ISREG(there.st_mode))
-        status = raise_unwritten(ctx, path, "it is there already and is not a regular file");
+        status = raise_unwritten(ctx, path, "it exists and is not a regular file");
     else
         status = create(ctx, aside);
     if (status != OST_SUCCESS)
@@ -132,7 +132,7 @@ OstStatus ost_aside_finish_together(OstContext *ctx, OstAside *aside, OstStatus 
     return ost_agree(ctx, status);
 }
 
-/* What `write` leaves in the buffer may fail only here. */
+/* Flushes too: an error in what `write` left in the buffer shows only then. */
 static OstStatus write_stream(OstContext *ctx, const char *path, FILE *file,
                               OstStatus (*write)(FILE *file, const void *content), const void *content)
 {

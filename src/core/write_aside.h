@@ -6,33 +6,32 @@
 
 #include <stdio.h>
 
-/* A file appears under its name only when it is whole: it is written under a name of its own in the same folder, which
- * no other run shares, and then renamed. On failure what was there stays. Where the name is a symbolic link, the file
- * that it points to is replaced. Start from {0}. */
+/* Replaces a file atomically: writes a temporary file with a unique name in the same folder and renames it once it is
+ * complete. On failure the old file stays. A symbolic link is followed, and its target replaced. Start from {0}. */
 typedef struct OstAside {
-    char *path;  /* the file to replace: no link */
-    char *aside; /* the file to write, which is there and empty */
+    char *path;  /* the file to replace, symbolic links resolved */
+    char *aside; /* the temporary file: it exists and is empty */
 } OstAside;
 
-/* Local. Raises OST_FILE_FAILED, saying why, if the folder cannot be written to or `path` is there and no regular file.
- */
+/* Local. Raises OST_FILE_FAILED with the reason if the folder is not writable, or if `path` exists and is not a regular
+ * file. */
 OstStatus ost_aside_open(OstContext *ctx, const char *path, OstAside *aside);
 
-/* Collective. The same, done by rank 0; every rank learns the names. */
+/* Collective. Rank 0 does the same; every rank gets the names. */
 OstStatus ost_aside_open_together(OstContext *ctx, const char *path, OstAside *aside);
 
-/* Local. Renames the closed file if `written` is OST_SUCCESS, else removes it; returns `written`, or why the file could
- * not be renamed. Does nothing where ost_aside_open failed. */
+/* Local. Renames the closed temporary file if `written` is OST_SUCCESS, and otherwise removes it. Returns `written`, or
+ * raises OST_FILE_FAILED if it cannot be renamed. Does nothing after a failed ost_aside_open. */
 OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written);
 
-/* Collective. The same, done by rank 0; `written` is the same on every rank. */
+/* Collective. Rank 0 does the same; `written` is the same on every rank. */
 OstStatus ost_aside_finish_together(OstContext *ctx, OstAside *aside, OstStatus written);
 
-/* Local. Writes a whole file aside by `write`; "-" is standard output. */
+/* Local. Opens, writes by `write` and finishes a file; "-" is standard output. */
 OstStatus ost_write_aside(OstContext *ctx, const char *path, OstStatus (*write)(FILE *file, const void *content),
                           const void *content);
 
-/* Local. The file that `path` leads to through symbolic links, in memory that the caller frees; it need not exist. */
+/* Local. The file behind any symbolic links of `path`, which need not exist. The caller frees it. */
 OstStatus ost_follow_links(OstContext *ctx, const char *path, char **target);
 
 #endif

@@ -26,7 +26,7 @@ static void off(OstEffectState *state, const char *reason)
     snprintf(state->reason, sizeof state->reason, "%s", reason);
 }
 
-/* The metric of each node, which multigrid wants. */
+/* The material metric of each node, for multigrid; the axes of each region. */
 static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->orthotropic > 0)
@@ -35,30 +35,29 @@ static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
         off(state, "every material is isotropic");
 }
 
-/* Nine numbers a tet, and its centroid while they are found. */
+/* Nine numbers a tet, and its centroid while they are computed. */
 static void varying_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->varying > 0)
         on(state, (72.0 + 24.0) * f->tets, "%s", f->varying_reason);
     else
-        off(state, f->orthotropic > 0 ? "the axes are the same all over each region"
-                                      : "an isotropic body has no use for axes");
+        off(state, f->orthotropic > 0 ? "the axes are uniform in each region" : "an isotropic body needs no axes");
 }
 
-/* A mesh of V vertices and T tets has about V + T + 6 V^(2/3) edges (by Euler's formula, on a compact body), and K a
+/* A mesh of V vertices and T tets has about V + T + 6 V^(2/3) edges (Euler's formula, for a compact body). K has a
  * block of 76 bytes for each vertex and two for each edge. */
 static double matrix_bytes(double vertices, double tets)
 {
     return 76.0 * (3.0 * vertices + 2.0 * tets + 12.0 * pow(vertices, 2.0 / 3.0));
 }
 
-/* Quadratic tets have a node on each of about 7/6 edges a tet. */
+/* Quadratic tets have mid-edge nodes, on about 7/6 edges per tet. */
 static double vertices(const OstEffectFacts *f)
 {
     return f->quadratic ? fmax(f->nodes - 7.0 / 6.0 * f->tets, 0.0) : f->nodes;
 }
 
-/* The axes, and the mesh, the matrix and the hierarchy of the potentials, which are solved for like displacements. */
+/* The axes; and mesh, matrix and multigrid hierarchy of the potentials, which are solved for like displacements. */
 static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->gradient_region)
@@ -83,21 +82,20 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         on(state, 8.0 * (36.0 + 3.0) * f->regions, "quadratic tets, and %d of %d materials are nearly incompressible",
            f->nearly_incompressible, f->materials);
     else
-        off(state,
-            f->nearly_incompressible > 0 ? "linear tets have no use for it" : "no material is nearly incompressible");
+        off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
-/* The linear tets' mesh and matrix, where each tet's blocks go while it is filled, and where each node is in it. */
+/* The linear mesh and its matrix, the scatter map while the matrix is filled, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(vertices(f), f->tets) + 300.0 * vertices(f) + 100.0 * f->tets + 24.0 * f->nodes,
-           "quadratic tets: multigrid goes on with the linear tets of their vertices");
+           "quadratic tets: multigrid continues on the linear tets with the same vertices");
     else
-        off(state, f->quadratic ? "the solver that is planned is not our multigrid" : "the tets are linear themselves");
+        off(state, f->quadratic ? "the planned solver is not Orthostat's multigrid" : "the tets are linear already");
 }
 
-/* The displacement of each node, and the force that it makes. */
+/* g and -K g, 3 numbers a node each. */
 static void prescribed_displacement(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->prescribed > 0)

@@ -4,11 +4,11 @@
 
 #include "orthostat/context.h"
 
-/* The one table of effects: what a scene may call for beyond an isotropic body that stands still. `explain` prints it,
- * the plan and the ledger are arranged by it, and the code that does the work asks it. What is off is not called, holds
- * no byte and takes no second.
- * Columns: name, which is its account in the ledger too; label; the rule in src/effect/effect.c that says when it is
- * on, why, and what it will hold. */
+/* The table of effects: the optional features of a model that a scene may need. `explain`, the plan and the ledger list
+ * them, and code asks the table before it works on one. The work of an effect that is off is not called, and takes
+ * neither memory nor time.
+ * Columns: name, which is also its account in the ledger; label; the rule in src/effect/effect.c that decides if it is
+ * on, gives the reason, and estimates its memory. */
 #define OST_EFFECT_TABLE(X)                                                                   \
     X(OST_EFFECT_ORTHOTROPY, "orthotropy", orthotropy)                                        \
     X(OST_EFFECT_VARYING_AXES, "varying axes", varying_axes)                                  \
@@ -33,7 +33,7 @@ typedef enum {
 } OstEffect;
 #undef OST_EFFECT_ENUM
 
-/* What the rules go by: counts and sizes, over the whole body. */
+/* What the rules use: counts and sizes of the whole body. */
 typedef struct OstEffectFacts {
     int materials;                /* in use */
     int orthotropic, varying;     /* materials that are not isotropic; those of them whose axes vary */
@@ -51,8 +51,9 @@ typedef struct OstEffectFacts {
     double nodes, tets, regions; /* of the mesh */
 } OstEffectFacts;
 
-/* An effect of one scene. `bytes`: foreseen at its peak on one rank, halos apart; 0 where that is next to
- * nothing, or cannot be foreseen. */
+/* An effect of one scene. `bytes`: estimated peak memory on one rank, without ghosts; 0 if it is negligible or not
+ * known.
+ */
 typedef struct OstEffectState {
     int on;
     double bytes;
@@ -70,8 +71,7 @@ void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects);
 /* Local. Gives the effects' accounts their labels in the ledger. */
 void ost_effects_name_accounts(OstContext *ctx);
 
-/* Local. Is the work of an effect to be done? With NULL, where nobody has looked at a scene, any effect may be needed.
- */
+/* Local. Is an effect on? With NULL every effect is, since no scene says which are needed. */
 int ost_effect_on(const OstEffects *effects, OstEffect effect);
 
 /* Local. The effect's state: on or off, why, and its bytes. */

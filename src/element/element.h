@@ -4,8 +4,8 @@
 
 #include "element/elasticity.h"
 
-/* What one kind of tet can do. Kinds are told apart by their number of nodes (OstMesh.nodes_per_tet); one more kind is
- * one more file and one more line in ost_element_of.
+/* One kind of tet, known by its number of nodes (OstMesh.nodes_per_tet). Another kind is another file and another entry
+ * in ost_element_of.
  *
  * Coordinates and displacements are 3 numbers a node, node by node, in the mesh's order of nodes. Strains are 11 22 33
  * 12 23 31 with engineering shear. Forces and stiffnesses do not depend on the tet's orientation. */
@@ -13,11 +13,11 @@ enum { OST_MAX_TET_NODES = 10, OST_MAX_FACE_NODES = 6 };
 
 /* Means over a tet. */
 typedef struct OstMeans {
-    OstLanes strain[6];
-    OstLanes stress[6];
-    OstLanes energy; /* strain energy density */
-    OstLanes volume; /* of the tets, positive */
-    OstLanes stiff;  /* of m'strain, where C is split; else 0 */
+    OstSimd strain[6];
+    OstSimd stress[6];
+    OstSimd energy; /* strain energy density */
+    OstSimd volume; /* positive */
+    OstSimd stiff;  /* of m'strain where C is split (elasticity.h), otherwise 0 */
 } OstMeans;
 
 typedef struct OstElement {
@@ -25,22 +25,22 @@ typedef struct OstElement {
     int nodes_per_face;
     int linear; /* are the forces linear in the displacements? */
 
-    /* Quadrature points at which C is wanted if it varies within the tets (3 numbers a point). None if it is not. */
+    /* Quadrature points at which C is needed where it varies within a tet (3 numbers a point); 0 for linear tets. */
     int points;
-    void (*places)(const OstLanes *x, OstLanes *places);
+    void (*places)(const OstSimd *x, OstSimd *places);
 
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
-    void (*stiffness)(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks);
+    void (*stiffness)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks);
 
-    /* Internal forces K u, without K: 3 numbers a node. */
-    void (*force)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force);
+    /* Internal forces K u, computed without K: 3 numbers a node. */
+    void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-    /* Bounds of the forces, against which rounding is measured: the absolute values |B'| |C| |B| |u|. */
-    void (*magnitude)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *magnitude);
+    /* The forces' terms by their absolute values, |B'| |C| |B| |u|: the scale of rounding errors in the forces. */
+    void (*magnitude)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude);
 
     /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). */
-    void (*means)(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means);
-    void (*nodal_strain)(const OstLanes *x, const OstLanes *u, OstLanes *strain);
+    void (*means)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
+    void (*nodal_strain)(const OstSimd *x, const OstSimd *u, OstSimd *strain);
 
     /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j). */
     double (*volume)(const double *x);
@@ -64,7 +64,7 @@ static inline int ost_pair_count(int nodes)
     return nodes * (nodes + 1) / 2;
 }
 
-/* Which of them (a, b), a <= b, is. */
+/* Index of the pair (a, b), a <= b. */
 static inline int ost_pair_index(int nodes, int a, int b)
 {
     return a * nodes - a * (a - 1) / 2 + b - a;

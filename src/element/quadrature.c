@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/quadrature.h"
 
-/* Orbits: the points that permutations of their coordinates make of one. */
+/* Orbits: all points whose coordinates are a permutation of one point's. */
 #define FOUR(a, b, w) /* three coordinates a, one b */       \
     {{b, a, a, a}, w}, {{a, b, a, a}, w}, {{a, a, b, a}, w}, \
     {                                                        \
@@ -21,7 +21,7 @@
 /* a = (5 - sqrt 5) / 20, b = 1 - 3a */
 static const OstQuadraturePoint tet_degree2[] = {FOUR(0.138196601125010515, 0.585410196624968454, 0.25)};
 
-/* The constants of this and the next are the roots of their moment equations, solved to 30 digits. */
+/* The constants of degree 3 and 5 solve the rules' moment equations, computed to 30 digits. */
 static const OstQuadraturePoint tet_degree3[] = {
     FOUR(0.32816330251638168506, 0.01551009245085494481, 0.13621784253708739193),
     FOUR(0.10804724989842858783, 0.67585825030471423652, 0.11378215746291260807),

@@ -13,8 +13,8 @@ typedef struct OstQuadrature {
     const OstQuadraturePoint *point;
 } OstQuadrature;
 
-/* Of tets. All points are inside and all weights positive, so that what is summed over them is never indefinite.
- * Degree 2, 4 points: exact for products of linear polynomials. */
+/* Rules for tets. All points are inside and all weights positive, so that a sum of semidefinite matrices stays so.
+ * Degree 2, 4 points: integrates products of two linear polynomials without error. */
 extern const OstQuadrature ost_tet_degree2;
 
 /* Degree 3, 8 points (F. D. Witherden and P. E. Vincent, On the identification of symmetric quadrature rules for finite
@@ -24,7 +24,7 @@ extern const OstQuadrature ost_tet_degree3;
 /* Degree 5, 14 points (N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000). */
 extern const OstQuadrature ost_tet_degree5;
 
-/* Of triangles. Degree 5, 7 points (J. Radon, Zur mechanischen Kubatur, 1948), inside and positive. */
+/* Rule for triangles. Degree 5, 7 points (J. Radon, Zur mechanischen Kubatur, 1948), inside, weights positive. */
 extern const OstQuadrature ost_triangle_degree5;
 
 #endif

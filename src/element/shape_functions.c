@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* The vertices between which the mid-edge nodes of tets and faces lie. */
+/* The two vertices of each mid-edge node. */
 static const int tet_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 static const int face_edges[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
@@ -39,7 +39,8 @@ void ost_shape_values(int nodes, const double at[4], double *values)
         values[vertices + e] = 4.0 * at[edges[e][0]] * at[edges[e][1]];
 }
 
-/* Derivatives by the barycentric coordinates, taken as independent: 4 numbers a node. */
+/* Derivatives of the shape functions with respect to the barycentric coordinates, as if these were independent: 4
+ * numbers a node. */
 static void derive(int nodes, const double at[4], double (*derivatives)[4])
 {
     const int vertices = vertex_count(nodes);

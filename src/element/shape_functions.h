@@ -5,16 +5,16 @@
 /* Shape functions of linear and quadratic tets (4 or 10 nodes) and faces (3 or 6), straight or curved, one point at a
  * time: for loads and measures that vary in the element. `at` are barycentric coordinates, x 3 numbers a node. */
 
-/* Local. Each node's shape function, and the place of the point. */
+/* Local. Each node's shape function, and from these the position of the point. */
 void ost_shape_values(int nodes, const double at[4], double *values);
 void ost_shape_place(int nodes, const double *values, const double *x, double place[3]);
 
-/* Local. Of a tet: gradients of the shape functions (3 numbers a node); returns six times the volume ratio (the
- * determinant of the map from the reference tet, positive for a tet that is not inverted). */
+/* Local. Of a tet: gradients of the shape functions (3 numbers a node). Returns the determinant of the map from the
+ * reference tet: six times the volume of a straight tet, positive if it is not inverted. */
 double ost_shape_gradients(int nodes, const double at[4], const double *x, double *gradients);
 
-/* Local. Of a face: the area vector of the map from the reference triangle, outward for faces oriented so; half its
- * length is the area of a straight face. */
+/* Local. Of a face: the area vector of the map from the reference triangle. It points outward if the face is oriented
+ * outward; half its length is the area of a straight face. */
 void ost_shape_area_vector(int nodes, const double at[3], const double *x, double area_vector[3]);
 
 #endif

@@ -4,7 +4,7 @@
 #include "core/small.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
-#include "element/strain_lanes.h"
+#include "element/strain_batch.h"
 
 #include <string.h>
 
@@ -12,24 +12,24 @@ enum { NODES = 10, NUMBERS = 3 * NODES, PAIRS = NODES * (NODES + 1) / 2, POINTS 
 
 const int ost_tet10_ends[NODES][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-/* The node on the edge from a to b; a vertex on its own. */
+/* The mid-edge node between vertices a and b; for a = b the vertex. */
 static const int node_between[4][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}};
 
-/* An edge node this near to the middle, relative to the edge, lies on a straight edge. */
+/* An edge counts as straight if its node is this near to its middle, relative to its length. */
 static const double straight = 1e-12;
 
-/* One point of the tets in the lanes. */
+/* One point of each tet of a batch. */
 typedef struct Point {
-    OstLanes gradient[NODES][3];
-    OstLanes volume; /* determinant of the map / 6; times the weight, the point's share of the tet's volume */
+    OstSimd gradient[NODES][3];
+    OstSimd volume; /* determinant of the map / 6; times the quadrature weight after evaluate_weighted */
 } Point;
 
-/* Gradients of the barycentric coordinates; returns the determinant in *determinant. dx/dL_c is the sum over nodes of
- * x times the shape function's derivative: (4 L_c - 1) of the vertex, 4 L_b of the node between c and b. */
-static inline void coordinate_gradients(const OstLanes *x, const double at[4], OstLanes gradient[4][3],
-                                        OstLanes *determinant)
+/* Gradients of the barycentric coordinates, and the determinant of the map. dx/dL_c is the sum over nodes of x times
+ * the shape function's derivative: 4 L_c - 1 for vertex c, 4 L_b for the node between c and b. */
+static inline void coordinate_gradients(const OstSimd *x, const double at[4], OstSimd gradient[4][3],
+                                        OstSimd *determinant)
 {
-    OstLanes slope[4][3];
+    OstSimd slope[4][3];
     for (int c = 0; c < 4; c++)
         for (int i = 0; i < 3; i++) {
             slope[c][i] = (4.0 * at[c] - 1.0) * x[3 * c + i];
@@ -40,11 +40,11 @@ static inline void coordinate_gradients(const OstLanes *x, const double at[4], O
     for (int c = 1; c < 4; c++)
         for (int i = 0; i < 3; i++)
             slope[c][i] -= slope[0][i];
-    ost_lanes_cross(slope[2], slope[3], gradient[1]);
-    ost_lanes_cross(slope[3], slope[1], gradient[2]);
-    ost_lanes_cross(slope[1], slope[2], gradient[3]);
+    ost_simd_cross(slope[2], slope[3], gradient[1]);
+    ost_simd_cross(slope[3], slope[1], gradient[2]);
+    ost_simd_cross(slope[1], slope[2], gradient[3]);
     *determinant = slope[1][0] * gradient[1][0] + slope[1][1] * gradient[1][1] + slope[1][2] * gradient[1][2];
-    const OstLanes inverse = 1.0 / *determinant;
+    const OstSimd inverse = 1.0 / *determinant;
     for (int i = 0; i < 3; i++) {
         for (int c = 1; c < 4; c++)
             gradient[c][i] *= inverse;
@@ -52,9 +52,9 @@ static inline void coordinate_gradients(const OstLanes *x, const double at[4], O
     }
 }
 
-static inline void evaluate(const OstLanes *x, const double at[4], Point *point)
+static inline void evaluate(const OstSimd *x, const double at[4], Point *point)
 {
-    OstLanes of_coordinate[4][3];
+    OstSimd of_coordinate[4][3];
     coordinate_gradients(x, at, of_coordinate, &point->volume);
     point->volume /= 6.0;
     for (int i = 0; i < 3; i++) {
@@ -68,43 +68,43 @@ static inline void evaluate(const OstLanes *x, const double at[4], Point *point)
     }
 }
 
-/* Are all edges of all lanes straight? */
-static int are_straight(const OstLanes *x)
+static int are_straight(const OstSimd *x)
 {
     for (int a = 4; a < NODES; a++) {
         const int *end = ost_tet10_ends[a];
-        OstLanes off = {0};
-        OstLanes length = {0};
+        OstSimd off = {0};
+        OstSimd length = {0};
         for (int i = 0; i < 3; i++) {
-            const OstLanes from = x[3 * end[0] + i];
-            const OstLanes to = x[3 * end[1] + i];
-            const OstLanes bend = x[3 * a + i] - 0.5 * (from + to);
+            const OstSimd from = x[3 * end[0] + i];
+            const OstSimd to = x[3 * end[1] + i];
+            const OstSimd bend = x[3 * a + i] - 0.5 * (from + to);
             off += bend * bend;
             length += (to - from) * (to - from);
         }
-        for (int lane = 0; lane < OST_LANES; lane++)
-            if (!(off[lane] <= straight * straight * length[lane]))
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            if (!(off[slot] <= straight * straight * length[slot]))
                 return 0;
     }
     return 1;
 }
 
-/* Straight edges and one C: then gradients are linear, their products of degree 2. */
-static int is_uniform(const OstLanes *x, const OstElasticity *elasticity)
+/* Straight edges and a uniform C make the integrand of the stiffness quadratic. */
+static int is_uniform(const OstSimd *x, const OstElasticity *elasticity)
 {
     return elasticity->points == 1 && are_straight(x);
 }
 
-/* Uniform tets: exact. For the others, degree 2 is what convergence with order 2 asks for (Ciarlet, The Finite Element
- * Method for Elliptic Problems, 4.1 and 4.4); with degree 3 curved tets pass the patch test and have their exact volume
- * too, because the map's cofactors are of degree 2 and its determinant of degree 3. More is of no use: on Lekhnitskii's
- * tube (cylindrical axes, E_t = 10 E_r) the errors with 8 and 14 points agree to 3 %, with 4 to 15 %. */
-static const OstQuadrature *rule_for(const OstLanes *x, const OstElasticity *elasticity)
+/* Degree 2 integrates uniform tets without error. For the others it would be enough for convergence of order 2
+ * (Ciarlet, The Finite Element Method for Elliptic Problems, 4.1 and 4.4), but degree 3 also gives curved tets their
+ * true volume and the patch test, since the map's cofactors have degree 2 and its determinant degree 3. A higher degree
+ * gains nothing: on Lekhnitskii's tube (cylindrical axes, E_t = 10 E_r) the discretisation errors with 8 and with 14
+ * points agree to 3 %, those with 4 to 15 %. */
+static const OstQuadrature *rule_for(const OstSimd *x, const OstElasticity *elasticity)
 {
     return is_uniform(x, elasticity) ? &ost_tet_degree2 : &ost_tet_degree3;
 }
 
-static void tet10_places(const OstLanes *x, OstLanes *places)
+static void tet10_places(const OstSimd *x, OstSimd *places)
 {
     for (int q = 0; q < ost_tet_degree3.count; q++) {
         double shape[NODES];
@@ -117,27 +117,26 @@ static void tet10_places(const OstLanes *x, OstLanes *places)
     }
 }
 
-/* With the weight in, and positive whatever the tet's orientation. */
-static inline void evaluate_point(const OstLanes *x, const OstQuadraturePoint *at, Point *point)
+/* As evaluate, with the volume positive whatever the tet's orientation, and multiplied by the weight. */
+static inline void evaluate_weighted(const OstSimd *x, const OstQuadraturePoint *at, Point *point)
 {
     evaluate(x, at->at, point);
-    ost_lanes_absolute(&point->volume);
+    ost_simd_absolute(&point->volume);
     point->volume *= at->weight;
 }
 
-/* Columns of m'B, integrated over the tets, and the tets' volumes. */
-static void mean_columns(const OstLanes *x, const OstElasticity *elasticity, OstLanes columns[NUMBERS],
-                         OstLanes *volume)
+/* The row m'B, integrated over the tet, and the tet's volume. */
+static void mean_columns(const OstSimd *x, const OstElasticity *elasticity, OstSimd columns[NUMBERS], OstSimd *volume)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(columns, 0, NUMBERS * sizeof *columns);
-    *volume = (OstLanes){0};
+    *volume = (OstSimd){0};
     for (int q = 0; q < rule->count; q++) {
         Point point;
-        evaluate_point(x, &rule->point[q], &point);
+        evaluate_weighted(x, &rule->point[q], &point);
         *volume += point.volume;
         for (int a = 0; a < NODES; a++) {
-            OstLanes of_node[3];
+            OstSimd of_node[3];
             ost_force_of_stress(point.gradient[a], elasticity->m[ost_elasticity_at(elasticity, q)], of_node);
             for (int i = 0; i < 3; i++)
                 columns[3 * a + i] += point.volume * of_node[i];
@@ -145,11 +144,11 @@ static void mean_columns(const OstLanes *x, const OstElasticity *elasticity, Ost
     }
 }
 
-/* The stiff mode's energy is half the volume times the square of the mean of m'strain. */
-static void add_mean_blocks(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
+/* The stiff mode's energy is 1/2 volume (mean of m'strain)^2. */
+static void add_mean_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
-    OstLanes columns[NUMBERS];
-    OstLanes volume;
+    OstSimd columns[NUMBERS];
+    OstSimd volume;
     mean_columns(x, elasticity, columns, &volume);
     for (int a = 0; a < NODES; a++)
         for (int b = a; b < NODES; b++, blocks += 9)
@@ -157,21 +156,21 @@ static void add_mean_blocks(const OstLanes *x, const OstElasticity *elasticity, 
                 blocks[n] += columns[3 * a + n / 3] * columns[3 * b + n % 3] / volume;
 }
 
-static void sum_blocks(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
+static void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     memset(blocks, 0, 9 * PAIRS * sizeof *blocks);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
-        const OstLanes *c = elasticity->c[ost_elasticity_at(elasticity, q)];
+        const OstSimd *c = elasticity->c[ost_elasticity_at(elasticity, q)];
         Point point;
-        evaluate_point(x, &ost_tet_degree3.point[q], &point);
+        evaluate_weighted(x, &ost_tet_degree3.point[q], &point);
         for (int b = 0; b < NODES; b++) {
-            const OstLanes *g = point.gradient[b];
-            const OstLanes scaled[3] = {point.volume * g[0], point.volume * g[1], point.volume * g[2]};
-            OstLanes stress[6][3];
+            const OstSimd *g = point.gradient[b];
+            const OstSimd scaled[3] = {point.volume * g[0], point.volume * g[1], point.volume * g[2]};
+            OstSimd stress[6][3];
             ost_stress_columns(c, scaled, stress);
             for (int a = 0; a <= b; a++) {
-                OstLanes block[9];
-                OstLanes *sum = blocks + 9 * ost_pair_index(NODES, a, b);
+                OstSimd block[9];
+                OstSimd *sum = blocks + 9 * ost_pair_index(NODES, a, b);
                 ost_block_of_stress(point.gradient[a], stress, block);
                 for (int n = 0; n < 9; n++)
                     sum[n] += block[n];
@@ -180,7 +179,7 @@ static void sum_blocks(const OstLanes *x, const OstElasticity *elasticity, OstLa
     }
 }
 
-static void tet10_stiffness(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
+static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     if (is_uniform(x, elasticity))
         ost_tet10_straight_blocks(x, elasticity->c[0], blocks);
@@ -190,9 +189,9 @@ static void tet10_stiffness(const OstLanes *x, const OstElasticity *elasticity, 
         add_mean_blocks(x, elasticity, blocks);
 }
 
-static inline void strain_at(const Point *point, const OstLanes *u, OstLanes strain[6])
+static inline void strain_at(const Point *point, const OstSimd *u, OstSimd strain[6])
 {
-    OstLanes slope[3][3];
+    OstSimd slope[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             slope[i][j] = u[i] * point->gradient[0][j];
@@ -203,18 +202,18 @@ static inline void strain_at(const Point *point, const OstLanes *u, OstLanes str
 }
 
 /* force += B' stress */
-static inline void add_force(const Point *point, const OstLanes stress[6], OstLanes *force)
+static inline void add_force(const Point *point, const OstSimd stress[6], OstSimd *force)
 {
     for (int a = 0; a < NODES; a++) {
-        OstLanes of_node[3];
+        OstSimd of_node[3];
         ost_force_of_stress(point->gradient[a], stress, of_node);
         for (int i = 0; i < 3; i++)
             force[3 * a + i] += of_node[i];
     }
 }
 
-/* The mean of m'strain. */
-static void mean_of_mode(const OstLanes columns[NUMBERS], const OstLanes *volume, const OstLanes *u, OstLanes *mean)
+/* Mean of m'strain over the tet. */
+static void mean_of_mode(const OstSimd columns[NUMBERS], const OstSimd *volume, const OstSimd *u, OstSimd *mean)
 {
     *mean = columns[0] * u[0];
     for (int n = 1; n < NUMBERS; n++)
@@ -222,72 +221,72 @@ static void mean_of_mode(const OstLanes columns[NUMBERS], const OstLanes *volume
     *mean /= *volume;
 }
 
-static void tet10_force(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force)
+static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(force, 0, NUMBERS * sizeof *force);
     for (int q = 0; q < rule->count; q++) {
         Point point;
-        OstLanes strain[6];
-        OstLanes stress[6];
-        evaluate_point(x, &rule->point[q], &point);
+        OstSimd strain[6];
+        OstSimd stress[6];
+        evaluate_weighted(x, &rule->point[q], &point);
         strain_at(&point, u, strain);
-        ost_lanes_stress(elasticity->c[ost_elasticity_at(elasticity, q)], strain, stress);
+        ost_simd_stress(elasticity->c[ost_elasticity_at(elasticity, q)], strain, stress);
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
         add_force(&point, stress, force);
     }
     if (!elasticity->by_mean)
         return;
-    OstLanes columns[NUMBERS];
-    OstLanes volume;
-    OstLanes mean;
+    OstSimd columns[NUMBERS];
+    OstSimd volume;
+    OstSimd mean;
     mean_columns(x, elasticity, columns, &volume);
     mean_of_mode(columns, &volume, u, &mean);
     for (int n = 0; n < NUMBERS; n++)
         force[n] += mean * columns[n];
 }
 
-/* Where C is split, that of its two parts together. */
-static void whole_size(const OstElasticity *elasticity, int at, OstLanes c[OST_ELASTICITY_COUNT])
+/* |C|; if C is split, |c| + |m m'|. */
+static void absolute_elasticity(const OstElasticity *elasticity, int at, OstSimd c[OST_ELASTICITY_COUNT])
 {
     memcpy(c, elasticity->c[at], sizeof elasticity->c[at]);
     for (int p = 0, n = 0; p < 6; p++)
         for (int q = p; q < 6; q++, n++) {
-            OstLanes product = {0};
+            OstSimd product = {0};
             if (elasticity->by_mean)
                 product = elasticity->m[at][p] * elasticity->m[at][q];
-            ost_lanes_absolute(&c[n]);
-            ost_lanes_absolute(&product);
+            ost_simd_absolute(&c[n]);
+            ost_simd_absolute(&product);
             c[n] += product;
         }
 }
 
-static void tet10_magnitude(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *magnitude)
+static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(magnitude, 0, NUMBERS * sizeof *magnitude);
     for (int q = 0; q < rule->count; q++) {
         Point point;
-        OstLanes c[OST_ELASTICITY_COUNT];
-        OstLanes strain[6] = {{0}};
-        OstLanes stress[6];
-        evaluate_point(x, &rule->point[q], &point);
+        OstSimd c[OST_ELASTICITY_COUNT];
+        OstSimd strain[6] = {{0}};
+        OstSimd stress[6];
+        evaluate_weighted(x, &rule->point[q], &point);
         for (int a = 0; a < NODES; a++) {
             for (int i = 0; i < 3; i++)
-                ost_lanes_absolute(&point.gradient[a][i]);
+                ost_simd_absolute(&point.gradient[a][i]);
             ost_add_strain_size(point.gradient[a], u + 3 * a, strain);
         }
-        whole_size(elasticity, ost_elasticity_at(elasticity, q), c);
-        ost_lanes_stress_size(c, strain, stress);
+        absolute_elasticity(elasticity, ost_elasticity_at(elasticity, q), c);
+        ost_simd_stress_size(c, strain, stress);
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
         add_force(&point, stress, magnitude);
     }
 }
 
-/* Adds a point's share to the integrals of strain, stress and energy. */
-static inline void add_means(const Point *point, const OstLanes strain[6], const OstLanes stress[6], OstMeans *sums)
+/* Adds a point to the integrals of strain, stress and energy. */
+static inline void add_means(const Point *point, const OstSimd strain[6], const OstSimd stress[6], OstMeans *sums)
 {
     for (int p = 0; p < 6; p++) {
         sums->strain[p] += point->volume * strain[p];
@@ -296,25 +295,25 @@ static inline void add_means(const Point *point, const OstLanes strain[6], const
     }
 }
 
-static void tet10_means(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means)
+static void tet10_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
-    OstLanes volume = {0};
-    OstLanes columns[NUMBERS];
+    OstSimd volume = {0};
+    OstSimd columns[NUMBERS];
     memset(means, 0, sizeof *means);
     if (elasticity->by_mean) {
         mean_columns(x, elasticity, columns, &volume);
         mean_of_mode(columns, &volume, u, &means->stiff);
-        volume = (OstLanes){0};
+        volume = (OstSimd){0};
     }
     for (int q = 0; q < rule->count; q++) {
         const int at = ost_elasticity_at(elasticity, q);
         Point point;
-        OstLanes strain[6];
-        OstLanes stress[6];
-        evaluate_point(x, &rule->point[q], &point);
+        OstSimd strain[6];
+        OstSimd stress[6];
+        evaluate_weighted(x, &rule->point[q], &point);
         strain_at(&point, u, strain);
-        ost_lanes_stress(elasticity->c[at], strain, stress);
+        ost_simd_stress(elasticity->c[at], strain, stress);
         volume += point.volume;
         add_means(&point, strain, stress, means);
         for (int p = 0; p < 6 && elasticity->by_mean; p++)
@@ -328,7 +327,7 @@ static void tet10_means(const OstLanes *x, const OstElasticity *elasticity, cons
     means->volume = volume;
 }
 
-static void tet10_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *strain)
+static void tet10_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strain)
 {
     for (int a = 0; a < NODES; a++) {
         double at[4] = {0.0};
@@ -340,22 +339,22 @@ static void tet10_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *s
     }
 }
 
-/* What follows is of one tet: the first lane's of four that are the same. */
-static void spread(int count, const double *numbers, OstLanes *lanes)
+/* The functions below are for one tet: they compute a batch of copies of it and read the first. */
+static void copy_to_batch(int count, const double *numbers, OstSimd *batch)
 {
     for (int n = 0; n < count; n++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            lanes[n][lane] = numbers[n];
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            batch[n][slot] = numbers[n];
 }
 
 static double tet10_volume(const double *x)
 {
-    OstLanes lanes[NUMBERS];
+    OstSimd batch[NUMBERS];
     double volume = 0.0;
-    spread(NUMBERS, x, lanes);
+    copy_to_batch(NUMBERS, x, batch);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
         Point point;
-        evaluate(lanes, ost_tet_degree3.point[q].at, &point);
+        evaluate(batch, ost_tet_degree3.point[q].at, &point);
         volume += ost_tet_degree3.point[q].weight * point.volume[0];
     }
     return volume;
@@ -363,13 +362,13 @@ static double tet10_volume(const double *x)
 
 static void tet10_gradient(const double *x, const double *u, double gradient[9])
 {
-    OstLanes lanes[NUMBERS];
+    OstSimd batch[NUMBERS];
     double volume = 0.0;
-    spread(NUMBERS, x, lanes);
+    copy_to_batch(NUMBERS, x, batch);
     memset(gradient, 0, 9 * sizeof *gradient);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
         Point point;
-        evaluate_point(lanes, &ost_tet_degree3.point[q], &point);
+        evaluate_weighted(batch, &ost_tet_degree3.point[q], &point);
         volume += point.volume[0];
         for (int n = 0; n < 9; n++)
             for (int a = 0; a < NODES; a++)
@@ -381,12 +380,12 @@ static void tet10_gradient(const double *x, const double *u, double gradient[9])
 
 static void tet10_laplacian(const double *x, double *pairs)
 {
-    OstLanes lanes[NUMBERS];
-    spread(NUMBERS, x, lanes);
+    OstSimd batch[NUMBERS];
+    copy_to_batch(NUMBERS, x, batch);
     memset(pairs, 0, PAIRS * sizeof *pairs);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
         Point point;
-        evaluate_point(lanes, &ost_tet_degree3.point[q], &point);
+        evaluate_weighted(batch, &ost_tet_degree3.point[q], &point);
         for (int a = 0, n = 0; a < NODES; a++)
             for (int b = a; b < NODES; b++, n++)
                 for (int i = 0; i < 3; i++)
@@ -394,23 +393,23 @@ static void tet10_laplacian(const double *x, double *pairs)
     }
 }
 
-/* The map's determinant, of degree 3, times shape functions: degree 5. */
+/* The map's determinant has degree 3, the shape functions 2. */
 static void tet10_node_volumes(const double *x, double *volumes)
 {
-    OstLanes lanes[NUMBERS];
-    spread(NUMBERS, x, lanes);
+    OstSimd batch[NUMBERS];
+    copy_to_batch(NUMBERS, x, batch);
     memset(volumes, 0, NODES * sizeof *volumes);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         double shape[NODES];
         Point point;
-        evaluate_point(lanes, &ost_tet_degree5.point[q], &point);
+        evaluate_weighted(batch, &ost_tet_degree5.point[q], &point);
         ost_shape_values(NODES, ost_tet_degree5.point[q].at, shape);
         for (int a = 0; a < NODES; a++)
             volumes[a] += point.volume[0] * shape[a];
     }
 }
 
-/* The area vector, of degree 2, times shape functions: degree 4. */
+/* The area vector has degree 2, as have the shape functions. */
 static void tet10_node_areas(const double *x, double *areas, double *area_vectors)
 {
     memset(areas, 0, 6 * sizeof *areas);

@@ -7,22 +7,22 @@
 enum { BLOCK = 9, LINEAR_BLOCKS = 10 * BLOCK };
 
 /* sum += weight × block ij of the linear tet */
-static inline void add(OstLanes *restrict sum, double weight, const OstLanes *restrict linear, int i, int j)
+static inline void add(OstSimd *restrict sum, double weight, const OstSimd *restrict linear, int i, int j)
 {
     if (i <= j) {
-        const OstLanes *block = linear + BLOCK * ost_pair_index(4, i, j);
+        const OstSimd *block = linear + BLOCK * ost_pair_index(4, i, j);
         for (int n = 0; n < BLOCK; n++)
             sum[n] += weight * block[n];
     } else {
-        const OstLanes *block = linear + BLOCK * ost_pair_index(4, j, i);
+        const OstSimd *block = linear + BLOCK * ost_pair_index(4, j, i);
         for (int n = 0; n < BLOCK; n++)
             sum[n] += weight * block[3 * (n % 3) + n / 3];
     }
 }
 
-/* Gradients are (4 L_a - 1) g_a of a vertex, 4 (L_a g_b + L_b g_a) of an edge, with g the gradients of the barycentric
- * coordinates L. The mean of L_c L_d is 1/20, and twice that for c = d. */
-static void add_pair(const OstLanes *linear, int a, int b, OstLanes *block)
+/* Gradients are (4 L_a - 1) g_a at a vertex node and 4 (L_a g_b + L_b g_a) at a mid-edge node, with g the gradients of
+ * the barycentric coordinates L. The mean of L_c L_d over the tet is 1/20, and 1/10 for c = d. */
+static void add_pair(const OstSimd *linear, int a, int b, OstSimd *block)
 {
     const int *end_a = ost_tet10_ends[a];
     const int *end_b = ost_tet10_ends[b];
@@ -40,13 +40,13 @@ static void add_pair(const OstLanes *linear, int a, int b, OstLanes *block)
     }
 }
 
-void ost_tet10_straight_blocks(const OstLanes *x, const OstLanes *c, OstLanes *blocks)
+void ost_tet10_straight_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
 {
-    OstLanes linear[LINEAR_BLOCKS];
+    OstSimd linear[LINEAR_BLOCKS];
     ost_tet4_blocks(x, c, linear);
     for (int a = 0; a < 10; a++)
         for (int b = a; b < 10; b++, blocks += BLOCK) {
-            OstLanes block[BLOCK] = {{0}};
+            OstSimd block[BLOCK] = {{0}};
             add_pair(linear, a, b, block);
             memcpy(blocks, block, sizeof block);
         }

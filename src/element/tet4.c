@@ -2,9 +2,9 @@
 #include "element/tet4.h"
 
 #include "core/small.h"
-#include "element/strain_lanes.h"
+#include "element/strain_batch.h"
 
-/* The first row of pair (a, b), a <= b, among the ten blocks. */
+/* Where the block of nodes a <= b starts among the ten. */
 static const int pair[4][4] = {{0, 9, 18, 27}, {0, 36, 45, 54}, {0, 0, 63, 72}, {0, 0, 0, 81}};
 
 double ost_tet4_gradients(const double x[12], double gradients[12])
@@ -25,24 +25,24 @@ double ost_tet4_gradients(const double x[12], double gradients[12])
     return determinant / 6.0;
 }
 
-/* Gradients of the shape functions of nodes 1 to 3 times the determinant d; node 0's is minus their sum. `factor` is
- * the volume |d|/6 times the 1/d of each of the two gradients in a product. */
-static inline void scaled_gradients(const OstLanes *x, OstLanes gradient[3][3], OstLanes *factor)
+/* Gradients of nodes 1 to 3 times the determinant d; node 0's is minus their sum. `factor` is |d|/6 / d², for products
+ * of two of these gradients, integrated over the tet. */
+static inline void scaled_gradients(const OstSimd *x, OstSimd gradient[3][3], OstSimd *factor)
 {
-    OstLanes edge[3][3];
+    OstSimd edge[3][3];
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 3; i++)
             edge[a][i] = x[3 * (a + 1) + i] - x[i];
-    ost_lanes_cross(edge[1], edge[2], gradient[0]);
-    ost_lanes_cross(edge[2], edge[0], gradient[1]);
-    ost_lanes_cross(edge[0], edge[1], gradient[2]);
-    OstLanes determinant = edge[0][0] * gradient[0][0] + edge[0][1] * gradient[0][1] + edge[0][2] * gradient[0][2];
-    ost_lanes_absolute(&determinant);
+    ost_simd_cross(edge[1], edge[2], gradient[0]);
+    ost_simd_cross(edge[2], edge[0], gradient[1]);
+    ost_simd_cross(edge[0], edge[1], gradient[2]);
+    OstSimd determinant = edge[0][0] * gradient[0][0] + edge[0][1] * gradient[0][1] + edge[0][2] * gradient[0][2];
+    ost_simd_absolute(&determinant);
     *factor = 1.0 / (6.0 * determinant);
 }
 
-/* Rigid translations are free of force, so node 0's blocks are minus sums of the others'. */
-static inline void complete_by_translations(OstLanes *k)
+/* A translation makes no force, so node 0's blocks are minus the sums of the others'. */
+static inline void complete_by_translations(OstSimd *k)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -59,14 +59,14 @@ static inline void complete_by_translations(OstLanes *k)
         }
 }
 
-void ost_tet4_blocks(const OstLanes *x, const OstLanes *c, OstLanes *blocks)
+void ost_tet4_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
 {
-    OstLanes gradient[3][3];
-    OstLanes factor;
+    OstSimd gradient[3][3];
+    OstSimd factor;
     scaled_gradients(x, gradient, &factor);
     for (int b = 0; b < 3; b++) {
-        OstLanes stress[6][3];
-        const OstLanes scaled[3] = {factor * gradient[b][0], factor * gradient[b][1], factor * gradient[b][2]};
+        OstSimd stress[6][3];
+        const OstSimd scaled[3] = {factor * gradient[b][0], factor * gradient[b][1], factor * gradient[b][2]};
         ost_stress_columns(c, scaled, stress);
         for (int a = 0; a <= b; a++)
             ost_block_of_stress(gradient[a], stress, blocks + pair[a + 1][b + 1]);
@@ -74,56 +74,56 @@ void ost_tet4_blocks(const OstLanes *x, const OstLanes *c, OstLanes *blocks)
     complete_by_translations(blocks);
 }
 
-/* A times a gradient. */
-static inline void stretch_gradient(const OstLanes metric[6], const OstLanes g[3], OstLanes stretched[3])
+/* stretched = A g */
+static inline void stretch_gradient(const OstSimd tensor[6], const OstSimd g[3], OstSimd stretched[3])
 {
-    stretched[0] = metric[0] * g[0] + metric[3] * g[1] + metric[5] * g[2];
-    stretched[1] = metric[3] * g[0] + metric[1] * g[1] + metric[4] * g[2];
-    stretched[2] = metric[5] * g[0] + metric[4] * g[1] + metric[2] * g[2];
+    stretched[0] = tensor[0] * g[0] + tensor[3] * g[1] + tensor[5] * g[2];
+    stretched[1] = tensor[3] * g[0] + tensor[1] * g[1] + tensor[4] * g[2];
+    stretched[2] = tensor[5] * g[0] + tensor[4] * g[1] + tensor[2] * g[2];
 }
 
-/* Isotropic elasticity in the metric A. With h = A g: (1 - 2 shear) h_a h_b' + shear (h_b h_a' + (g_a·h_b) A).
- * (Inline, so that a metric just made stays in registers: worth 3 % of the fill.) */
-static inline void metric_blocks(const OstLanes *x, const OstLanes metric[6], double shear, OstLanes *blocks)
+/* Stiffness from the stretch tensor A. With h = A g: (1 - 2 shear) h_a h_b' + shear (h_b h_a' + (g_a·h_b) A).
+ * (Inline, so that a tensor just computed stays in registers: 3 % of the time to fill K.) */
+static inline void stretched_blocks(const OstSimd *x, const OstSimd tensor[6], double shear, OstSimd *blocks)
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-    OstLanes gradient[3][3];
-    OstLanes h[3][3];
-    OstLanes factor;
+    OstSimd gradient[3][3];
+    OstSimd h[3][3];
+    OstSimd factor;
     scaled_gradients(x, gradient, &factor);
-    const OstLanes slide = shear * factor;
-    const OstLanes bulk = factor - 2.0 * slide;
+    const OstSimd slide = shear * factor;
+    const OstSimd bulk = factor - 2.0 * slide;
     for (int b = 0; b < 3; b++) {
-        stretch_gradient(metric, gradient[b], h[b]);
-        const OstLanes bulk_h[3] = {bulk * h[b][0], bulk * h[b][1], bulk * h[b][2]};
-        const OstLanes slide_h[3] = {slide * h[b][0], slide * h[b][1], slide * h[b][2]};
+        stretch_gradient(tensor, gradient[b], h[b]);
+        const OstSimd bulk_h[3] = {bulk * h[b][0], bulk * h[b][1], bulk * h[b][2]};
+        const OstSimd slide_h[3] = {slide * h[b][0], slide * h[b][1], slide * h[b][2]};
         for (int a = 0; a <= b; a++) {
-            OstLanes *block = blocks + pair[a + 1][b + 1];
-            const OstLanes product =
+            OstSimd *block = blocks + pair[a + 1][b + 1];
+            const OstSimd product =
                 gradient[a][0] * slide_h[0] + gradient[a][1] * slide_h[1] + gradient[a][2] * slide_h[2];
             for (int n = 0; n < 9; n++)
-                block[n] = h[a][n / 3] * bulk_h[n % 3] + slide_h[n / 3] * h[a][n % 3] + product * metric[place[n]];
+                block[n] = h[a][n / 3] * bulk_h[n % 3] + slide_h[n / 3] * h[a][n % 3] + product * tensor[place[n]];
         }
     }
     complete_by_translations(blocks);
 }
 
-static void tet4_stiffness(const OstLanes *x, const OstElasticity *elasticity, OstLanes *blocks)
+static void tet4_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     if (elasticity->about_line) {
-        OstLanes metric[6];
-        ost_metric_about_line(elasticity, x, metric);
-        metric_blocks(x, metric, elasticity->shear, blocks);
-    } else if (elasticity->by_metric)
-        metric_blocks(x, elasticity->metric, elasticity->shear, blocks);
+        OstSimd tensor[6];
+        ost_stretch_about_line(elasticity, x, tensor);
+        stretched_blocks(x, tensor, elasticity->shear, blocks);
+    } else if (elasticity->by_stretch)
+        stretched_blocks(x, elasticity->stretch_tensor, elasticity->shear, blocks);
     else
         ost_tet4_blocks(x, elasticity->c[0], blocks);
 }
 
 /* Strain times the determinant d. */
-static inline void scaled_strain(OstLanes gradient[3][3], const OstLanes *u, OstLanes strain[6])
+static inline void scaled_strain(OstSimd gradient[3][3], const OstSimd *u, OstSimd strain[6])
 {
-    OstLanes slope[3][3];
+    OstSimd slope[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             slope[i][j] = (u[3 + i] - u[i]) * gradient[0][j] + (u[6 + i] - u[i]) * gradient[1][j] +
@@ -131,15 +131,15 @@ static inline void scaled_strain(OstLanes gradient[3][3], const OstLanes *u, Ost
     ost_strain_of_slope(slope, strain);
 }
 
-static void tet4_force(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *force)
+static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
-    OstLanes gradient[3][3];
-    OstLanes strain[6];
-    OstLanes stress[6];
-    OstLanes factor;
+    OstSimd gradient[3][3];
+    OstSimd strain[6];
+    OstSimd stress[6];
+    OstSimd factor;
     scaled_gradients(x, gradient, &factor);
     scaled_strain(gradient, u, strain);
-    ost_lanes_stress(elasticity->c[0], strain, stress);
+    ost_simd_stress(elasticity->c[0], strain, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= factor;
     for (int a = 1; a < 4; a++)
@@ -148,31 +148,31 @@ static void tet4_force(const OstLanes *x, const OstElasticity *elasticity, const
         force[i] = -(force[3 + i] + force[6 + i] + force[9 + i]);
 }
 
-static void tet4_magnitude(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstLanes *magnitude)
+static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude)
 {
-    OstLanes g[4][3];
-    OstLanes strain[6] = {{0}};
-    OstLanes stress[6];
-    OstLanes factor;
+    OstSimd g[4][3];
+    OstSimd strain[6] = {{0}};
+    OstSimd stress[6];
+    OstSimd factor;
     scaled_gradients(x, g + 1, &factor);
     for (int i = 0; i < 3; i++)
         g[0][i] = g[1][i] + g[2][i] + g[3][i];
     for (int a = 0; a < 4; a++) {
         for (int i = 0; i < 3; i++)
-            ost_lanes_absolute(&g[a][i]);
+            ost_simd_absolute(&g[a][i]);
         ost_add_strain_size(g[a], u + 3 * a, strain);
     }
-    ost_lanes_stress_size(elasticity->c[0], strain, stress);
+    ost_simd_stress_size(elasticity->c[0], strain, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= factor;
     for (int a = 0; a < 4; a++)
         ost_force_of_stress(g[a], stress, magnitude + 3 * a);
 }
 
-static void tet4_strain(const OstLanes *x, const OstLanes *u, OstLanes strain[6], OstLanes *determinant)
+static void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], OstSimd *determinant)
 {
-    OstLanes gradient[3][3];
-    OstLanes factor;
+    OstSimd gradient[3][3];
+    OstSimd factor;
     scaled_gradients(x, gradient, &factor);
     *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
     scaled_strain(gradient, u, strain);
@@ -180,21 +180,21 @@ static void tet4_strain(const OstLanes *x, const OstLanes *u, OstLanes strain[6]
         strain[p] /= *determinant;
 }
 
-static void tet4_means(const OstLanes *x, const OstElasticity *elasticity, const OstLanes *u, OstMeans *means)
+static void tet4_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
 {
-    OstLanes determinant;
+    OstSimd determinant;
     tet4_strain(x, u, means->strain, &determinant);
-    ost_lanes_absolute(&determinant);
+    ost_simd_absolute(&determinant);
     means->volume = determinant / 6.0;
-    ost_lanes_stress(elasticity->c[0], means->strain, means->stress);
-    means->energy = means->stiff = (OstLanes){0};
+    ost_simd_stress(elasticity->c[0], means->strain, means->stress);
+    means->energy = means->stiff = (OstSimd){0};
     for (int p = 0; p < 6; p++)
         means->energy += 0.5 * means->stress[p] * means->strain[p];
 }
 
-static void tet4_nodal_strain(const OstLanes *x, const OstLanes *u, OstLanes *strain)
+static void tet4_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strain)
 {
-    OstLanes determinant;
+    OstSimd determinant;
     tet4_strain(x, u, strain, &determinant);
     for (int n = 6; n < 24; n++)
         strain[n] = strain[n - 6];

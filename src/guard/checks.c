@@ -135,13 +135,13 @@ typedef struct TetSums {
     OstLinearity largest;
 } TetSums;
 
-static void add_tets(void *data, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+static void add_tets(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                      const OstMeans *means)
 {
     TetSums *tets = data;
     ost_linearity_add(batch, element, u, means, &tets->largest);
-    for (int lane = 0; lane < batch->count; lane++)
-        tets->energy += means->energy[lane] * means->volume[lane];
+    for (int slot = 0; slot < batch->count; slot++)
+        tets->energy += means->energy[slot] * means->volume[slot];
 }
 
 static void fill_checks(OstChecks *checks, const double *sums, double rhs_norm)

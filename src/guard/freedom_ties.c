@@ -143,7 +143,7 @@ static OstStatus add_support(OstContext *ctx, const OstRigidFrame *frame, const 
         return OST_SUCCESS;
     if (of_supports->rows == 0)
         of_supports->next_look = FIRST_LOOK;
-    for (int k = 0; k < support->held; k++) {
+    for (int k = 0; k < support->constrained; k++) {
         double row[6];
         ost_rows_of_point(frame, point, support->direction + 3 * k, row);
         ost_rows_add(of_supports->triangle, row);

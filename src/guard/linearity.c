@@ -4,14 +4,14 @@
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
-#include "element/strain_lanes.h"
+#include "element/strain_batch.h"
 #include "mesh/tet.h"
 
 #include <string.h>
 
 /* Four vectors with the mean gradient of the displacement as their linear map, up to a factor: in the mean gradient of
  * a quadratic tet's shape functions only mid-edge nodes appear, each as the sum of its two ends'. */
-static void at_corners(int nodes, const OstLanes *u, OstLanes corners[12])
+static void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
 {
     if (nodes == 4) {
         memcpy(corners, u, 12 * sizeof *u);
@@ -24,9 +24,9 @@ static void at_corners(int nodes, const OstLanes *u, OstLanes corners[12])
                 corners[3 * ost_tet_edge[e][end] + i] += u[3 * (4 + e) + i];
 }
 
-static void find_edges(int nodes, const OstLanes *vectors, OstLanes edges[3][3])
+static void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
 {
-    OstLanes corners[12];
+    OstSimd corners[12];
     at_corners(nodes, vectors, corners);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
@@ -34,18 +34,18 @@ static void find_edges(int nodes, const OstLanes *vectors, OstLanes edges[3][3])
 }
 
 /* Half the curl. The gradient is that of u's corners over x's: where u is linear it is right, in curved tets too. */
-static void find_rotation(const OstBatch *batch, int nodes, const OstLanes *u, OstLanes rotation[3])
+static void find_rotation(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd rotation[3])
 {
-    OstLanes x[3][3], moved[3][3], inverse[3][3];
+    OstSimd x[3][3], moved[3][3], inverse[3][3];
     find_edges(nodes, batch->x, x);
     find_edges(nodes, u, moved);
     for (int k = 0; k < 3; k++)
-        ost_lanes_cross(x[(k + 1) % 3], x[(k + 2) % 3], inverse[k]);
-    const OstLanes determinant = x[0][0] * inverse[0][0] + x[0][1] * inverse[0][1] + x[0][2] * inverse[0][2];
+        ost_simd_cross(x[(k + 1) % 3], x[(k + 2) % 3], inverse[k]);
+    const OstSimd determinant = x[0][0] * inverse[0][0] + x[0][1] * inverse[0][1] + x[0][2] * inverse[0][2];
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
         const int l = (i + 2) % 3;
-        rotation[i] = (OstLanes){0};
+        rotation[i] = (OstSimd){0};
         for (int k = 0; k < 3; k++) /* du_l/dx_j - du_j/dx_l */
             rotation[i] += moved[k][l] * inverse[k][j] - moved[k][j] * inverse[k][l];
         rotation[i] *= 0.5 / determinant;
@@ -68,27 +68,27 @@ static double principal(const double e[6])
     return fmax(fabs(mean + 2.0 * size * cos(angle)), fabs(mean + 2.0 * size * cos(angle + third)));
 }
 
-static void add_lane(const OstLanes strain[6], const OstLanes rotation[3], int lane, OstLinearity *largest)
+static void add_tet(const OstSimd strain[6], const OstSimd rotation[3], int slot, OstLinearity *largest)
 {
     double e[6], w[3], square = 0.0;
     for (int p = 0; p < 6; p++) {
-        e[p] = strain[p][lane];
+        e[p] = strain[p][slot];
         square += (p < 3 ? 1.0 : 0.5) * e[p] * e[p];
     }
     for (int i = 0; i < 3; i++)
-        w[i] = rotation[i][lane];
+        w[i] = rotation[i][slot];
     largest->rotation = fmax(largest->rotation, ost_norm3(w));
     if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
         largest->strain = fmax(largest->strain, principal(e));
 }
 
-void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstLanes *u, const OstMeans *means,
+void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
                        OstLinearity *largest)
 {
-    OstLanes rotation[3];
+    OstSimd rotation[3];
     find_rotation(batch, element->nodes, u, rotation);
-    for (int lane = 0; lane < batch->count; lane++)
-        add_lane(means->strain, rotation, lane, largest);
+    for (int slot = 0; slot < batch->count; slot++)
+        add_tet(means->strain, rotation, slot, largest);
 }
 
 OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)

@@ -12,7 +12,7 @@ typedef struct OstLinearity {
 
 /* Local. Raises `largest` to the strains and rotations of these tets under the displacement u. NaN is ignored: another
  * check finds it. */
-void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstLanes *u, const OstMeans *means,
+void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
                        OstLinearity *largest);
 
 /* Collective. The largest over all ranks. */

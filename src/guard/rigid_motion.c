@@ -43,24 +43,24 @@ static double limit(void)
 /* --- tets --- */
 
 /* Node coordinates relative to the mean of the tet's vertices, and the largest distance (the tet's size). */
-static void centre_tets(const OstLanes *x, int nodes, OstLanes *arm, OstLanes *size)
+static void centre_tets(const OstSimd *x, int nodes, OstSimd *arm, OstSimd *size)
 {
-    OstLanes square = {0};
+    OstSimd square = {0};
     for (int a = 0; a < nodes; a++) {
-        OstLanes length = {0};
+        OstSimd length = {0};
         for (int i = 0; i < 3; i++) {
             arm[3 * a + i] = x[3 * a + i] - 0.25 * (x[i] + x[3 + i] + x[6 + i] + x[9 + i]);
             length += arm[3 * a + i] * arm[3 * a + i];
         }
-        for (int lane = 0; lane < OST_LANES; lane++)
-            square[lane] = fmax(square[lane], length[lane]);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            square[slot] = fmax(square[slot], length[slot]);
     }
-    for (int lane = 0; lane < OST_LANES; lane++)
-        (*size)[lane] = sqrt(square[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        (*size)[slot] = sqrt(square[slot]);
 }
 
 /* Translations by the tet's size and rotations by 1, so that all modes have equal size. */
-static void move_tets(const OstLanes *arm, int nodes, const OstLanes *size, const double share[MODES], OstLanes *u)
+static void move_tets(const OstSimd *arm, int nodes, const OstSimd *size, const double share[MODES], OstSimd *u)
 {
     for (int a = 0; a < nodes; a++)
         for (int i = 0; i < 3; i++) {
@@ -70,29 +70,29 @@ static void move_tets(const OstLanes *arm, int nodes, const OstLanes *size, cons
         }
 }
 
-static void sum_sizes(const OstLanes *values, int count, OstLanes *sum)
+static void sum_sizes(const OstSimd *values, int count, OstSimd *sum)
 {
-    *sum = (OstLanes){0};
+    *sum = (OstSimd){0};
     for (int n = 0; n < count; n++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            (*sum)[lane] += fabs(values[n][lane]);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            (*sum)[slot] += fabs(values[n][slot]);
 }
 
 static void try_batch(const OstElement *element, const OstBatch *batch, const double share[MODES], Resistance *worst)
 {
-    OstLanes arm[3 * OST_MAX_TET_NODES];
-    OstLanes u[3 * OST_MAX_TET_NODES];
-    OstLanes force[3 * OST_MAX_TET_NODES];
-    OstLanes magnitude[3 * OST_MAX_TET_NODES];
-    OstLanes size, whole_force, whole_magnitude;
+    OstSimd arm[3 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd force[3 * OST_MAX_TET_NODES];
+    OstSimd magnitude[3 * OST_MAX_TET_NODES];
+    OstSimd size, whole_force, whole_magnitude;
     centre_tets(batch->x, element->nodes, arm, &size);
     move_tets(arm, element->nodes, &size, share, u);
     element->force(batch->x, &batch->elasticity, u, force);
     element->magnitude(batch->x, &batch->elasticity, u, magnitude);
     sum_sizes(force, 3 * element->nodes, &whole_force);
     sum_sizes(magnitude, 3 * element->nodes, &whole_magnitude);
-    for (int lane = 0; lane < batch->count; lane++)
-        take_worse(worst, whole_force[lane], whole_magnitude[lane], batch->tet[lane]);
+    for (int slot = 0; slot < batch->count; slot++)
+        take_worse(worst, whole_force[slot], whole_magnitude[slot], batch->tet[slot]);
 }
 
 static Resistance try_tets(const OstMesh *mesh, const OstMaterialField *field, const double share[MODES])
@@ -101,7 +101,7 @@ static Resistance try_tets(const OstMesh *mesh, const OstMaterialField *field, c
     Resistance worst = {0.0, -1};
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_LANES) {
+    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
         try_batch(element, &batch, share, &worst);
     }

@@ -7,13 +7,14 @@
 
 #include <string.h>
 
-/* How far given axes may be from orthonormal. */
+/* The user's axes may deviate from orthonormal by this. */
 static const double given_tolerance = 1e-6;
 
-/* A direction this small, relative to what it was taken from, is rounding. */
+/* A vector that was computed as a difference is rounding error if it is this small, relative to what it came from. */
 static const double vanishing = 1e-8;
 
-/* The angle first: rows that are skew are often not of unit length either, and it is the angle that is meant. */
+/* Checked before the lengths: rows that are skew are often not of unit length either, and then the angle is the cause.
+ */
 static OstStatus check_angles(OstContext *ctx, const char *what, const double axes[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -44,14 +45,15 @@ static OstStatus check_rows(OstContext *ctx, const char *what, const double axes
     }
     if (ost_determinant3(axes) < 0.0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "%s: the axes are left-handed; e3 = e1 × e2 is expected, so turn one of them round", what);
+                         "%s: the axes are left-handed; e3 = e1 × e2 is expected, so reverse one of them", what);
     return OST_SUCCESS;
 }
 
 OstStatus ost_axes_check(OstContext *ctx, const char *what, double axes[9])
 {
     OST_TRY(check_rows(ctx, what, axes));
-    /* Newton's steps A <- A (3 - AᵀA) / 2 to the nearest rotation: from 1e-6 to 1e-12 to rounding. */
+    /* Newton's iteration A <- A (3 - AᵀA) / 2 to the nearest rotation: the error falls from 1e-6 to 1e-12 to rounding.
+     */
     for (int step = 0; step < 2; step++) {
         double product[9], old[9];
         memcpy(old, axes, sizeof old);
@@ -101,7 +103,7 @@ OstStatus ost_axes_from_euler(OstContext *ctx, const char *sequence, const doubl
     const int fixed_frame = sequence[0] < 'a';
     memcpy(axes, (double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 9 * sizeof(double));
     for (int step = 0; step < 3; step++) {
-        /* Turns about the turned frame's axes are those about the fixed frame's in the opposite order. */
+        /* Rotations about the turned frame's axes are those about the fixed frame's in reverse order. */
         const int i = fixed_frame ? step : 2 - step;
         turn_rows(sequence[i] - (fixed_frame ? 'X' : 'x'), degrees[i], axes);
     }
@@ -214,7 +216,7 @@ OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const dou
     if (!isfinite(length1) || !isfinite(length2) || !(length1 > vanishing * length2))
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "the first potential's gradient (%g, %g, %g) gives no direction for e1; its two boundaries "
-                         "must differ, and reach every part of the body",
+                         "must differ, and reach every connected component of the region",
                          g1[0], g1[1], g1[2]);
     memcpy(axes, g1, 3 * sizeof(double));
     memcpy(axes + 3, g2, 3 * sizeof(double));
@@ -222,7 +224,7 @@ OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const dou
     if (!(ost_make_orthogonal3(axes, axes + 3) > vanishing * fmax(length1, length2)))
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "the second potential's gradient (%g, %g, %g) vanishes or is parallel to the first's (%g, %g, "
-                         "%g), and gives no direction for e2; choose boundaries that lie across",
+                         "%g), and gives no direction for e2; choose boundaries that lie across the first ones",
                          g2[0], g2[1], g2[2], g1[0], g1[1], g1[2]);
     ost_complete_frame(axes);
     return OST_SUCCESS;

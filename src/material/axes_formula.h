@@ -4,11 +4,11 @@
 
 #include "material/curve.h"
 
-/* Axes that vary by a formula, kept with what many evaluations have in common. */
+/* Axes that vary by a formula, with a copy of their specification and what need be computed only once. */
 typedef struct OstAxesFormula {
     OstContext *ctx;
-    OstAxesSpec spec; /* points are its own */
-    OstCurve *curve;  /* CURVE */
+    OstAxesSpec spec; /* owns its points */
+    OstCurve *curve;  /* of OST_AXES_CURVE, otherwise NULL */
 } OstAxesFormula;
 
 /* Do axes of this kind vary by a formula? */

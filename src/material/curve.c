@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* Sines below this (a thousandth of a degree or so) are no angle: the curve turns back, or runs along up. */
+/* Below this sine (about a thousandth of a degree) an angle counts as 0: the curve turns back, or is parallel to up. */
 static const double smallest_sine = 1e-5;
 
 static int same_point(const double a[3], const double b[3])
@@ -65,7 +65,7 @@ static OstStatus vertex_tangent(OstContext *ctx, const OstAxesSpec *spec, int k,
     return OST_SUCCESS;
 }
 
-/* Carries the normal along: from one vertex to the next by the smallest rotation that takes tangent to tangent. */
+/* Parallel transport: the normal turns from vertex to vertex by the smallest rotation that takes tangent to tangent. */
 static void carry_normals(const OstCurve *curve)
 {
     const double *t = curve->tangent;
@@ -119,7 +119,7 @@ void ost_curve_destroy(OstCurve **curve)
     OST_FREE(*curve);
 }
 
-/* The segment nearest to a point, and where on it (0 to 1). */
+/* The segment nearest to a point, and the position on it (0 to 1). */
 static int nearest_segment(const OstAxesSpec *spec, const double point[3], double *where)
 {
     int nearest = 0;

@@ -4,7 +4,7 @@
 
 #include "orthostat/axes.h"
 
-/* A polyline with the tangent and normal of each vertex, made once for the many points that ask for axes. */
+/* A polyline with the tangent and normal of each vertex. */
 typedef struct OstCurve {
     OstContext *ctx;
     const OstAxesSpec *spec; /* not owned */

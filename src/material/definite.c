@@ -8,11 +8,10 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Below this the smallest eigenvalue is 0 to rounding. */
+/* A smallest eigenvalue below this counts as 0, within rounding errors. */
 static const double smallest_eigenvalue = 16.0 * DBL_EPSILON;
 
-/* Stable values are suggested this far inside the boundary, so that they stay stable when typed with the digits shown.
- */
+/* Suggested values lie this far inside the stability boundary, so that they are stable as printed, rounded. */
 static const double suggestion_margin = 1e-5;
 
 void ost_orthotropic_normalised_ratios(const OstOrthotropic *constants, double ratios[3])
@@ -42,7 +41,7 @@ OstStatus ost_orthotropic_eigenvalues(OstContext *ctx, const OstOrthotropic *con
 
 double ost_equivalent_poisson(double least_eigenvalue)
 {
-    return round(0.5e12 * (1.0 - least_eigenvalue)) / 1e12; /* a quotient of whole numbers: the double nearest */
+    return round(0.5e12 * (1.0 - least_eigenvalue)) / 1e12; /* rounded, so that nu = 0.49 in a case gives just 0.49 */
 }
 
 int ost_has_one_stiff_mode(const double eigenvalues[3], double nu_limit)
@@ -62,7 +61,7 @@ void ost_orthotropic_stable_range(const OstOrthotropic *constants, double low[3]
     double ratios[3];
     ost_orthotropic_normalised_ratios(constants, ratios);
     for (int i = 0; i < 3; i++) {
-        /* 1 - a² - b² - c² - 2abc > 0 as a quadratic in a; beyond |b|, |c| < 1 no a helps. */
+        /* 1 - a² - b² - c² - 2abc > 0, a quadratic in a, has no solution unless |b| < 1 and |c| < 1. */
         const double b = ratios[(i + 1) % 3];
         const double c = ratios[(i + 2) % 3];
         const double half_width = fabs(b) < 1.0 && fabs(c) < 1.0 ? sqrt((1.0 - b * b) * (1.0 - c * c)) : NAN;
@@ -116,7 +115,7 @@ static OstStatus raise_outside_family(OstContext *ctx, const char *name, double 
         name, nu);
 }
 
-/* The inequality (16)-(17) of the paper that fails, with its numbers. */
+/* Names the inequality of (16)-(17) in the paper that fails, with its numbers. */
 static void describe_violation(const OstOrthotropic *constants, const double ratios[3], char *text, size_t size)
 {
     for (int i = 0; i < 3; i++) {
@@ -136,16 +135,16 @@ static void describe_violation(const OstOrthotropic *constants, const double rat
              determinant, determinant > 0.0 ? " by more than rounding" : "");
 }
 
-/* `scale` a little less, cut (not rounded) to four digits. */
-static double cut_to_four_digits(double scale)
+/* Reduces `scale` by the margin and truncates it to four digits. */
+static double truncate_to_four_digits(double scale)
 {
     const double inside = scale * (1.0 - suggestion_margin);
     const double unit = pow(10.0, floor(log10(inside)) - 3.0);
     return floor(inside / unit) * unit;
 }
 
-/* The nu to propose for the family: the user's own if three equal ratios were given, else the middle of what the
- * constants amount to; kept clear of the ends of the stable range. */
+/* The nu to propose for the family: the user's own if the three ratios are equal, otherwise the mean of the normalised
+ * ratios; at a distance from the ends of the stable range. */
 static double family_nu(const OstOrthotropic *constants, const double ratios[3])
 {
     const double *nu = constants->poissons_ratio;
@@ -153,7 +152,7 @@ static double family_nu(const OstOrthotropic *constants, const double ratios[3])
     return fmin(fmax(round(wanted * 1000.0) / 1000.0, -0.9), 0.49);
 }
 
-/* Each pair in both of its terms, as the user may have given either: "nu12 = 0.3 (nu21 = 0.1), ...". */
+/* Lists nu_ij and nu_ji, since the user may have given either: "nu12 = 0.3 (nu21 = 0.1), ...". */
 static void list_ratios(const OstOrthotropic *constants, double scale, char *text, size_t size)
 {
     const double *youngs = constants->youngs_modulus;
@@ -171,7 +170,7 @@ static OstStatus raise_indefinite(OstContext *ctx, const char *name, const OstOr
 {
     char violation[160], stable[160], means[160];
     describe_violation(constants, ratios, violation, sizeof violation);
-    const double scale = cut_to_four_digits(ost_orthotropic_stable_scale(eigenvalues));
+    const double scale = truncate_to_four_digits(ost_orthotropic_stable_scale(eigenvalues));
     const double proposed = family_nu(constants, ratios);
     const OstOrthotropic family = ost_orthotropic_family(constants->youngs_modulus, proposed, OST_SHEAR_GEOMETRIC);
     list_ratios(constants, scale, stable, sizeof stable);

@@ -11,7 +11,8 @@ void ost_orthotropic_normalised_ratios(const OstOrthotropic *constants, double r
 /* The symmetric block with ones on the diagonal and -ratios (12, 23, 31) off it. */
 void ost_normalised_block(const double ratios[3], double block[9]);
 
-/* Local. Finite numbers, positive moduli, positive definite normal block; or OST_INVALID_INPUT in words. */
+/* Local. Raises OST_INVALID_INPUT, with the constant or inequality at fault, unless the numbers are finite, the moduli
+ * positive and the normal block positive definite; returns the eigenvalues of the normalised block. */
 OstStatus ost_orthotropic_check(OstContext *ctx, const char *name, const OstOrthotropic *constants,
                                 double eigenvalues[3]);
 

@@ -67,7 +67,7 @@ double ost_field_density(const OstMaterialField *field, OstLocal tet)
     return field->material[field->tet_region[tet]].density;
 }
 
-/* The tets as given to ost_field_create. */
+/* ost_field_create's arguments about the tets. */
 typedef struct Tets {
     OstLocal count;
     const int32_t *region;
@@ -86,7 +86,7 @@ static OstStatus check_regions(OstContext *ctx, int region_count, const Tets *te
     return OST_SUCCESS;
 }
 
-/* Puts the tet and its material in front of what the failure below said. */
+/* Puts the tet and its material in front of the message. */
 static OstStatus raise_for_tet(OstContext *ctx, OstStatus status, const OstMaterial *material, OstGlobal label)
 {
     char reason[1024];
@@ -94,7 +94,8 @@ static OstStatus raise_for_tet(OstContext *ctx, OstStatus status, const OstMater
     return OST_RAISE(ctx, status, "tet %lld (material '%s'): %s", (long long)label, material->name, reason);
 }
 
-/* Axes of a region that do not vary, and its stiffness in them. Also isotropic materials' axes are checked. */
+/* Axes of a region if they are uniform, and its stiffness in world axes. Also checks the axes of isotropic materials.
+ */
 static OstStatus fill_fixed_region(OstMaterialField *field, int region, const OstAxesSpec *spec)
 {
     const OstMaterial *material = &field->material[region];
@@ -141,8 +142,8 @@ static OstStatus fill_varying_region(OstMaterialField *field, int region, const 
 {
     if (!ost_axes_have_formula(spec) && !tets->given_axes && tets->count > 0)
         return OST_RAISE(field->ctx, OST_INVALID_INPUT,
-                         "material '%s' takes its axes tet by tet, but none came with the mesh; name a file of them "
-                         "(nine numbers a line), or give axes by a formula",
+                         "material '%s' has axes tet by tet, but the mesh brings none; name a file of them (nine "
+                         "numbers a line), or give axes by a formula",
                          field->material[region].name);
     if (ost_axes_have_formula(spec)) {
         if (!field->region_formula)
@@ -152,24 +153,19 @@ static OstStatus fill_varying_region(OstMaterialField *field, int region, const 
     return tet_axes_of_region(field, region, tets);
 }
 
-static void copy_region_axes(OstMaterialField *field, const Tets *tets)
-{
-    for (OstLocal t = 0; t < tets->count; t++)
-        if (!field->region_varies[tets->region[t]])
-            memcpy(field->tet_axes + 9 * (size_t)t, field->region_axes + 9 * (size_t)tets->region[t], sizeof world);
-}
-
 static OstStatus fill_tet_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
 {
     OST_TRY(OST_NEW(field->ctx, &field->tet_axes, 9 * (size_t)tets->count));
     for (int r = 0; r < field->region_count; r++)
         if (field->region_varies[r])
             OST_TRY(fill_varying_region(field, r, &specs[r], tets));
-    copy_region_axes(field, tets);
+    for (OstLocal t = 0; t < tets->count; t++)
+        if (!field->region_varies[tets->region[t]])
+            memcpy(field->tet_axes + 9 * (size_t)t, field->region_axes + 9 * (size_t)tets->region[t], sizeof world);
     return OST_SUCCESS;
 }
 
-/* What several regions hold is booked to the effect of several materials, if it is known to be on. */
+/* The regions' arrays are booked to OST_EFFECT_REGIONS if that is known to be on. */
 static OstStatus allocate(OstContext *ctx, const OstEffects *effects, int region_count, OstMaterialField *field)
 {
     const int several = effects && ost_effect_on(effects, OST_EFFECT_REGIONS);
@@ -187,7 +183,7 @@ static OstStatus allocate(OstContext *ctx, const OstEffects *effects, int region
     return status;
 }
 
-/* Each effect's work with its account open; the accounts of effects that are off are never entered. */
+/* Books each effect's work to its account; never enters the account of an effect that is off. */
 static OstStatus fill_axes(OstMaterialField *field, const OstEffects *effects, const OstAxesSpec *specs,
                            const Tets *tets)
 {
@@ -236,7 +232,8 @@ done:
     return status;
 }
 
-/* C = E^(1/2) (sum of w w' / e) E^(1/2) in the normal block, without what of the first mode is taken out of it. */
+/* The normal block is C = E^(1/2) (sum of w w' / e) E^(1/2) over eigenvalues e and eigenvectors w of the normalised
+ * block; in the rest, the first mode has only the stiffness that `nu_limit` gives it. */
 static void build_rest(const OstMaterial *material, double nu_limit, const double eigenvalues[3],
                        const double vectors[9], double rest[36])
 {
@@ -252,7 +249,8 @@ static void build_rest(const OstMaterial *material, double nu_limit, const doubl
         }
 }
 
-/* The part m of a material's one stiff mode beyond that of `nu_limit`, and the rest of C; or zeros. */
+/* Splits C = rest + m m': m is the excess of its one stiff mode over the stiffness that `nu_limit` gives. Zeros if it
+ * has no single stiff mode. */
 static OstStatus split_material(OstContext *ctx, const OstMaterial *material, double nu_limit, double mode[3],
                                 double rest[36], int *found)
 {

@@ -12,7 +12,7 @@ static inline void ost_normalise3(double v[3])
         v[i] /= length;
 }
 
-/* Takes out of v what lies along the unit vector t; returns the length of what is left. */
+/* Removes from v its part along the unit vector t; returns the length of the rest. */
 static inline double ost_make_orthogonal3(const double t[3], double v[3])
 {
     const double along = ost_dot3(t, v);
@@ -21,8 +21,8 @@ static inline double ost_make_orthogonal3(const double t[3], double v[3])
     return ost_norm3(v);
 }
 
-/* The first row a unit vector, the second any other direction about orthogonal to it: makes the frame orthonormal to
- * rounding (the second pass recovers the digits lost when they were nearly parallel at first) and right-handed. */
+/* The first row is a unit vector, the second a direction nearly orthogonal to it: makes the frame orthonormal up to
+ * rounding errors, and right-handed. (The second row lost digits if it was nearly parallel to the first before.) */
 static inline void ost_complete_frame(double frame[9])
 {
     ost_normalise3(frame + 3);

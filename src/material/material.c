@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Constants this near to an isotropic body's are an isotropic body's. */
+/* Constants that differ from an isotropic material's by no more than this count as isotropic. */
 static const double isotropic_tolerance = 1e-12;
 
 static int nearly_equal(double a, double b)
@@ -29,7 +29,7 @@ static int is_isotropic(const OstOrthotropic *constants)
 }
 
 /* C and S from the normalised block N: S_n = D^-1/2 N D^-1/2 and C_n = D^1/2 N^-1 D^1/2 with D = diag E. This is eq.
- * 4-8, symmetric to the last bit and without overflow where moduli differ by many decades. */
+ * 4-8, but bitwise symmetric, and without overflow if moduli differ by many orders of magnitude. */
 static void fill_stiffness(const OstOrthotropic *constants, OstMaterial *material)
 {
     double ratios[3], block[9], inverse[9], root[3];

@@ -17,7 +17,8 @@ static OstStatus is_stable(OstContext *ctx, double nu, const double direction[2]
     return OST_SUCCESS;
 }
 
-/* The region is convex in the logarithms (1 - nu² (e^-u + e^v + e^(u-v)) - 2 nu³ > 0), so each ray leaves it once. */
+/* The stable region is convex in the logarithms u, v of the ratios (1 - nu² (e^-u + e^v + e^(u-v)) - 2 nu³ > 0), so a
+ * ray from the origin leaves it once: bisection. */
 static OstStatus find_radius(OstContext *ctx, double nu, const double direction[2], double *radius)
 {
     double inside = 0.0;

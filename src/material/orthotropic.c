@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Both of a pair may be given if they agree this well; tables are printed with few digits, so some slack is needed. */
+/* Both nu_ij and nu_ji may be given if they agree to this; printed tables have few digits. */
 static const double pair_tolerance = 1e-6;
 
 static double mean_modulus(double a, double b, OstShearRule rule)
@@ -67,7 +67,7 @@ OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double 
     return constants;
 }
 
-/* One pair: nu_ij as given, or from nu_ji by nu_ij / E_i = nu_ji / E_j. */
+/* nu_ij as the user gave it, or from nu_ji by nu_ij / E_i = nu_ji / E_j. */
 static OstStatus resolve_pair(OstContext *ctx, const char *what, int i, const double youngs[3], double forward,
                               double backward, double *nu)
 {

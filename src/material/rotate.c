@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/material.h"
 
-/* K of eq. 9-13 for Q whose columns are the axes: takes stresses in material axes to the world's. */
+/* K of eq. 9-13 for Q with the axes as columns: turns stresses from material into world axes. */
 static void stress_rotation(const double axes[9], double k[36])
 {
     for (int i = 0; i < 3; i++) {
@@ -20,7 +20,7 @@ static void stress_rotation(const double axes[9], double k[36])
     }
 }
 
-/* rotated = K a Kᵀ, mirrored from its upper triangle. */
+/* rotated = K a Kᵀ: the upper triangle is computed and mirrored. */
 static void transform(const double k[36], const double a[36], double rotated[36])
 {
     double half[36] = {0};
@@ -46,7 +46,7 @@ void ost_material_rotate_stiffness(const double stiffness[36], const double axes
 
 void ost_material_rotate_compliance(const double compliance[36], const double axes[9], double rotated[36])
 {
-    /* Strains turn with K^-T, the transpose of the K of the opposite rotation. */
+    /* Strains rotate by K^-T, the transpose of the K of the opposite rotation. */
     double opposite[9], k[36], strain_rotation[36];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

@@ -12,18 +12,19 @@
 #include <float.h>
 #include <stdlib.h>
 
-/* Space is cut into cubes this many tolerances wide; a point is sent to each cube within one tolerance of it. */
+/* Points are compared within cubes this many tolerances wide; a point is in each cube within one tolerance of it. */
 static const double cube_width = 8.0;
 enum { CUBES = 8 };
 
-/* Of the shortest edge: vertices that close can belong to no tet together. */
+/* Of the shortest edge: no tet has two vertices this near. */
 static const double close_share = 0.01;
 
-typedef struct Visitor {
+/* A point as sent to the rank of one of its cubes. */
+typedef struct CubePoint {
     int64_t cube[3];
     OstGlobal number;
     double x[3];
-} Visitor;
+} CubePoint;
 
 typedef struct Answer {
     OstGlobal number, lowest;
@@ -69,8 +70,8 @@ static int list_cubes(const double x[3], const double corner[3], double toleranc
     return count;
 }
 
-static OstStatus list_visitors(const OstPoints *points, const double corner[3], double tolerance, OstLocal *count,
-                               Visitor **visitor, int **to)
+static OstStatus list_cube_points(const OstPoints *points, const double corner[3], double tolerance, OstLocal *count,
+                                  CubePoint **point, int **to)
 {
     OstContext *ctx = points->ctx;
     OstGlobal total = 0;
@@ -79,21 +80,21 @@ static OstStatus list_visitors(const OstPoints *points, const double corner[3], 
         total += list_cubes(points->coordinates + 3 * (size_t)i, corner, tolerance, cube);
     if (total > INT32_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "one rank has too many vertices to compare; use more ranks");
-    OST_TRY(OST_NEW(ctx, visitor, total));
+    OST_TRY(OST_NEW(ctx, point, total));
     OST_TRY(OST_NEW(ctx, to, total));
     *count = 0;
     for (OstLocal i = 0; i < points->count; i++) {
         const double *x = points->coordinates + 3 * (size_t)i;
         const int cubes = list_cubes(x, corner, tolerance, cube);
         for (int c = 0; c < cubes; c++, (*count)++) {
-            (*visitor)[*count] = (Visitor){{cube[c][0], cube[c][1], cube[c][2]}, points->first + i, {x[0], x[1], x[2]}};
+            (*point)[*count] = (CubePoint){{cube[c][0], cube[c][1], cube[c][2]}, points->first + i, {x[0], x[1], x[2]}};
             (*to)[*count] = rank_of_cube(cube[c], ost_size(ctx));
         }
     }
     return OST_SUCCESS;
 }
 
-static int compare_cubes(const Visitor *x, const Visitor *y)
+static int compare_cubes(const CubePoint *x, const CubePoint *y)
 {
     for (int d = 0; d < 3; d++)
         if (x->cube[d] != y->cube[d])
@@ -101,36 +102,36 @@ static int compare_cubes(const Visitor *x, const Visitor *y)
     return 0;
 }
 
-static int compare_visitors(const void *a, const void *b)
+static int compare_points(const void *a, const void *b)
 {
-    const Visitor *x = a;
-    const Visitor *y = b;
+    const CubePoint *x = a;
+    const CubePoint *y = b;
     const int by_cube = compare_cubes(x, y);
     return by_cube ? by_cube : (x->number > y->number) - (x->number < y->number);
 }
 
-static int are_close(const Visitor *a, const Visitor *b, double tolerance)
+static int are_close(const CubePoint *a, const CubePoint *b, double tolerance)
 {
     const double d[3] = {a->x[0] - b->x[0], a->x[1] - b->x[1], a->x[2] - b->x[2]};
     return ost_norm3(d) <= tolerance;
 }
 
-/* Within each cube, the first that each point is close to. */
-static OstStatus compare_within_cubes(OstContext *ctx, OstLocal count, Visitor *visitor, double tolerance,
+/* For each point, the point of the lowest number near it in the same cube. */
+static OstStatus compare_within_cubes(OstContext *ctx, OstLocal count, CubePoint *point, double tolerance,
                                       OstLocal *answers, Answer **answer)
 {
     OST_TRY(OST_NEW(ctx, answer, count));
     if (count > 0)
-        qsort(visitor, (size_t)count, sizeof *visitor, compare_visitors);
+        qsort(point, (size_t)count, sizeof *point, compare_points);
     OstLocal start = 0;
     for (OstLocal i = 0; i < count; i++) {
-        if (compare_cubes(&visitor[start], &visitor[i]) != 0)
+        if (compare_cubes(&point[start], &point[i]) != 0)
             start = i;
         OstLocal j = start;
-        while (j < i && !are_close(&visitor[j], &visitor[i], tolerance))
+        while (j < i && !are_close(&point[j], &point[i], tolerance))
             j++;
         if (j < i)
-            (*answer)[(*answers)++] = (Answer){visitor[i].number, visitor[j].number};
+            (*answer)[(*answers)++] = (Answer){point[i].number, point[j].number};
     }
     return OST_SUCCESS;
 }
@@ -168,7 +169,7 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     OstContext *ctx = points->ctx;
     double corner[3];
     OstLocal count = 0, answers = 0;
-    Visitor *visitor = NULL, *arrived = NULL;
+    CubePoint *point = NULL, *arrived = NULL;
     Answer *answer = NULL;
     int *to = NULL;
     OstRoute *route = NULL;
@@ -176,14 +177,14 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     for (OstLocal i = 0; i < points->count; i++)
         lowest[i] = points->first + i;
     OST_TRY_DONE(find_corner(points, corner));
-    OST_TRY_DONE(ost_agree(ctx, list_visitors(points, corner, tolerance, &count, &visitor, &to)));
+    OST_TRY_DONE(ost_agree(ctx, list_cube_points(points, corner, tolerance, &count, &point, &to)));
     OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
-    OST_TRY_DONE(ost_route_carry(route, sizeof *visitor, visitor, (void **)&arrived));
-    OST_FREE(visitor);
+    OST_TRY_DONE(ost_route_carry(route, sizeof *point, point, (void **)&arrived));
+    OST_FREE(point);
     OST_TRY_DONE(ost_agree(ctx, compare_within_cubes(ctx, route->receives, arrived, tolerance, &answers, &answer)));
     OST_TRY_DONE(take_answers(points, answers, answer, lowest));
 done:
-    OST_FREE(visitor);
+    OST_FREE(point);
     OST_FREE(arrived);
     OST_FREE(answer);
     OST_FREE(to);

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh_data.h"
 
-/* Points of all ranks, each rank's numbered from `first` on, contiguously over ranks. */
+/* This rank's points: their global numbers start at `first`, contiguous over ranks. */
 typedef struct OstPoints {
     OstContext *ctx;
     OstGlobal first;
@@ -12,12 +12,12 @@ typedef struct OstPoints {
     const double *coordinates; /* count × 3 */
 } OstPoints;
 
-/* Collective. For each of this rank's points the lowest number of a point within `tolerance` of it, on any rank: its
- * own where it coincides with none before it. */
+/* Collective. For each of this rank's points, the lowest number of a point within `tolerance` of it, on any rank: its
+ * own if it coincides with none of a lower number. */
 OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlobal *lowest);
 
-/* Collective. How many vertices of the body coincide with others, to a hundredth of the shortest edge: to `tolerance`,
- * rounded down to one digit, which joins them and can make no tet collapse. */
+/* Collective. The number of vertices that coincide with others to `tolerance`: a hundredth of the shortest edge,
+ * rounded down to one digit. Joining them to this tolerance cannot make a tet collapse. */
 OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance);
 
 #endif

@@ -6,21 +6,12 @@
 #include "mesh/tet.h"
 
 /* The paths from corner 000 to corner 111 along the edges of a cell: one tet for each order of the three directions.
- * Odd orders have their second and last vertices swapped, so that every tet is positively oriented; the middles of its
- * edges 02 and 13 stay those between which its inner octahedron is cut (see refine.c). */
+ * Odd orders have their second and last vertices swapped, so that every tet is positively oriented. This keeps the pair
+ * of edges 02 and 13, whose middles Bey's refinement joins by a diagonal (see refine.c). */
 static const int tet_corner[HEX_TETS][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
                                             {0, 7, 5, 1}, {0, 7, 6, 4}, {0, 7, 3, 2}};
 
-/* Writes the 24 nodes of the tets; returns the place after. */
-static OstGlobal *write_tets(const OstGlobal corner[HEX_CORNERS], OstGlobal *node)
-{
-    for (int t = 0; t < HEX_TETS; t++)
-        for (int v = 0; v < 4; v++)
-            *node++ = corner[tet_corner[t][v]];
-    return node;
-}
-
-/* Writes the 6 nodes of the two faces that lie at one end (high: 0 or 1) of a direction, outward. */
+/* Writes the 6 nodes of the two faces at one end (high: 0 or 1) of a direction, outward; returns the address after. */
 static OstGlobal *write_faces(const OstGlobal corner[HEX_CORNERS], int direction, int high, OstGlobal *node)
 {
     for (int t = 0; t < HEX_TETS; t++) {
@@ -71,7 +62,9 @@ static OstStatus make_tets(const Hexes *hexes, OstGlobal first_cell, OstMeshChun
     for (OstLocal i = 0; i < chunk->tet_count / HEX_TETS; i++) {
         OstGlobal corner[HEX_CORNERS];
         hexes->corners(hexes->shape, first_cell + i, corner);
-        node = write_tets(corner, node);
+        for (int t = 0; t < HEX_TETS; t++)
+            for (int v = 0; v < 4; v++)
+                *node++ = corner[tet_corner[t][v]];
     }
     return OST_SUCCESS;
 }

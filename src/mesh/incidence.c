@@ -16,7 +16,7 @@ OstStatus ost_incidence_build(OstContext *ctx, OstLocal node_count, OstLocal tet
     const size_t width = (size_t)nodes_per_tet;
     const size_t entries = (size_t)tet_count * width;
     OST_TRY(OST_NEW(ctx, &incidence->start, (size_t)node_count + 2));
-    OstGlobal *next = incidence->start + 1; /* one behind, so that filling moves each start to its place */
+    OstGlobal *next = incidence->start + 1; /* offset by one: filling the lists moves each start to its place */
     for (size_t i = 0; i < entries; i++)
         if (tet_nodes[i] < node_count)
             next[tet_nodes[i] + 1]++;

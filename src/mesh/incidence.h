@@ -10,8 +10,8 @@ typedef struct Incidence {
     OstLocal *tet;
 } Incidence;
 
-/* Local. Of the nodes below node_count; others that tets may have are passed over. Start from {0}; clear it also after
- * a failure. */
+/* Local. Of the nodes below node_count; other nodes of the tets are skipped. Start from {0}; clear it also after a
+ * failure. */
 OstStatus ost_incidence_build(OstContext *ctx, OstLocal node_count, OstLocal tet_count, int nodes_per_tet,
                               const OstLocal *tet_nodes, Incidence *incidence);
 void ost_incidence_clear(Incidence *incidence);

@@ -38,7 +38,7 @@ int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes)
 
 OstStatus ost_mesh_bounds(const OstMesh *mesh, double low[3], double high[3])
 {
-    double outer[6]; /* -low, high: one reduction for both */
+    double outer[6]; /* -low and high, so that one maximum over the ranks gives both */
     for (int d = 0; d < 6; d++)
         outer[d] = -INFINITY;
     for (size_t i = 0; i < (size_t)mesh->owned_nodes; i++) {

@@ -25,9 +25,9 @@ typedef struct OstLabelRange {
 } OstLabelRange;
 #define OST_LARGEST_LABEL INT64_C(999999999999999999)
 
-/* This rank's share of a mesh before it is partitioned. Numbers are global, from 0. Ranges are contiguous over ranks;
- * a reader of a serial format gives everything to rank 0. Boundaries are the same list, in the same order, on every
- * rank, with this rank's share of the items. */
+/* This rank's share of a mesh before it is partitioned. Numbers are global, from 0; the ranks' ranges are contiguous. A
+ * reader of a serial format gives everything to rank 0. Every rank has the same list of boundaries, in the same order,
+ * with its share of their items. */
 struct OstMeshChunk {
     OstContext *ctx;
     int nodes_per_tet;
@@ -45,10 +45,10 @@ struct OstMeshChunk {
     OstBoundary *boundaries;
 };
 
-/* One rank's piece of the partitioned mesh: its own nodes, every tet that touches one of them, and the other nodes of
- * those tets as ghosts. Local numbers: owned nodes first, then ghosts grouped by owner. Tets: those this rank owns (the
- * owner of a tet is the owner of its node with the lowest global number) first. Boundaries hold every item that touches
- * an owned node, and points only where owned; regions and boundary names are the same on every rank. */
+/* One rank's part of the partitioned mesh: its owned nodes, every tet that touches one of them, and the other nodes of
+ * those tets as ghosts. Local numbers: owned nodes first, then ghosts grouped by owner; owned tets first, then ghost
+ * tets (the owner of a tet is the owner of its node with the lowest global number). Boundaries have every item that
+ * touches an owned node, but points only if owned. Region and boundary names are the same on every rank. */
 struct OstMesh {
     OstContext *ctx;
     int nodes_per_tet;
@@ -69,19 +69,20 @@ struct OstMesh {
     struct OstHalo *halo; /* over nodes */
 };
 
-/* Where the borders between ranks had better not run: `fill` (local; called where there is more than one rank) gives
- * the material's metric in each of the chunk's tets, 6 numbers (11 22 33 12 23 31) whose largest eigenvalue is 1, short
- * along what is stiff, from the tets' centroids (3 numbers each). */
+/* Gives the material metric, by which the partition avoids cutting stiff couplings: `fill` (local; called with more
+ * than one rank) computes it for each of the chunk's tets (6 numbers, 11 22 33 12 23 31, largest eigenvalue 1) from the
+ * centroids (3 numbers each). */
 typedef struct OstTetMetric {
     const void *data;
     OstStatus (*fill)(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric);
 } OstTetMetric;
 
-/* Collective. As ost_mesh_distribute, with edges as heavy as they are stiff (`tets` NULL: all alike). */
+/* Collective. As ost_mesh_distribute, with the graph's edges weighted by the material metric (`tets` NULL: not
+ * weighted).
+ */
 OstStatus ost_mesh_distribute_by(OstContext *ctx, OstMeshChunk **chunk, const OstTetMetric *tets, OstMesh **mesh);
 
-/* Local. Number of a name, region or boundary, or -1; and the names in one line, for messages (cut
- * with dots where they do not fit). */
+/* Local. Index of a name, or -1; and the names in one line for messages, ending in dots if they do not fit. */
 int ost_names_find(const OstNames *names, const char *name);
 void ost_names_list(const OstNames *names, char *text, size_t size);
 void ost_mesh_list_boundaries(const OstMesh *mesh, char *text, size_t size);
@@ -89,8 +90,8 @@ void ost_mesh_list_boundaries(const OstMesh *mesh, char *text, size_t size);
 /* Local. Does this rank own the item with these local nodes? (The owner of its lowest global number does.) */
 int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes);
 
-/* Collective. Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edges. `tet`
- * is the tet behind each. Arrays are the caller's to free (ost_surface_destroy). */
+/* Collective. Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edge nodes.
+ * `tet` is the tet behind each face. */
 typedef struct OstSurface {
     OstLocal count;
     int nodes_per_face;

@@ -7,8 +7,8 @@
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);
 
-/* Local. Adds a copy of `text` at the end of a list of names; the second one with a number behind it (text-2) if the
- * list has that name already. */
+/* Local. Appends a copy of `text` to a list of names; ost_names_add_unique appends a number (text-2) if the list has
+ * that name already. */
 OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text);
 OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text);
 

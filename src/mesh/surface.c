@@ -13,13 +13,13 @@ void ost_surface_destroy(OstSurface **surface)
     OST_FREE(*surface);
 }
 
-/* A face of a tet, filed under its lowest vertex. */
+/* A face of a tet, in the list of its lowest vertex. */
 typedef struct Face {
     OstLocal middle, high; /* its other vertices */
     OstLocal tet;
     int8_t opposite; /* the tet's vertex that it lacks */
     int8_t turn;     /* seen from outside the tet its vertices ascend counter-clockwise (1) or clockwise (-1) */
-    int8_t twins;    /* faces with the same vertices */
+    int8_t twins;    /* number of other faces with the same vertices */
 } Face;
 
 typedef struct FaceTable {
@@ -55,34 +55,26 @@ static OstLocal sort_face(const OstLocal *tet, int opposite, Face *face)
     return v[0];
 }
 
-/* The mid-edge node between two of a tet's vertices. */
-static OstLocal mid_edge(const OstLocal *tet, int from, int to)
-{
-    int edge = 0;
-    while (!((ost_tet_edge[edge][0] == from && ost_tet_edge[edge][1] == to) ||
-             (ost_tet_edge[edge][0] == to && ost_tet_edge[edge][1] == from)))
-        edge++;
-    return tet[4 + edge];
-}
-
 static void write_face(const OstLocal *tet, int opposite, int nodes_per_face, OstLocal *nodes)
 {
     const int *corner = ost_tet_face[opposite];
     for (int i = 0; i < 3; i++)
         nodes[i] = tet[corner[i]];
     for (int i = 3; i < nodes_per_face; i++)
-        nodes[i] = mid_edge(tet, corner[i - 3], corner[(i - 2) % 3]);
+        nodes[i] = tet[ost_tet_mid_node(corner[i - 3], corner[(i - 2) % 3])];
 }
 
-/* A quadratic face can touch an owned node by its mid-edges alone. */
+/* A quadratic face may touch an owned node at a mid-edge node only. */
 static int touches_owned(const OstMesh *mesh, const OstLocal *tet, int opposite)
 {
-    const int count = mesh->nodes_per_tet == 10 ? 6 : 3;
-    OstLocal nodes[6];
-    write_face(tet, opposite, count, nodes);
-    for (int i = 0; i < count; i++)
-        if (nodes[i] < mesh->owned_nodes)
+    const int *corner = ost_tet_face[opposite];
+    for (int i = 0; i < 3; i++) {
+        const int next = corner[(i + 1) % 3];
+        if (tet[corner[i]] < mesh->owned_nodes)
             return 1;
+        if (mesh->nodes_per_tet == 10 && tet[ost_tet_mid_node(corner[i], next)] < mesh->owned_nodes)
+            return 1;
+    }
     return 0;
 }
 
@@ -91,12 +83,12 @@ static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
     return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
 }
 
-/* Only faces that touch an owned node: the tets on both sides of these are here. */
-static OstStatus file_faces(const OstMesh *mesh, FaceTable *table)
+/* Lists the faces that touch an owned node: this rank has the tets on both sides of these. */
+static OstStatus list_faces(const OstMesh *mesh, FaceTable *table)
 {
     table->rows = mesh->node_count;
     OST_TRY(OST_NEW(mesh->ctx, &table->start, (size_t)table->rows + 2));
-    OstGlobal *next = table->start + 1; /* one behind, so that filing moves each start to its place */
+    OstGlobal *next = table->start + 1; /* offset by one: filling the lists moves each start to its place */
     Face face = {0};
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (int o = 0; o < 4; o++)
@@ -149,7 +141,7 @@ static OstStatus match_faces(const OstMesh *mesh, FaceTable *table)
     return OST_SUCCESS;
 }
 
-static OstStatus list_faces(const OstMesh *mesh, const FaceTable *table, OstSurface *surface)
+static OstStatus keep_surface_faces(const OstMesh *mesh, const FaceTable *table, OstSurface *surface)
 {
     OstGlobal count = 0;
     const OstGlobal faces = table->start[table->rows];
@@ -178,9 +170,9 @@ OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface)
     FaceTable table = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(mesh->ctx, surface, 1));
-    OST_TRY_DONE(file_faces(mesh, &table));
+    OST_TRY_DONE(list_faces(mesh, &table));
     OST_TRY_DONE(match_faces(mesh, &table));
-    OST_TRY_DONE(list_faces(mesh, &table, *surface));
+    OST_TRY_DONE(keep_surface_faces(mesh, &table, *surface));
 done:
     OST_FREE(table.start);
     OST_FREE(table.face);

@@ -7,6 +7,15 @@
 const int ost_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int ost_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
+int ost_tet_mid_node(int a, int b)
+{
+    int e = 0;
+    while (
+        !((ost_tet_edge[e][0] == a && ost_tet_edge[e][1] == b) || (ost_tet_edge[e][0] == b && ost_tet_edge[e][1] == a)))
+        e++;
+    return 4 + e;
+}
+
 static void difference(const double *from, const double *to, double d[3])
 {
     for (int i = 0; i < 3; i++)

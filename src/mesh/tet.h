@@ -7,4 +7,7 @@
 extern const int ost_tet_face[4][3];
 extern const int ost_tet_edge[6][2];
 
+/* The mid-edge node (4-9) between two different vertices. */
+int ost_tet_mid_node(int a, int b);
+
 #endif

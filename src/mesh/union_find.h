@@ -9,7 +9,7 @@
 static inline OstLocal ost_set_root(OstLocal *parent, OstLocal i)
 {
     while (parent[i] != i) {
-        parent[i] = parent[parent[i]]; /* shorter for the next one who asks */
+        parent[i] = parent[parent[i]]; /* halves the path for the next search */
         i = parent[i];
     }
     return i;
@@ -31,13 +31,13 @@ static inline void ost_set_start(OstLocal *parent, OstLocal count)
         parent[i] = i;
 }
 
-/* Numbers the sets from 0 in the order of their roots, in place: set[i] is then the number of i's set. Returns how many
- * there are. */
+/* Numbers the sets from 0 in the order of their roots, in place: set[i] becomes the number of i's set. Returns the
+ * number of sets. */
 static inline OstLocal ost_set_number(OstLocal *set, OstLocal count)
 {
     OstLocal sets = 0;
     for (OstLocal i = 0; i < count; i++)
-        set[i] = set[i] == i ? sets++ : set[set[i]]; /* roots come first, so parents have their numbers already */
+        set[i] = set[i] == i ? sets++ : set[set[i]]; /* a parent comes before i, so it has its number already */
     return sets;
 }
 

@@ -7,22 +7,16 @@
 #include <math.h>
 #include <stdio.h>
 
-/* JSON has neither NaN nor infinity. */
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
-
 static json_t *vector_json(const double v[3])
 {
-    return json_pack("[o, o, o]", number_json(v[0]), number_json(v[1]), number_json(v[2]));
+    return json_pack("[o, o, o]", ost_json_number(v[0]), ost_json_number(v[1]), ost_json_number(v[2]));
 }
 
 json_t *ost_solver_reasons_json(const OstSolverPlan *plan)
 {
     json_t *reasons = json_array();
     for (int r = 0; r < plan->reasons; r++)
-        json_array_append_new(reasons, json_string(plan->reason[r]));
+        json_array_append_new(reasons, ost_json_text(plan->reason[r]));
     return reasons;
 }
 
@@ -31,10 +25,10 @@ static json_t *steps_json(const OstSolveReport *report)
     json_t *steps = json_array();
     for (int s = 0; s < report->steps; s++) {
         const OstSolveStep *step = &report->step[s];
-        json_array_append_new(steps,
-                              json_pack("{s:s, s:i, s:f, s:f, s:f, s:s}", "strategy", ost_method_name(step->method),
-                                        "iterations", step->iterations, "factor", step->factor, "relative_residual",
-                                        step->relative_residual, "seconds", step->seconds, "outcome", step->outcome));
+        json_array_append_new(steps, json_pack("{s:s, s:i, s:f, s:f, s:f, s:o}", "strategy",
+                                               ost_method_name(step->method), "iterations", step->iterations, "factor",
+                                               step->factor, "relative_residual", step->relative_residual, "seconds",
+                                               step->seconds, "outcome", ost_json_text(step->outcome)));
     }
     return steps;
 }
@@ -42,7 +36,7 @@ static json_t *steps_json(const OstSolveReport *report)
 /* 0 stands for no estimate. */
 static json_t *estimate_json(double estimate)
 {
-    return estimate > 0.0 ? number_json(estimate) : json_null();
+    return estimate > 0.0 ? ost_json_number(estimate) : json_null();
 }
 
 static json_t *solver_json(const OstSolveReport *report)
@@ -52,26 +46,28 @@ static json_t *solver_json(const OstSolveReport *report)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
     return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "method",
                      ost_method_name(report->method), "engine", report->engine, "iterations", report->iterations,
-                     "relative_residual", number_json(report->relative_residual), "attainable_residual",
+                     "relative_residual", ost_json_number(report->relative_residual), "attainable_residual",
                      estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
                      "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
                      levels, "operator_complexity", report->operator_complexity, "condition_estimate",
-                     number_json(report->condition_estimate), "error_estimate", number_json(report->error_estimate),
-                     "rounding_error", number_json(report->rounding_error), "rounding_spread", report->rounding_spread,
-                     "plan", ost_solver_reasons_json(&report->plan), "strategies", steps_json(report));
+                     ost_json_number(report->condition_estimate), "error_estimate",
+                     ost_json_number(report->error_estimate), "rounding_error", ost_json_number(report->rounding_error),
+                     "rounding_spread", report->rounding_spread, "plan", ost_solver_reasons_json(&report->plan),
+                     "strategies", steps_json(report));
 }
 
 static json_t *checks_json(const OstChecks *checks)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}", "relative_residual",
-                     number_json(checks->relative_residual), "rounding", number_json(checks->rounding), "rigid_motion",
-                     number_json(checks->rigid_motion), "displacement_error", number_json(checks->displacement_error),
-                     "force_error", number_json(checks->force_error), "load", vector_json(checks->load), "reaction",
-                     vector_json(checks->reaction), "force_imbalance", number_json(checks->force_imbalance),
-                     "moment_imbalance", number_json(checks->moment_imbalance), "strain_energy",
-                     number_json(checks->strain_energy), "work", number_json(checks->work), "energy_imbalance",
-                     number_json(checks->energy_imbalance), "finite", checks->finite, "largest_strain",
-                     number_json(checks->largest_strain), "largest_rotation", number_json(checks->largest_rotation));
+    return json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o}", "relative_residual",
+        ost_json_number(checks->relative_residual), "rounding", ost_json_number(checks->rounding), "rigid_motion",
+        ost_json_number(checks->rigid_motion), "displacement_error", ost_json_number(checks->displacement_error),
+        "force_error", ost_json_number(checks->force_error), "load", vector_json(checks->load), "reaction",
+        vector_json(checks->reaction), "force_imbalance", ost_json_number(checks->force_imbalance), "moment_imbalance",
+        ost_json_number(checks->moment_imbalance), "strain_energy", ost_json_number(checks->strain_energy), "work",
+        ost_json_number(checks->work), "energy_imbalance", ost_json_number(checks->energy_imbalance), "finite",
+        checks->finite, "largest_strain", ost_json_number(checks->largest_strain), "largest_rotation",
+        ost_json_number(checks->largest_rotation));
 }
 
 static json_t *warnings_json(const OstChecks *checks)
@@ -79,7 +75,7 @@ static json_t *warnings_json(const OstChecks *checks)
     json_t *warnings = json_array();
     char text[OST_LONGEST_WARNING];
     if (ost_linearity_warning(checks, text))
-        json_array_append_new(warnings, json_string(text));
+        json_array_append_new(warnings, ost_json_text(text));
     return warnings;
 }
 
@@ -87,7 +83,7 @@ static json_t *objections_json(const OstVerdict *objections)
 {
     json_t *reasons = json_array();
     for (int i = 0; i < objections->count; i++)
-        json_array_append_new(reasons, json_string(objections->text[i]));
+        json_array_append_new(reasons, ost_json_text(objections->text[i]));
     return reasons;
 }
 
@@ -123,8 +119,8 @@ static json_t *watched_json(const OstWatchedValue *watched, int count)
     json_t *values = json_object();
     for (int w = 0; w < count; w++)
         json_object_set_new(values, watched[w].name,
-                            json_pack("{s:o, s:o}", "value", number_json(watched[w].value), "expected",
-                                      number_json(watched[w].expected)));
+                            json_pack("{s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
+                                      ost_json_number(watched[w].expected)));
     return values;
 }
 
@@ -132,16 +128,16 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
                         const OstWatchedValue *watched, const char *file)
 {
     const OstMesh *mesh = result->mesh;
-    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
-                     "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
-                     ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
-                     warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices",
-                     (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
-                     (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "checks",
-                     checks_json(&result->checks), "largest_displacement", number_json(result->largest_displacement),
-                     "largest_at", vector_json(result->largest_at), "watched",
-                     watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects),
-                     "ledger", ledger_json(scene->ctx, summary), "output", file);
+    return json_pack(
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
+        scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
+        ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
+        warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
+        "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
+        solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
+        ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
+        watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
+        ledger_json(scene->ctx, summary), "output", file);
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/boundary_conditions.h"
 
-#include "assembly/field_loads.h"
+#include "assembly/closed_form_loads.h"
 #include "assembly/loads.h"
 #include "case/select.h"
 #include "core/error.h"
@@ -52,13 +52,13 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
 {
     double prescribed[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
-        return ost_supports_hold(supports, node, constraint->normal, 0.0);
+        return ost_supports_constrain(supports, node, constraint->normal, 0.0);
     OST_TRY(prescribed_displacement(scene, constraint, node, prescribed));
     for (int component = 0; component < 3; component++) {
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->constrained[component])
-            OST_TRY(ost_supports_hold(supports, node, direction, prescribed[component]));
+            OST_TRY(ost_supports_constrain(supports, node, direction, prescribed[component]));
     }
     return OST_SUCCESS;
 }
@@ -122,7 +122,7 @@ static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, doubl
     OST_TRY(find_load_region(scene, load, &region));
     if (load->exact) {
         OST_TRY(need_closed_form(scene));
-        return ost_load_exact_body_force(scene->mesh, region, scene->exact, force);
+        return ost_load_closed_form_body_force(scene->mesh, region, scene->exact, force);
     }
     if (load->kind == OST_LOAD_BODY_FORCE)
         return ost_load_body_force(scene->mesh, region, load->vector, force);
@@ -150,7 +150,8 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
     const OstMesh *mesh = scene->mesh;
     if (load->exact) {
         OST_TRY(need_closed_form(scene));
-        return ost_agree(scene->ctx, ost_load_exact_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
+        return ost_agree(scene->ctx,
+                         ost_load_closed_form_traction(mesh, count, faces, nodes_per_face, scene->exact, force));
     }
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_agree(scene->ctx, ost_load_pressure(mesh, count, faces, nodes_per_face, load->pressure, force));

@@ -27,7 +27,7 @@ static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
     *has = 0;
     for (OstLocal vertex = 0; vertex < mesh->owned_nodes && !*has; vertex++) {
         const OstLocal index = space->supports->index[vertex];
-        *has = index < 0 || space->supports->support[index].held < 3;
+        *has = index < 0 || space->supports->support[index].constrained < 3;
     }
     return ost_max_ints(ctx, 1, has);
 }

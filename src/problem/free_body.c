@@ -108,7 +108,7 @@ static OstStatus constrain_three(const OstMesh *mesh, OstSupports *supports)
     OstStatus status = OST_SUCCESS;
     for (int k = 0; k < 6 && status == OST_SUCCESS; k++)
         if (node[vertex[k]] >= 0)
-            status = ost_supports_hold(supports, node[vertex[k]], direction[k], 0.0);
+            status = ost_supports_constrain(supports, node[vertex[k]], direction[k], 0.0);
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(supports);
 }

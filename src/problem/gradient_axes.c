@@ -37,7 +37,7 @@ static OstStatus prescribe_potential(const OstScene *scene, const char *name, in
                 continue;
             double direction[3] = {0.0};
             direction[component] = 1.0;
-            status = ost_supports_hold(supports, nodes[i], direction, value);
+            status = ost_supports_constrain(supports, nodes[i], direction, value);
         }
     }
     OST_FREE(nodes);

@@ -35,7 +35,8 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **sup
             status = OST_RAISE(ctx, OST_INVALID_INPUT, "constraint %d is on node %d, but this rank owns nodes 0 to %d",
                                i, constraint->node, parts->mesh->owned_nodes - 1);
         else
-            status = ost_supports_hold(*supports, constraint->node, constraint->direction, constraint->displacement);
+            status =
+                ost_supports_constrain(*supports, constraint->node, constraint->direction, constraint->displacement);
     }
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(*supports);
@@ -135,13 +136,13 @@ void ost_problem_load(const OstProblem *problem, double t, double *force)
         force[i] = t * problem->force[i];
 }
 
-static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                        const OstMeans *means)
 {
     (void)element;
     (void)u;
-    for (int lane = 0; lane < batch->count; lane++)
-        *(double *)energy += means->energy[lane] * means->volume[lane];
+    for (int slot = 0; slot < batch->count; slot++)
+        *(double *)energy += means->energy[slot] * means->volume[slot];
 }
 
 OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)

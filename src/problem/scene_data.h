@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_SCENE_DATA_H
 #define ORTHOSTAT_PROBLEM_SCENE_DATA_H
 
-#include "assembly/exact.h"
+#include "assembly/closed_form.h"
 #include "case/case_data.h"
 #include "case/plan.h"
 #include "formats/serial/formats.h"
@@ -17,7 +17,7 @@ struct OstScene {
     OstEffect *load_effect; /* of each load of the case */
     OstMesh *mesh;
     OstMaterialField *field;
-    const OstExactField *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
+    const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 
 #endif

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
-#include "element/strain_lanes.h"
+#include "element/strain_batch.h"
 
 #include <string.h>
 
@@ -16,22 +16,22 @@ static int asks(unsigned fields, OstOutputFieldBit field)
     return (fields >> field & 1U) != 0;
 }
 
-static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstLanes *u,
+static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                         const OstMeans *means)
 {
     OstResult *result = data;
     (void)element;
     (void)u;
-    for (int lane = 0; lane < batch->count; lane++) {
-        const size_t tet = (size_t)batch->tet[lane];
+    for (int slot = 0; slot < batch->count; slot++) {
+        const size_t tet = (size_t)batch->tet[slot];
         for (size_t p = 0; p < 6; p++) {
             if (result->strain)
-                result->strain[6 * tet + p] = means->strain[p][lane];
+                result->strain[6 * tet + p] = means->strain[p][slot];
             if (result->stress)
-                result->stress[6 * tet + p] = means->stress[p][lane];
+                result->stress[6 * tet + p] = means->stress[p][slot];
         }
         if (result->strain_energy_density)
-            result->strain_energy_density[tet] = means->energy[lane];
+            result->strain_energy_density[tet] = means->energy[slot];
     }
 }
 
@@ -76,10 +76,10 @@ static void find_regions(const OstMesh *mesh, int32_t *region)
 
 /* Stress at the nodes of a batch's tets, 6 numbers a node. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
-                            OstElasticity *at_nodes, OstLanes *stress)
+                            OstElasticity *at_nodes, OstSimd *stress)
 {
-    OstLanes u[3 * OST_MAX_TET_NODES];
-    OstLanes strain[6 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd strain[6 * OST_MAX_TET_NODES];
     OstMeans means;
     ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
     element->nodal_strain(batch->x, u, strain);
@@ -87,25 +87,25 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
     for (int a = 0; a < element->nodes; a++) {
         const int at = ost_elasticity_at(at_nodes, a);
-        ost_lanes_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);
+        ost_simd_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);
         for (int p = 0; p < 6 && at_nodes->by_mean; p++) /* where C is split, the stiff mode's part is its mean */
             stress[6 * a + p] += means.stiff * at_nodes->m[at][p];
     }
 }
 
-static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstLanes *stress,
+static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
                       Sums *sums)
 {
-    for (int lane = 0; lane < batch->count; lane++) {
-        const OstLocal tet = batch->tet[lane];
+    for (int slot = 0; slot < batch->count; slot++) {
+        const OstLocal tet = batch->tet[slot];
         const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes_of(mesh, tet)));
         for (int a = 0; a < element->nodes; a++) {
-            const OstLocal node = batch->node[lane][a];
+            const OstLocal node = batch->node[slot][a];
             if (node >= mesh->owned_nodes || mesh->tet_region[tet] != sums->region[node])
                 continue;
             sums->volume[node] += volume;
             for (int p = 0; p < 6; p++)
-                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][lane];
+                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][slot];
         }
     }
 }
@@ -119,8 +119,8 @@ static void average(const OstResult *result, Sums *sums)
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_nodes);
     find_regions(mesh, sums->region);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_LANES) {
-        OstLanes stress[6 * OST_MAX_TET_NODES];
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd stress[6 * OST_MAX_TET_NODES];
         ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
         stress_of_batch(result, element, &batch, &at_nodes, stress);
         add_batch(mesh, element, &batch, stress, sums);

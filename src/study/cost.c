@@ -8,7 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double default_max_seconds = 600.0;
+#define PHASE_LABEL(name, label) [name] = label,
+const char *const ost_cost_phase_label[] = {OST_COST_PHASE_TABLE(PHASE_LABEL)};
+#undef PHASE_LABEL
+
+const char *const ost_cost_state_word[] = {"waiting", "done", "not run", "failed"};
+
+const double ost_cost_target[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003};
 
 OstCostVariants ost_cost_default_variants(void)
 {
@@ -18,27 +24,7 @@ OstCostVariants ost_cost_default_variants(void)
                              .order = {1, 2},
                              .refinement = {0, 1, 2},
                              .tolerance = {1e-2, 1e-4, 1e-8},
-                             .max_seconds = default_max_seconds};
-}
-
-const char *ost_cost_phase_label(OstCostPhase phase)
-{
-#define PHASE_LABEL(name, label) [name] = label,
-    static const char *const labels[] = {OST_COST_PHASE_TABLE(PHASE_LABEL)};
-#undef PHASE_LABEL
-    return labels[phase];
-}
-
-const char *ost_cost_state_word(OstCostState state)
-{
-    static const char *const words[] = {"waiting", "done", "not run", "failed"};
-    return words[state];
-}
-
-double ost_cost_target(int number)
-{
-    static const double targets[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003};
-    return targets[number];
+                             .max_seconds = 600.0};
 }
 
 /* By refinement, then order, then tolerance with the tightest first: cheap runs come early, and the tight ones, from
@@ -52,11 +38,6 @@ static int compare_runs(const void *a, const void *b)
     if (x->order != y->order)
         return x->order - y->order;
     return (x->tolerance > y->tolerance) - (x->tolerance < y->tolerance);
-}
-
-static int is_same(const OstCostRun *a, const OstCostRun *b)
-{
-    return compare_runs(a, b) == 0;
 }
 
 static OstStatus check_variants(OstContext *ctx, const OstCostVariants *v)
@@ -90,16 +71,14 @@ static OstStatus list_runs(OstCost *cost)
                     (OstCostRun){.order = v->order[o], .refinement = v->refinement[r], .tolerance = v->tolerance[t]};
     qsort(cost->run, (size_t)count, sizeof *cost->run, compare_runs);
     for (int i = 0; i < count; i++)
-        if (cost->run_count == 0 || !is_same(&cost->run[i], &cost->run[cost->run_count - 1]))
+        if (cost->run_count == 0 || compare_runs(&cost->run[i], &cost->run[cost->run_count - 1]) != 0)
             cost->run[cost->run_count++] = cost->run[i];
     return OST_SUCCESS;
 }
 
 static void add_quantity(OstCost *cost, const char *name, const OstWatch *watch)
 {
-    OstCostQuantity *quantity = &cost->quantity[cost->quantity_count++];
-    quantity->name = name;
-    quantity->watch = watch;
+    cost->quantity[cost->quantity_count++] = (OstCostQuantity){.name = name, .watch = watch};
 }
 
 /* The case's quantities of interest, or the largest displacement if it has none; and the strain energy, unless it is
@@ -110,8 +89,7 @@ static void list_quantities(OstCost *cost)
     int energy_watched = 0;
     for (int w = 0; w < c->watch_count; w++)
         energy_watched |= c->watches[w].kind == OST_WATCH_STRAIN_ENERGY;
-    cost->strain_energy.kind = OST_WATCH_STRAIN_ENERGY;
-    cost->strain_energy.expected = NAN;
+    cost->strain_energy = (OstWatch){.kind = OST_WATCH_STRAIN_ENERGY, .expected = NAN};
     if (!energy_watched)
         add_quantity(cost, "energy", &cost->strain_energy);
     if (c->watch_count == 0)
@@ -129,10 +107,7 @@ OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, Ost
     OST_TRY(check_variants(ctx, variants));
     OstStatus status = OST_NEW(ctx, cost, 1);
     if (status == OST_SUCCESS) {
-        (*cost)->ctx = ctx;
-        (*cost)->c = c;
-        (*cost)->variants = *variants;
-        (*cost)->measure = ost_cost_measure;
+        **cost = (OstCost){.ctx = ctx, .c = c, .variants = *variants, .measure = ost_cost_measure};
         list_quantities(*cost);
         status = list_runs(*cost);
     }

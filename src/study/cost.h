@@ -111,12 +111,12 @@ int ost_cost_cheapest(const OstCost *cost, int quantity, double target);
  * many. */
 int ost_cost_frontier(const OstCost *cost, int quantity, int *runs);
 
-/* Local. The errors for which the cheapest run is listed. */
+/* The errors for which the cheapest run is listed. */
 enum { OST_COST_TARGETS = 4 };
-double ost_cost_target(int number);
+extern const double ost_cost_target[OST_COST_TARGETS];
 
-const char *ost_cost_phase_label(OstCostPhase phase);
-const char *ost_cost_state_word(OstCostState state);
+extern const char *const ost_cost_phase_label[]; /* by OstCostPhase */
+extern const char *const ost_cost_state_word[];  /* by OstCostState */
 
 /* Local; rank 0 prints. The tables for a person. */
 void ost_cost_print(const OstCost *cost);

@@ -7,42 +7,24 @@
  * of the preconditioned matrix, which multigrid keeps small. */
 static const double noise_of_tolerance = 10.0;
 
-/* A quantity by elements of one order: each refinement at its tightest tolerance. */
-typedef struct Series {
-    int count;
-    int refinement[OST_COST_MOST_REFINEMENTS + 1];
-    double value[OST_COST_MOST_REFINEMENTS + 1];
-    double tolerance;
-    double scale;
-} Series;
+enum { MOST_ANSWERS = OST_COST_MOST_REFINEMENTS + 1 };
 
-static void collect(const OstCost *cost, int quantity, int order, Series *series)
+/* A quantity by elements of one order: each refinement at its tightest tolerance. */
+static OstAnswers collect(const OstCost *cost, int quantity, int order, int *refinement, double *value)
 {
-    series->count = 0;
-    series->tolerance = series->scale = 0.0;
+    OstAnswers answers = {.order = order, .refinement = refinement, .value = value};
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
         if (run->state != OST_COST_DONE || run->order != order)
             continue;
-        if (series->count > 0 && series->refinement[series->count - 1] == run->refinement)
+        if (answers.count > 0 && refinement[answers.count - 1] == run->refinement)
             continue; /* the same refinement, less tightly solved */
-        series->refinement[series->count] = run->refinement;
-        series->value[series->count++] = run->watched[quantity].value;
-        series->tolerance = fmax(series->tolerance, run->tolerance);
-        series->scale = run->watched[quantity].scale;
+        refinement[answers.count] = run->refinement;
+        value[answers.count++] = run->watched[quantity].value;
+        answers.noise = fmax(answers.noise, noise_of_tolerance * run->tolerance);
+        answers.scale = run->watched[quantity].scale;
     }
-}
-
-static void judge_order(const OstCost *cost, int quantity, int order, Series *series, OstCostReference *found)
-{
-    collect(cost, quantity, order, series);
-    const OstAnswers answers = {.order = order,
-                                .count = series->count,
-                                .refinement = series->refinement,
-                                .value = series->value,
-                                .noise = noise_of_tolerance * series->tolerance,
-                                .scale = series->scale};
-    ost_reference_of(&answers, found);
+    return answers;
 }
 
 /* Prefer order 2, unless it has no reference or order 1 extrapolates to a better known limit. An infinite uncertainty
@@ -58,19 +40,23 @@ static int lower_tells_more(const OstCostReference *lower, const OstCostReferenc
 /* The case's expected value, if there is one; else what the runs tend to. */
 static void choose_reference(OstCost *cost, int quantity)
 {
-    Series series[2];
-    OstCostReference found[2];
-    for (int i = 0; i < 2; i++)
-        judge_order(cost, quantity, i + 1, &series[i], &found[i]);
+    OstCostReference *reference = &cost->quantity[quantity].reference;
     const OstWatch *watch = cost->quantity[quantity].watch;
+    int refinement[2][MOST_ANSWERS];
+    double value[2][MOST_ANSWERS];
+    OstAnswers answers[2];
+    OstCostReference found[2];
+    for (int i = 0; i < 2; i++) {
+        answers[i] = collect(cost, quantity, i + 1, refinement[i], value[i]);
+        ost_reference_of(&answers[i], &found[i]);
+    }
     if (watch && !isnan(watch->expected)) {
-        ost_reference_of_formula(watch->expected, fmax(series[0].scale, series[1].scale),
-                                 &cost->quantity[quantity].reference);
+        ost_reference_of_formula(watch->expected, fmax(answers[0].scale, answers[1].scale), reference);
         return;
     }
-    if (series[1].count == 1 && series[0].count > 0)
-        ost_reference_compare(&found[1], series[0].value[series[0].count - 1]);
-    cost->quantity[quantity].reference = found[!lower_tells_more(&found[0], &found[1])];
+    if (answers[1].count == 1 && answers[0].count > 0)
+        ost_reference_compare(&found[1], value[0][answers[0].count - 1]);
+    *reference = found[!lower_tells_more(&found[0], &found[1])];
 }
 
 /* A run that is itself the reference has no known error. */

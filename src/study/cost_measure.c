@@ -2,6 +2,7 @@
 #include "study/cost.h"
 
 #include "core/error.h"
+#include "core/parallel/reduce.h"
 
 #include <string.h>
 
@@ -59,10 +60,9 @@ static OstStatus read_meter(OstContext *ctx, const Meter *meter, OstCostRun *run
     memset(run->phase, 0, sizeof run->phase);
     for (int a = 0; a < OST_EFFECT_END; a++)
         run->phase[phase_of(a)] += ost_ledger_entry(ctx, a).seconds - meter->seconds[a];
-    MPI_Comm comm = ost_comm(ctx);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->seconds, 1, MPI_DOUBLE, MPI_MAX, comm)));
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, run->phase, OST_COST_PHASES, MPI_DOUBLE, MPI_MAX, comm)));
-    return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &run->bytes, 1, MPI_DOUBLE, MPI_SUM, comm));
+    OST_TRY(ost_max(ctx, 1, &run->seconds));
+    OST_TRY(ost_max(ctx, OST_COST_PHASES, run->phase));
+    return ost_sum(ctx, 1, &run->bytes);
 }
 
 static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)
@@ -84,13 +84,6 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     return OST_SUCCESS;
 }
 
-/* Warnings are printed for the first run of each order, not for every run. */
-static void hush(const OstCost *cost, int order)
-{
-    if (cost->heard[order - 1] && ost_log_level(cost->ctx) == OST_LOG_NORMAL)
-        ost_log_set_level(cost->ctx, OST_LOG_QUIET);
-}
-
 static OstStatus measure_once(OstCost *cost, const OstCase *variant, OstCostRun *run)
 {
     const OstLogLevel level = ost_log_level(cost->ctx);
@@ -99,7 +92,8 @@ static OstStatus measure_once(OstCost *cost, const OstCase *variant, OstCostRun 
     Meter meter;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(start_meter(cost->ctx, &meter));
-    hush(cost, variant->order);
+    if (cost->heard[variant->order - 1] && level == OST_LOG_NORMAL) /* warnings of the first run of an order suffice */
+        ost_log_set_level(cost->ctx, OST_LOG_QUIET);
     OST_TRY_DONE(ost_scene_create(variant, &scene));
     OST_TRY_DONE(ost_scene_solve(scene, &result));
     OST_TRY_DONE(read_meter(cost->ctx, &meter, run));

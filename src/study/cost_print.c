@@ -22,14 +22,6 @@ static void with_commas(OstGlobal number, char *text, size_t size)
     text[out] = 0;
 }
 
-static void duration(double seconds, char *text, size_t size)
-{
-    if (seconds < 0.9995)
-        snprintf(text, size, "%.1f ms", 1e3 * seconds);
-    else
-        snprintf(text, size, seconds < 99.95 ? "%.2f s" : "%.0f s", seconds);
-}
-
 static void percent(double share, char *text, size_t size)
 {
     const double hundredths = 100.0 * share;
@@ -59,15 +51,16 @@ static void print_heading(const OstCost *cost)
     for (int q = 0; q < cost->quantity_count; q++)
         printf(" %*.*s", ERROR_WIDTH, ERROR_WIDTH, cost->quantity[q].name);
     for (int p = OST_COST_MESH; p < OST_COST_PHASES; p++)
-        printf(" %9s", ost_cost_phase_label((OstCostPhase)p));
-    printf(" %9s %9s %12s\n", ost_cost_phase_label(OST_COST_REST), "total", "memory");
+        printf(" %9s", ost_cost_phase_label[p]);
+    printf(" %9s %9s %12s\n", ost_cost_phase_label[OST_COST_REST], "total", "memory");
 }
 
 static void print_seconds(double seconds)
 {
-    char cell[CELL_SIZE];
-    duration(seconds, cell, sizeof cell);
-    printf(" %9s", cell);
+    if (seconds < 0.9995)
+        printf(" %6.1f ms", 1e3 * seconds);
+    else
+        printf(seconds < 99.95 ? " %7.2f s" : " %7.0f s", seconds);
 }
 
 static void print_run(const OstCost *cost, const OstCostRun *run)
@@ -75,7 +68,7 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
     char cell[CELL_SIZE];
     printf("  %5d  %6d  %9.0e", run->order, run->refinement, run->tolerance);
     if (run->state != OST_COST_DONE) {
-        printf("     %s%s%s%s\n", ost_cost_state_word(run->state), run->state == OST_COST_NOT_RUN ? " (" : ": ",
+        printf("     %s%s%s%s\n", ost_cost_state_word[run->state], run->state == OST_COST_NOT_RUN ? " (" : ": ",
                run->reason, run->state == OST_COST_NOT_RUN ? ")" : "");
         return;
     }
@@ -92,30 +85,22 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
     printf(" %8.1f MiB\n", run->bytes / mebibyte);
 }
 
-static void print_formula(const OstCostQuantity *quantity)
-{
-    const char *source = quantity->watch->source;
-    printf("%s %.10g%s%s", quantity->reference.note, quantity->reference.value, source ? ", " : "",
-           source ? source : "");
-}
-
 static void print_reference(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
+    const char *source = quantity->watch ? quantity->watch->source : NULL;
     char known[CELL_SIZE] = "";
-    if (reference->kind == OST_REFERENCE_NONE) {
-        printf("  %-14s none: no run has an answer\n", quantity->name);
-        return;
-    }
-    percent(reference->uncertainty, known, sizeof known);
     printf("  %-14s ", quantity->name);
-    if (reference->kind == OST_REFERENCE_FORMULA)
-        print_formula(quantity);
+    percent(reference->uncertainty, known, sizeof known);
+    if (reference->kind == OST_REFERENCE_NONE)
+        printf("none: no run has an answer");
+    else if (reference->kind == OST_REFERENCE_FORMULA)
+        printf("%s %.10g%s%s", reference->note, reference->value, source ? ", " : "", source ? source : "");
     else
         printf("%.10g, order %d, up to refinement %d: %s; %s%s", reference->value, reference->order, reference->finest,
                reference->note, isinf(reference->uncertainty) ? "not to be trusted" : "good to ",
                isinf(reference->uncertainty) ? "" : known);
-    if (reference->size > fabs(reference->value))
+    if (reference->kind != OST_REFERENCE_NONE && reference->size > fabs(reference->value))
         printf("; that is negligible beside %.4g, to which errors are relative", reference->size);
     printf("\n");
 }
@@ -134,12 +119,6 @@ static void print_out_of_reach(const OstCost *cost, int quantity)
         printf("no run reaches it: the best has %s\n", number);
 }
 
-static void print_ratio(double ratio)
-{
-    printf(ratio < 10.0 ? "   a tenth of that costs %.1f times as much" : "   a tenth of that costs %.0f times as much",
-           ratio);
-}
-
 static void print_cheapest_for(const OstCost *cost, int quantity, double target)
 {
     const int cheapest = ost_cost_cheapest(cost, quantity, target);
@@ -153,19 +132,12 @@ static void print_cheapest_for(const OstCost *cost, int quantity, double target)
     printf("order %d, refinement %d, tolerance %.0e ", run->order, run->refinement, run->tolerance);
     print_seconds(run->seconds);
     printf(" %8.1f MiB", run->bytes / mebibyte);
+    const double ratio = next >= 0 ? cost->run[next].seconds / run->seconds : 0.0;
     if (next >= 0 && next != cheapest)
-        print_ratio(cost->run[next].seconds / run->seconds);
+        printf("   a tenth of that costs %.*f times as much", ratio < 10.0, ratio);
     else if (next == cheapest)
         printf("   and less than a tenth of that");
     printf("\n");
-}
-
-static void print_cheapest(const OstCost *cost, int quantity)
-{
-    for (int t = 0; t < OST_COST_TARGETS; t++) {
-        printf("  %-14s", t == 0 ? cost->quantity[quantity].name : "");
-        print_cheapest_for(cost, quantity, ost_cost_target(t));
-    }
 }
 
 void ost_cost_print(const OstCost *cost)
@@ -187,5 +159,8 @@ void ost_cost_print(const OstCost *cost)
         print_reference(&cost->quantity[q]);
     printf("\ncheapest for an error of\n");
     for (int q = 0; q < cost->quantity_count; q++)
-        print_cheapest(cost, q);
+        for (int t = 0; t < OST_COST_TARGETS; t++) {
+            printf("  %-14s", t == 0 ? cost->quantity[q].name : "");
+            print_cheapest_for(cost, q, ost_cost_target[t]);
+        }
 }

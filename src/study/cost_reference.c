@@ -137,11 +137,7 @@ void ost_reference_of_formula(double value, double scale, OstCostReference *refe
     snprintf(reference->note, sizeof reference->note, "the formula's value");
 }
 
-const char *ost_reference_kind_word(OstReferenceKind kind)
-{
-    static const char *const words[] = {"none", "extrapolated", "finest", "settled", "formula"};
-    return words[kind];
-}
+const char *const ost_reference_kind_word[] = {"none", "extrapolated", "finest", "settled", "formula"};
 
 void ost_reference_compare(OstCostReference *lone, double lower)
 {

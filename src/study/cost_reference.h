@@ -55,8 +55,7 @@ void ost_reference_of(const OstAnswers *answers, OstCostReference *reference);
 /* Local. The reference from a formula, whose uncertainty is 0. */
 void ost_reference_of_formula(double value, double scale, OstCostReference *reference);
 
-/* Local. "none", "extrapolated", "finest", "settled" or "formula". */
-const char *ost_reference_kind_word(OstReferenceKind kind);
+extern const char *const ost_reference_kind_word[]; /* by OstReferenceKind */
 
 /* Local. Where only one refinement was run, its uncertainty is taken to be its difference from the best value of the
  * order below. */

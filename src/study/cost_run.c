@@ -17,10 +17,6 @@ static const double denser_rows = 3.0;
 /* Memory of the process, with libraries, over that of Orthostat's own arrays. */
 static const double memory_beside = 2.0;
 
-typedef struct Forecast {
-    double seconds, bytes; /* 0: not known */
-} Forecast;
-
 /* The finished run to predict another from: of its own order rather than the one below, on the finest mesh, of the same
  * tolerance; else the slowest. */
 static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
@@ -56,16 +52,17 @@ static double growth_to(const OstCost *cost, const OstCostRun *model)
     return fmin(fmax(growth, least_growth), most_growth);
 }
 
-static Forecast predict(const OstCost *cost, const OstCostRun *run)
+/* Seconds and bytes of a run; 0: not known. */
+static void predict(const OstCost *cost, const OstCostRun *run, double *seconds, double *bytes)
 {
     const OstCostRun *model = find_model(cost, run);
+    *seconds = *bytes = 0.0;
     if (!model)
-        return (Forecast){0.0, 0.0};
-    const int finer = run->refinement - model->refinement;
-    const int higher = run->order - model->order;
-    const double denser = higher > 0 ? denser_rows : 1.0;
-    return (Forecast){model->seconds * pow(growth_to(cost, model), finer + higher) * denser,
-                      model->bytes * pow(least_growth, finer + higher) * denser};
+        return;
+    const int steps = run->refinement - model->refinement + run->order - model->order;
+    const double denser = run->order > model->order ? denser_rows : 1.0;
+    *seconds = model->seconds * pow(growth_to(cost, model), steps) * denser;
+    *bytes = model->bytes * pow(least_growth, steps) * denser;
 }
 
 static void describe_seconds(double seconds, char *text, size_t size)
@@ -83,20 +80,19 @@ static void describe_seconds(double seconds, char *text, size_t size)
 /* Collective. Clocks differ between ranks; rank 0's decides. */
 static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
 {
-    const Forecast forecast = predict(cost, run);
     const OstCostVariants *variants = &cost->variants;
-    const double gibibytes = memory_beside * forecast.bytes / 1073741824.0;
-    double elapsed = ost_seconds() - start;
+    double bytes, elapsed = ost_seconds() - start;
+    predict(cost, run, &run->predicted_seconds, &bytes);
+    bytes *= memory_beside;
     OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
-    run->predicted_seconds = forecast.seconds;
-    *yes = forecast.seconds == 0.0 || elapsed + forecast.seconds <= variants->max_seconds;
-    if (!*yes)
-        describe_seconds(forecast.seconds, run->reason, sizeof run->reason);
-    else if (variants->max_bytes > 0.0 && memory_beside * forecast.bytes > variants->max_bytes) {
-        *yes = 0;
-        snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, of %.2g there are", gibibytes,
-                 variants->max_bytes / 1073741824.0);
-    }
+    const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > variants->max_seconds;
+    const int too_large = variants->max_bytes > 0.0 && bytes > variants->max_bytes;
+    if (too_slow)
+        describe_seconds(run->predicted_seconds, run->reason, sizeof run->reason);
+    else if (too_large)
+        snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, of %.2g there are", bytes / 0x1p30,
+                 variants->max_bytes / 0x1p30);
+    *yes = !too_slow && !too_large;
     return OST_SUCCESS;
 }
 
@@ -109,20 +105,6 @@ static void announce(const OstCost *cost, const OstCostRun *run, int number)
              run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
     ost_progress(cost->ctx, line, (double)number / cost->run_count);
-}
-
-static OstStatus try_run(OstCost *cost, OstCostRun *run)
-{
-    OstCase variant = *cost->c;
-    variant.order = run->order;
-    variant.refinement = run->refinement;
-    variant.solver.relative_residual = run->tolerance;
-    variant.output_fields = 0;
-    const OstStatus status = cost->measure(cost, &variant, run);
-    run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
-    if (status != OST_SUCCESS)
-        snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(cost->ctx));
-    return status;
 }
 
 OstStatus ost_cost_run(OstCost *cost)
@@ -140,9 +122,18 @@ OstStatus ost_cost_run(OstCost *cost)
             continue;
         }
         announce(cost, run, i);
-        const OstStatus status = try_run(cost, run);
-        last_failure = status == OST_SUCCESS ? last_failure : status;
+        OstCase variant = *cost->c;
+        variant.order = run->order;
+        variant.refinement = run->refinement;
+        variant.solver.relative_residual = run->tolerance;
+        variant.output_fields = 0;
+        const OstStatus status = cost->measure(cost, &variant, run);
+        run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
         done += status == OST_SUCCESS;
+        if (status != OST_SUCCESS) {
+            last_failure = status;
+            snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(ctx));
+        }
     }
     ost_progress(ctx, "", -1.0);
     cost->seconds = ost_seconds() - start;

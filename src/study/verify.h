@@ -50,13 +50,6 @@ typedef struct OstVerifyReport {
     int passed;
 } OstVerifyReport;
 
-/* Largest relative imbalance of loads and reactions (forces and moments), and of strain energy and work, in any run. */
-extern const double ost_verify_balance, ost_verify_energy_balance;
-
-/* The observed order of convergence must be at least this share of the theoretical one. An implementation that loses an
- * order reaches three quarters at most. Quick runs stop before the order settles, so less is asked of them. */
-extern const double ost_verify_share_of_order, ost_verify_quick_share_of_order;
-
 /* Collective. Runs a case; `quick` stops at the levels that the case marks. Where a run does not converge, or its
  * result fails its own checks, the report says that the case failed. Raises only for files that cannot be read or used.
  */

@@ -1,15 +1,109 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "study/verify_view.h"
+#include "study/verify.h"
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "element/element.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 
 #include <string.h>
 
-typedef OstVerifyView View;
+/* What is measured, and where. */
+typedef struct View {
+    const OstMesh *mesh;
+    const OstResult *result;
+    const OstClosedForm *exact;
+    const OstVerifyQuantity *quantity;
+} View;
+
+/* A tet's nodes: coordinates and displacements, three numbers each. */
+typedef struct Tet {
+    int nodes;
+    OstLocal number;
+    double x[3 * OST_MAX_TET_NODES], u[3 * OST_MAX_TET_NODES];
+} Tet;
+
+/* Quadratic tets of a nearly incompressible material see one mode of the strain by its mean over the tet alone
+ * (ost_field_mean_dilatation). m: that mode's stress at a point, in world axes; zeros for other tets. */
+typedef struct Mode {
+    int split;
+    double m[6];
+} Mode;
+
+/* --- inside a tet --- */
+
+static void gather_tet(const View *view, OstLocal tet, Tet *gathered)
+{
+    const int n = view->mesh->nodes_per_tet;
+    const OstLocal *nodes = view->mesh->tet_nodes + (size_t)n * (size_t)tet;
+    gathered->nodes = n;
+    gathered->number = tet;
+    ost_gather3(n, nodes, view->mesh->coordinates, gathered->x);
+    ost_gather3(n, nodes, view->result->displacement, gathered->u);
+}
+
+/* 11 22 33 12 23 31, shear twice. */
+static void strain_of_gradient(const double g[9], double strain[6])
+{
+    for (int i = 0; i < 3; i++) {
+        const int next = (i + 1) % 3;
+        strain[i] = g[4 * i];
+        strain[3 + i] = g[3 * i + next] + g[3 * next + i];
+    }
+}
+
+/* Of the answer, at barycentric coordinates. */
+static void strain_at(const Tet *tet, const double at[4], double strain[6])
+{
+    double gradients[3 * OST_MAX_TET_NODES];
+    double g[9] = {0.0};
+    ost_shape_gradients(tet->nodes, at, tet->x, gradients);
+    for (int a = 0; a < tet->nodes; a++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                g[3 * i + j] += tet->u[3 * a + i] * gradients[3 * a + j];
+    strain_of_gradient(g, strain);
+}
+
+static void find_mode(const View *view, OstLocal tet, const double place[3], Mode *mode)
+{
+    const OstMaterialField *field = view->result->field;
+    const double *along = ost_field_stiff_mode(field, field->tet_region[tet]);
+    double axes[9];
+    *mode = (Mode){.split = along != NULL && view->mesh->nodes_per_tet > 4};
+    if (!mode->split)
+        return;
+    ost_field_axes_at(field, tet, place, axes);
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < 3; i++) {
+            mode->m[i] += along[a] * axes[3 * a + i] * axes[3 * a + i];
+            mode->m[3 + i] += along[a] * axes[3 * a + i] * axes[3 * a + (i + 1) % 3];
+        }
+}
+
+/* Mean over a tet of m'(strain of the answer); 0 without mean dilatation. */
+static double mean_of_mode(const View *view, const Tet *tet)
+{
+    double sum = 0.0, volume = 0.0;
+    for (int q = 0; q < ost_tet_degree5.count; q++) {
+        const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
+        double values[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES], place[3], strain[6];
+        Mode mode;
+        ost_shape_values(tet->nodes, point->at, values);
+        ost_shape_place(tet->nodes, values, tet->x, place);
+        find_mode(view, tet->number, place, &mode);
+        if (!mode.split)
+            return 0.0;
+        const double weight = point->weight * ost_shape_gradients(tet->nodes, point->at, tet->x, gradients);
+        strain_at(tet, point->at, strain);
+        sum += weight * ost_dot6(mode.m, strain);
+        volume += weight;
+    }
+    return sum / volume;
+}
 
 /* Sums over a selection: of the quantity, of the squared distance from the formula's field, and of the area (or the
  * number of nodes). */
@@ -50,16 +144,16 @@ static double pick_component(OstStressComponent component, const double s[6], co
 }
 
 /* The element's stress: with mean dilatation, the stiff mode enters by its mean over the tet. */
-static OstStatus stress_in_tet(const View *view, const OstViewTet *tet, const double at[4], const double place[3],
+static OstStatus stress_in_tet(const View *view, const Tet *tet, const double at[4], const double place[3],
                                double stress[6])
 {
     double c[36], strain[6];
-    OstViewMode mode;
+    Mode mode;
     OST_TRY(view->exact->stiffness(view->exact->data, place, c));
-    ost_view_strain(tet, at, strain);
-    ost_view_stress(c, strain, stress);
-    ost_view_mode(view, tet->number, place, &mode);
-    const double excess = ost_view_dot6(mode.m, strain) - ost_view_mean_of_mode(view, tet);
+    strain_at(tet, at, strain);
+    ost_apply6(c, strain, stress);
+    find_mode(view, tet->number, place, &mode);
+    const double excess = ost_dot6(mode.m, strain) - mean_of_mode(view, tet);
     for (int p = 0; p < 6 && mode.split; p++)
         stress[p] -= excess * mode.m[p];
     return OST_SUCCESS;
@@ -77,12 +171,12 @@ static OstStatus find_stress(const View *view, const Point *point, double *value
     const OstLocal *face = point->surface->nodes + (size_t)point->surface->nodes_per_face * (size_t)point->face;
     const OstLocal *vertices = view->mesh->tet_nodes + (size_t)view->mesh->nodes_per_tet * (size_t)number;
     double in_tet[4] = {0.0}, stress[6], exact[6];
-    OstViewTet tet;
+    Tet tet;
     for (int v = 0; v < 4; v++)
         for (int a = 0; a < 3; a++)
             if (face[a] == vertices[v])
                 in_tet[v] = point->at[a];
-    ost_view_gather_tet(view, number, &tet);
+    gather_tet(view, number, &tet);
     OST_TRY(stress_in_tet(view, &tet, in_tet, point->place, stress));
     OST_TRY(view->exact->stress(view->exact->data, point->place, exact));
     *value = pick_component(view->quantity->component, stress, point->place);
@@ -110,8 +204,8 @@ static OstStatus add_face(const View *view, const OstSurface *surface, OstLocal 
     const int n = surface->nodes_per_face;
     const OstLocal *nodes = surface->nodes + (size_t)n * (size_t)f;
     double x[3 * OST_MAX_FACE_NODES], u[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    ost_view_gather(nodes, n, view->mesh->coordinates, x);
-    ost_view_gather(nodes, n, view->result->displacement, u);
+    ost_gather3(n, nodes, view->mesh->coordinates, x);
+    ost_gather3(n, nodes, view->result->displacement, u);
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         Point point = {surface, f, ost_triangle_degree5.point[q].at, {0.0}};
         double moved[3], area[3], value, distance;
@@ -170,17 +264,14 @@ static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal 
     OstContext *ctx = view->mesh->ctx;
     OstSurface *surface = NULL;
     unsigned char *selected = NULL;
-    OstStatus status = ost_surface_create(view->mesh, &surface);
-    if (status != OST_SUCCESS)
-        return status;
-    status = OST_NEW(ctx, &selected, view->mesh->node_count);
-    for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_surface_create(view->mesh, &surface));
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &selected, view->mesh->node_count)));
+    for (OstLocal i = 0; i < count; i++)
         selected[nodes[i]] = 1;
-    if (status == OST_SUCCESS)
-        status = sum_faces(view, selected, surface, sums);
-    status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_view_reduce(ctx, SUMS, sums);
+    OST_TRY_DONE(ost_agree(ctx, sum_faces(view, selected, surface, sums)));
+    status = ost_sum(ctx, SUMS, sums);
+done:
     OST_FREE(selected);
     ost_surface_destroy(&surface);
     return status;
@@ -192,32 +283,108 @@ static OstStatus sum_selection(const View *view, const OstCase *c, double sums[S
     OstContext *ctx = view->mesh->ctx;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
-    OstStatus status = ost_select_nodes(c, view->mesh, &quantity->on, &count, &nodes);
-    if (status == OST_SUCCESS && quantity->kind != OST_MEASURE_REACTION)
-        status = measure_faces(view, count, nodes, sums);
-    if (status == OST_SUCCESS && sums[SIZE] == 0.0 && quantity->kind == OST_MEASURE_STRESS)
-        status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s:%d: stress is measured over faces, and the selection has none",
-                           c->path, quantity->line);
-    if (status == OST_SUCCESS && sums[SIZE] == 0.0) {
-        status = ost_agree(ctx, sum_nodes(view, count, nodes, sums));
-        if (status == OST_SUCCESS)
-            status = ost_view_reduce(ctx, SUMS, sums);
-    }
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_select_nodes(c, view->mesh, &quantity->on, &count, &nodes));
+    if (quantity->kind != OST_MEASURE_REACTION)
+        OST_TRY_DONE(measure_faces(view, count, nodes, sums));
+    if (sums[SIZE] != 0.0)
+        goto done;
+    if (quantity->kind == OST_MEASURE_STRESS)
+        OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_INPUT,
+                               "%s:%d: stress is measured over faces, and the selection has "
+                               "none",
+                               c->path, quantity->line));
+    OST_TRY_DONE(ost_agree(ctx, sum_nodes(view, count, nodes, sums)));
+    status = ost_sum(ctx, SUMS, sums);
+done:
     OST_FREE(nodes);
     return status;
 }
 
-/* The mean, or the sum of reactions; and the root mean square of the distance over the selection, because a mean can
- * come out right by accident, where errors of both signs cancel, and then says nothing of the order of convergence. */
-static OstStatus measure_selection(const View *view, const OstCase *c, double *value, double *distance)
+/* --- over the body --- */
+
+/* Squares of the formula's field and of the answer's distance from it, integrated over the body. */
+enum { OF_FORMULA, OF_DIFFERENCE, SQUARES };
+
+/* One quadrature point of a tet. */
+typedef struct TetPoint {
+    const double *at;
+    double values[OST_MAX_TET_NODES];
+    double place[3];
+    double weight; /* in volume */
+} TetPoint;
+
+static OstStatus add_displacement(const View *view, const Tet *tet, const TetPoint *point, double squares[SQUARES])
 {
-    double sums[SUMS] = {0.0};
-    OST_TRY(sum_selection(view, c, sums));
-    const double size = view->quantity->kind == OST_MEASURE_REACTION ? 1.0 : sums[SIZE];
-    *value = sums[VALUE] / size;
-    *distance = sqrt(sums[SQUARE] / size);
+    double exact[3], moved[3];
+    OST_TRY(view->exact->displacement(view->exact->data, point->place, exact));
+    ost_shape_place(tet->nodes, point->values, tet->u, moved);
+    for (int i = 0; i < 3; i++) {
+        squares[OF_FORMULA] += point->weight * exact[i] * exact[i];
+        squares[OF_DIFFERENCE] += point->weight * (moved[i] - exact[i]) * (moved[i] - exact[i]);
+    }
     return OST_SUCCESS;
 }
+
+/* The element's energy: with mean dilatation, the stiff mode is left out here and its integral goes to `modes`. */
+static OstStatus add_energy(const View *view, const Tet *tet, const TetPoint *point, double squares[SQUARES],
+                            double modes[SQUARES])
+{
+    double g[9], c[36], strain[SQUARES][6], stress[6];
+    Mode mode;
+    OST_TRY(view->exact->gradient(view->exact->data, point->place, g));
+    OST_TRY(view->exact->stiffness(view->exact->data, point->place, c));
+    strain_of_gradient(g, strain[OF_FORMULA]);
+    strain_at(tet, point->at, strain[OF_DIFFERENCE]);
+    find_mode(view, tet->number, point->place, &mode);
+    for (int p = 0; p < 6; p++)
+        strain[OF_DIFFERENCE][p] -= strain[OF_FORMULA][p];
+    for (int s = 0; s < SQUARES; s++) {
+        const double part = ost_dot6(mode.m, strain[s]);
+        ost_apply6(c, strain[s], stress);
+        squares[s] += point->weight * (ost_dot6(stress, strain[s]) - part * part);
+        modes[s] += point->weight * part;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_tet(const View *view, OstLocal number, double squares[SQUARES])
+{
+    Tet tet;
+    double modes[SQUARES] = {0.0}; /* integrals of m'strain, m being the stiff mode */
+    double gradients[3 * OST_MAX_TET_NODES], volume = 0.0;
+    gather_tet(view, number, &tet);
+    for (int q = 0; q < ost_tet_degree5.count; q++) {
+        TetPoint point = {.at = ost_tet_degree5.point[q].at};
+        ost_shape_values(tet.nodes, point.at, point.values);
+        ost_shape_place(tet.nodes, point.values, tet.x, point.place);
+        point.weight =
+            ost_tet_degree5.point[q].weight * ost_shape_gradients(tet.nodes, point.at, tet.x, gradients) / 6.0;
+        volume += point.weight;
+        OST_TRY(view->quantity->norm == OST_NORM_DISPLACEMENT ? add_displacement(view, &tet, &point, squares)
+                                                              : add_energy(view, &tet, &point, squares, modes));
+    }
+    for (int s = 0; s < SQUARES; s++)
+        squares[s] += modes[s] * modes[s] / volume;
+    return OST_SUCCESS;
+}
+
+static OstStatus measure_field(const View *view, OstVerifyReading *reading)
+{
+    OstContext *ctx = view->mesh->ctx;
+    double squares[SQUARES] = {0.0};
+    OstStatus status = OST_SUCCESS;
+    for (OstLocal tet = 0; tet < view->mesh->owned_tets && status == OST_SUCCESS; tet++)
+        status = add_tet(view, tet, squares);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_sum(ctx, SQUARES, squares));
+    reading->expected = sqrt(squares[OF_FORMULA]);
+    reading->obtained = sqrt(fmax(squares[OF_DIFFERENCE], 0.0));
+    reading->error = reading->obtained / reading->expected;
+    return OST_SUCCESS;
+}
+
+/* --- a quantity --- */
 
 static OstStatus find_expected(const OstCase *c, const OstExact *exact, const OstVerifyQuantity *quantity,
                                double *expected)
@@ -233,20 +400,24 @@ static OstStatus find_expected(const OstCase *c, const OstExact *exact, const Os
     return OST_SUCCESS;
 }
 
+/* Over a selection: the mean, or the sum of reactions; and the root mean square of the distance, because a mean can
+ * come out right by accident, where errors of both signs cancel, and then says nothing of the order of convergence. */
 OstStatus ost_verify_measure(const OstScene *scene, const OstResult *result, const OstExact *exact,
                              const OstVerifyQuantity *quantity, OstVerifyReading *reading)
 {
     const View view = {scene->mesh, result, &exact->field, quantity};
-    double distance = 0.0;
+    double sums[SUMS] = {0.0};
     if (quantity->kind == OST_MEASURE_FIELD)
-        return ost_view_measure_field(&view, reading);
+        return measure_field(&view, reading);
     OST_TRY(find_expected(scene->c, exact, quantity, &reading->expected));
     if (quantity->kind == OST_MEASURE_ENERGY)
-        reading->obtained = result->checks.strain_energy;
+        sums[VALUE] = result->checks.strain_energy;
     else
-        OST_TRY(measure_selection(&view, scene->c, &reading->obtained, &distance));
-    reading->obtained *= quantity->scale;
-    distance *= fabs(quantity->scale);
+        OST_TRY(sum_selection(&view, scene->c, sums));
+    const double size =
+        quantity->kind == OST_MEASURE_ENERGY || quantity->kind == OST_MEASURE_REACTION ? 1.0 : sums[SIZE];
+    const double distance = sqrt(sums[SQUARE] / size) * fabs(quantity->scale);
+    reading->obtained = sums[VALUE] / size * quantity->scale;
     reading->error = fmax(fabs(reading->obtained - reading->expected), distance) / fabs(reading->expected);
     return OST_SUCCESS;
 }

@@ -15,39 +15,35 @@ static void print_number(const char *format, int width, double number)
         printf(format, number);
 }
 
-static void print_reading(const OstVerifyReport *report, int quantity, const OstVerifyRun *run,
-                          const OstVerifyVerdict *verdict)
+static void print_verdict(const OstVerifyVerdict *verdict)
 {
-    const OstVerify *verify = report->c->verify;
-    const OstVerifyReading *reading = &run->reading[quantity];
-    const int is_field = verify->quantity[quantity].kind == OST_MEASURE_FIELD;
-    printf("  %-24.24s P%d %9lld", verify->quantity[quantity].name, verify->step[run->step].order,
-           (long long)run->unknowns);
-    print_number(" %13.6e", 13, is_field ? NAN : reading->expected);
-    print_number(" %13.6e", 13, is_field ? NAN : reading->obtained);
-    printf(" %8.1e", reading->error);
-    if (verdict) {
-        printf(" %8.1e", verdict->error_limit);
-        print_number(" %6.2f", 6, verdict->rate);
-        if (isnan(verdict->order))
-            printf(" %6s", "exact");
-        else if (verdict->order == OST_RATE_LOCKED)
-            printf(" %6s", "locks");
-        else
-            printf(" %6g", verdict->order);
-        printf("  %s", verdict->passed ? "pass" : "FAIL");
-    }
-    puts("");
+    printf(" %8.1e", verdict->error_limit);
+    print_number(" %6.2f", 6, verdict->rate);
+    if (verdict->order == OST_RATE_LOCKED || isnan(verdict->order))
+        printf(" %6s", isnan(verdict->order) ? "exact" : "locks");
+    else
+        printf(" %6g", verdict->order);
+    printf("  %s", verdict->passed ? "pass" : "FAIL");
 }
 
-static void print_quantity(const OstVerifyReport *report, int quantity, int all)
+static void print_quantity(const OstVerifyReport *report, int q, int all)
 {
     const OstVerify *verify = report->c->verify;
+    const int is_field = verify->quantity[q].kind == OST_MEASURE_FIELD;
     for (int r = 0; r < report->run_count; r++) {
         const OstVerifyRun *run = &report->run[r];
-        const OstVerifyVerdict *verdict = &report->verdict[quantity * verify->step_count + run->step];
-        if (all || verdict->run == r)
-            print_reading(report, quantity, run, verdict->run == r ? verdict : NULL);
+        const OstVerifyReading *reading = &run->reading[q];
+        const OstVerifyVerdict *verdict = &report->verdict[q * verify->step_count + run->step];
+        if (!all && verdict->run != r)
+            continue;
+        printf("  %-24.24s P%d %9lld", verify->quantity[q].name, verify->step[run->step].order,
+               (long long)run->unknowns);
+        print_number(" %13.6e", 13, is_field ? NAN : reading->expected);
+        print_number(" %13.6e", 13, is_field ? NAN : reading->obtained);
+        printf(" %8.1e", reading->error);
+        if (verdict->run == r)
+            print_verdict(verdict);
+        puts("");
     }
 }
 
@@ -91,22 +87,21 @@ void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
 
 /* --- JSON --- */
 
-static json_t *level_json(const OstVerifyRun *run, int quantity)
-{
-    const OstVerifyReading *reading = &run->reading[quantity];
-    return json_pack("{s:i, s:f, s:I, s:o, s:o, s:o}", "refinement", run->refinement, "h", run->h, "unknowns",
-                     (json_int_t)run->unknowns, "expected", ost_json_number(reading->expected), "obtained",
-                     ost_json_number(reading->obtained), "error", ost_json_number(reading->error));
-}
-
 static json_t *step_json(const OstVerifyReport *report, int quantity, int step)
 {
     const OstVerify *verify = report->c->verify;
     const OstVerifyVerdict *verdict = &report->verdict[quantity * verify->step_count + step];
     json_t *levels = json_array();
-    for (int r = 0; r < report->run_count; r++)
-        if (report->run[r].step == step)
-            json_array_append_new(levels, level_json(&report->run[r], quantity));
+    for (int r = 0; r < report->run_count; r++) {
+        const OstVerifyRun *run = &report->run[r];
+        const OstVerifyReading *reading = &run->reading[quantity];
+        if (run->step == step)
+            json_array_append_new(levels, json_pack("{s:i, s:f, s:I, s:o, s:o, s:o}", "refinement", run->refinement,
+                                                    "h", run->h, "unknowns", (json_int_t)run->unknowns, "expected",
+                                                    ost_json_number(reading->expected), "obtained",
+                                                    ost_json_number(reading->obtained), "error",
+                                                    ost_json_number(reading->error)));
+    }
     return json_pack("{s:i, s:o, s:f, s:o, s:o, s:b, s:b}", "order", verify->step[step].order, "levels", levels,
                      "error_limit", verdict->error_limit, "rate", ost_json_number(verdict->rate), "order_of_theory",
                      ost_json_number(verdict->order), "locks", verdict->order == OST_RATE_LOCKED, "passed",

@@ -9,15 +9,17 @@
 #include <stdio.h>
 #include <string.h>
 
-const double ost_verify_balance = 1e-10;
+/* Largest relative imbalance of loads and reactions (forces and moments), and of strain energy and work, in any run. */
+static const double balance = 1e-10;
 
 /* Strain energy and work differ by u·r. Rounding alone leaves a relative difference of up to 2^-53 |u|·|K| |u| / f·u:
  * 2.4e-9 for the finest beam (10 × 1 × 1, 245,760 tets), where the stiffness of one tet is far above that of the beam.
  * Nearly all of it occurs, because equal tets have equal rounding errors. */
-const double ost_verify_energy_balance = 2.4e-9;
+static const double energy_balance = 2.4e-9;
 
-const double ost_verify_share_of_order = 0.9;
-const double ost_verify_quick_share_of_order = 0.6;
+/* The observed order of convergence must be at least this share of the theoretical one. An implementation that loses an
+ * order reaches three quarters at most. Quick runs stop before the order settles, so less is asked of them. */
+static const double share_of_order = 0.9, quick_share_of_order = 0.6;
 
 /* Errors below this are rounding errors, and have no rate of convergence. */
 static const double rounding = 1e-10;
@@ -25,20 +27,15 @@ static const double rounding = 1e-10;
 /* Where linear tets are expected to lock, the error must be at least this share of its limit. */
 static const double locked_share = 0.5;
 
-static OstStatus body_volume(const OstMesh *mesh, double *volume)
-{
-    *volume = 0.0;
-    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
-        *volume += ost_tet_volume(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet);
-    return ost_sum(mesh->ctx, 1, volume);
-}
-
 static OstStatus measure_all(const OstScene *scene, const OstResult *result, const OstExact *exact, OstVerifyRun *run)
 {
     const OstVerify *verify = scene->c->verify;
-    double volume;
-    OST_TRY(body_volume(scene->mesh, &volume));
-    run->tets = scene->mesh->global_tets;
+    const OstMesh *mesh = scene->mesh;
+    double volume = 0.0;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
+        volume += ost_tet_volume(mesh->coordinates, mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet);
+    OST_TRY(ost_sum(mesh->ctx, 1, &volume));
+    run->tets = mesh->global_tets;
     run->unknowns = result->unknowns;
     run->h = cbrt(6.0 * volume / (double)run->tets);
     run->iterations = result->solve.iterations;
@@ -63,14 +60,13 @@ static OstStatus solve_and_measure(const OstCase *c, const OstExact *exact, OstV
     ost_warn_listen(c->ctx, hear_locking, run);
     OstStatus status = ost_scene_create(c, &scene);
     ost_warn_listen(c->ctx, NULL, NULL);
-    if (status == OST_SUCCESS) {
-        scene->exact = &exact->field;
-        status = ost_scene_solve(scene, &result);
-    }
-    if (status == OST_SUCCESS)
-        status = measure_all(scene, result, exact, run);
-    if (status == OST_SUCCESS)
-        status = OST_MPI(c->ctx, MPI_Bcast(&run->warned_of_locking, 1, MPI_INT, 0, ost_comm(c->ctx)));
+    if (status != OST_SUCCESS)
+        goto done;
+    scene->exact = &exact->field;
+    OST_TRY_DONE(ost_scene_solve(scene, &result));
+    OST_TRY_DONE(measure_all(scene, result, exact, run));
+    status = OST_MPI(c->ctx, MPI_Bcast(&run->warned_of_locking, 1, MPI_INT, 0, ost_comm(c->ctx)));
+done:
     run->seconds = ost_seconds() - start;
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);
@@ -111,19 +107,6 @@ static OstStatus run_all_meshes(OstVerifyReport *report, const OstExact *exact, 
 
 /* --- what the readings say --- */
 
-static void find_last_runs(const OstVerifyReport *report, int step, int *last, int *before, int *count)
-{
-    *last = *before = -1;
-    *count = 0;
-    for (int r = 0; r < report->run_count; r++) {
-        if (report->run[r].step != step)
-            continue;
-        *before = *last;
-        *last = r;
-        (*count)++;
-    }
-}
-
 /* Locking as expected: the program warned of it, the error falls with each refinement and from the stiff side, and (on
  * all meshes: `whole`) it ends within its limits. */
 static int is_locked(const OstVerifyReport *report, int quantity, int step, const OstVerifyVerdict *verdict, int whole)
@@ -155,8 +138,13 @@ static void judge(const OstVerifyReport *report, int quantity, int step, OstVeri
 {
     const OstVerifyQuantity *stated = &report->c->verify->quantity[quantity];
     const double order = stated->rate[step];
-    int last, before, count;
-    find_last_runs(report, step, &last, &before, &count);
+    int last = -1, before = -1, count = 0;
+    for (int r = 0; r < report->run_count; r++)
+        if (report->run[r].step == step) {
+            before = last;
+            last = r;
+            count++;
+        }
     *verdict = (OstVerifyVerdict){last, NAN, stated->error[step], order, 1};
     if (last < 0)
         return;
@@ -170,18 +158,8 @@ static void judge(const OstVerifyReport *report, int quantity, int step, OstVeri
         verdict->passed = holds_exactly(report, quantity, step, verdict->error_limit);
     } else {
         verdict->error_limit *= pow(2.0, order * missing);
-        const double share = missing == 0 ? ost_verify_share_of_order : ost_verify_quick_share_of_order;
+        const double share = missing == 0 ? share_of_order : quick_share_of_order;
         verdict->passed = error <= verdict->error_limit && (isnan(verdict->rate) || verdict->rate >= share * order);
-    }
-}
-
-static void find_worst_balance(OstVerifyReport *report)
-{
-    for (int r = 0; r < report->run_count; r++) {
-        const OstChecks *checks = &report->run[r].checks;
-        report->force_imbalance = fmax(report->force_imbalance, checks->force_imbalance);
-        report->moment_imbalance = fmax(report->moment_imbalance, checks->moment_imbalance);
-        report->energy_imbalance = fmax(report->energy_imbalance, checks->energy_imbalance);
     }
 }
 
@@ -189,10 +167,14 @@ static OstStatus conclude(OstVerifyReport *report)
 {
     const OstVerify *verify = report->c->verify;
     OST_TRY(OST_NEW(report->ctx, &report->verdict, verify->quantity_count * verify->step_count));
-    find_worst_balance(report);
-    report->passed = report->failure == NULL && report->force_imbalance <= ost_verify_balance &&
-                     report->moment_imbalance <= ost_verify_balance &&
-                     report->energy_imbalance <= ost_verify_energy_balance;
+    for (int r = 0; r < report->run_count; r++) {
+        const OstChecks *checks = &report->run[r].checks;
+        report->force_imbalance = fmax(report->force_imbalance, checks->force_imbalance);
+        report->moment_imbalance = fmax(report->moment_imbalance, checks->moment_imbalance);
+        report->energy_imbalance = fmax(report->energy_imbalance, checks->energy_imbalance);
+    }
+    report->passed = report->failure == NULL && report->force_imbalance <= balance &&
+                     report->moment_imbalance <= balance && report->energy_imbalance <= energy_balance;
     for (int q = 0; q < verify->quantity_count && !report->failure; q++)
         for (int s = 0; s < verify->step_count; s++) {
             OstVerifyVerdict *verdict = &report->verdict[q * verify->step_count + s];
@@ -210,21 +192,16 @@ static OstStatus take_failure(OstVerifyReport *report, OstStatus status)
     return ost_agree(report->ctx, ost_copy_string(report->ctx, ost_error_text(report->ctx), &report->failure));
 }
 
-static OstStatus name_report(OstVerifyReport *report, const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    OST_TRY(ost_copy_string(report->ctx, slash ? slash + 1 : path, &report->name));
-    char *dot = strrchr(report->name, '.');
-    if (dot && dot != report->name)
-        *dot = 0;
-    return OST_SUCCESS;
-}
-
 static OstStatus create_report(OstContext *ctx, const char *path, OstVerifyReport **report)
 {
+    const char *slash = strrchr(path, '/');
     OST_TRY(OST_NEW(ctx, report, 1));
     (*report)->ctx = ctx;
-    return name_report(*report, path);
+    OST_TRY(ost_copy_string(ctx, slash ? slash + 1 : path, &(*report)->name));
+    char *dot = strrchr((*report)->name, '.');
+    if (dot && dot != (*report)->name)
+        *dot = 0;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerifyReport **out)

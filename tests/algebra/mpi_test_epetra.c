@@ -11,18 +11,6 @@ static OstEpetraMap *make_map(void)
     return map;
 }
 
-static void numbers_follow_the_ranks(void **state)
-{
-    (void)state;
-    OstEpetraMap *map = make_map();
-    const OstGlobal size = ost_size(ctx);
-    const OstGlobal rank = ost_rank(ctx);
-    assert_int_equal(ost_epetra_map_size(map), 5 * size * (size - 1) / 2);
-    assert_int_equal(ost_epetra_map_first(map), 5 * rank * (rank - 1) / 2);
-    ost_epetra_map_destroy(&map);
-    assert_null(map);
-}
-
 static void a_norm_sees_the_values_of_all_ranks_in_place(void **state)
 {
     (void)state;
@@ -53,7 +41,6 @@ static void more_unknowns_than_epetra_numbers_are_refused(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_follow_the_ranks),
     cmocka_unit_test(a_norm_sees_the_values_of_all_ranks_in_place),
     cmocka_unit_test(more_unknowns_than_epetra_numbers_are_refused),
 };

@@ -80,7 +80,7 @@ static void destroy_coarse(Coarse *c)
 static double *vector(void)
 {
     double *made = NULL;
-    assert_success(ost_level_vector_create(ctx, 6, 2000, &made));
+    assert_success(ost_level_vector_create(ctx, 6, (size_t)2000, &made));
     return made;
 }
 
@@ -126,9 +126,9 @@ static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
     double *x = noise(c.tentative->first_coarse, c.coarse->rows, 6, 1.7), *cx = vector();
     double *px = vector(), *apx = vector(), *expected = vector();
     assert_int_equal(c.coarse->rows, c.tentative->coarse_nodes);
-    assert_success(ost_prolongator_add(c.prolongator, x, px));
+    ost_prolongator_add(c.prolongator, x, px);
     apply(c.matrix, px, apx);
-    assert_success(ost_prolongator_restrict(c.prolongator, apx, expected));
+    ost_prolongator_restrict(c.prolongator, apx, expected);
     apply(c.coarse, x, cx);
     const double size = sqrt(global_dot(n, expected, expected));
     assert_true(size > 1.0);

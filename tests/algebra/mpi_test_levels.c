@@ -47,7 +47,7 @@ static void tear_down(Setup *s)
 static double *new_vector(void)
 {
     double *vector = NULL;
-    assert_success(ost_level_vector_create(ctx, 6, 5000, &vector));
+    assert_success(ost_level_vector_create(ctx, 6, (size_t)5000, &vector));
     return vector;
 }
 
@@ -86,9 +86,9 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
     for (int l = 0; l + 1 < s.levels.count; l++) {
         OstLevelMatrix *fine = s.levels.matrix[l], *coarse = s.levels.matrix[l + 1];
         double *x = noise(coarse, 1), *px = new_vector(), *ax = new_vector(), *apx = new_vector();
-        assert_success(ost_prolongator_add(s.levels.prolongator[l], x, px));
-        assert_success(ost_level_matrix_add(fine, 1.0, px, apx));
-        assert_success(ost_level_matrix_add(coarse, 1.0, x, ax));
+        ost_prolongator_add(s.levels.prolongator[l], x, px);
+        ost_level_matrix_add(fine, 1.0, px, apx);
+        ost_level_matrix_add(coarse, 1.0, x, ax);
         const double energy = global_dot(owned(coarse), x, ax);
         assert_true(energy > 0.0);
         assert_close(global_dot(owned(fine), px, apx) / energy, 1.0, 1e-5); /* single precision */
@@ -108,13 +108,13 @@ static double fit(const OstProlongator *p, size_t coarse_owned, const double *m,
     memcpy(residual, m, n * sizeof *m);
     double square = 0.0;
     for (int k = 0; k < 60; k++) {
-        assert_success(ost_prolongator_restrict(p, residual, gradient));
+        ost_prolongator_restrict(p, residual, gradient);
         const double next = global_dot(coarse_owned, gradient, gradient);
         for (size_t i = 0; i < coarse_owned; i++)
             direction[i] = gradient[i] + (k > 0 ? next / square : 0.0) * direction[i];
         square = next;
         memset(image, 0, n * sizeof *image);
-        assert_success(ost_prolongator_add(p, direction, image));
+        ost_prolongator_add(p, direction, image);
         const double step = square / global_dot(n, image, image);
         for (size_t i = 0; i < coarse_owned; i++)
             c[i] += step * direction[i];
@@ -141,7 +141,7 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
             OstLevelMatrix *coarse = s.levels.matrix[l + 1];
             double *c = new_vector(), *ac = new_vector();
             assert_true(fit(s.levels.prolongator[l], owned(coarse), m, c) < 1e-5); /* single precision */
-            assert_success(ost_level_matrix_add(coarse, 1.0, c, ac));
+            ost_level_matrix_add(coarse, 1.0, c, ac);
             const double force = sqrt(global_dot(owned(coarse), ac, ac) / global_dot(owned(coarse), c, c));
             assert_true(force < 1e-5); /* the scaled matrix' largest eigenvalues are about 3 */
             OST_FREE(m);
@@ -163,8 +163,8 @@ static void the_smoother_is_symmetric_and_positive(void **state)
         OstSmoother *smoother = s.levels.smoother[l];
         assert_true(smoother->largest > 1.0 && smoother->largest < 10.0);
         double *x = noise(a, 1), *y = noise(a, 2), *mx = noise(a, 3), *my = noise(a, 4);
-        assert_success(ost_smoother_apply(smoother, x, mx, 1));
-        assert_success(ost_smoother_apply(smoother, y, my, 1));
+        ost_smoother_apply(smoother, x, mx, 1);
+        ost_smoother_apply(smoother, y, my, 1);
         const double xx = global_dot(owned(a), x, mx), yy = global_dot(owned(a), y, my);
         assert_true(xx > 0.0 && yy > 0.0);
         assert_close(global_dot(owned(a), x, my), global_dot(owned(a), y, mx), 1e-5 * sqrt(xx * yy));
@@ -211,7 +211,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     double *b = noise(a, 1), *x = noise(a, 2);
     assert_success(ost_coarsest_solve(coarsest, b, x));
     const double size = global_dot(owned(a), b, b);
-    assert_success(ost_level_matrix_add(a, -1.0, x, b));
+    ost_level_matrix_add(a, -1.0, x, b);
     assert_true(sqrt(global_dot(owned(a), b, b) / size) < 1e-4); /* the product is in single precision */
     OST_FREE(b);
     OST_FREE(x);

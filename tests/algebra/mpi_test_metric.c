@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/rigid_modes.h"
-#include "algebra/multigrid/metric.h"
+#include "algebra/solver.h"
 #include "elastic_block.h"
 #include "support.h"
 
@@ -11,12 +11,13 @@ static OstStatus solve(OstContext *context, const ElasticProblem *problem, doubl
     OstSolverOptions options = ost_solver_default_options();
     options.relative_residual = tolerance;
     options.coarsest_unknowns = 200;
-    OstMetric *metric = NULL;
+    options.method = OST_METHOD_METRIC;
+    OstSolver *solver = NULL;
     memset(report, 0, sizeof *report);
-    OstStatus status = ost_metric_create(context, problem->matrix, &problem->geometry, &options, &metric);
+    OstStatus status = ost_solver_create(context, problem->matrix, &problem->geometry, &options, &solver);
     if (status == OST_SUCCESS)
-        status = ost_metric_solve(metric, problem->force, u, report);
-    ost_metric_destroy(&metric);
+        status = ost_solver_solve(solver, problem->force, u, report);
+    ost_solver_destroy(&solver);
     return status;
 }
 

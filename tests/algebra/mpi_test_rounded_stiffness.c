@@ -4,7 +4,6 @@
 #include "elastic_block.h"
 
 #include "algebra/matrix/rounded_stiffness.h"
-#include "algebra/matrix/term_rounding.h"
 
 #include <float.h>
 

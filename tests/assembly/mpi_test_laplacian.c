@@ -15,9 +15,9 @@ static OstSupports *hold_potentials(const OstMesh *mesh)
             const double x = mesh->coordinates[3 * node + k];
             direction[k] = 1.0;
             if (x < 1e-12)
-                assert_success(ost_supports_hold(supports, node, direction, 1.0));
+                assert_success(ost_supports_constrain(supports, node, direction, 1.0));
             else if (x > size_of_body[k] - 1e-12)
-                assert_success(ost_supports_hold(supports, node, direction, 3.0));
+                assert_success(ost_supports_constrain(supports, node, direction, 3.0));
         }
     assert_success(ost_supports_complete(supports));
     return supports;

@@ -86,7 +86,7 @@ static void solve_pose(Pose *pose, void (*at)(const double *, double *))
         double u[3];
         at(mesh->coordinates + 3 * node, u);
         for (int i = 0; i < 3 && is_on_surface(mesh->coordinates + 3 * node); i++)
-            assert_success(ost_supports_hold(pose->supports, node, unit[i], u[i]));
+            assert_success(ost_supports_constrain(pose->supports, node, unit[i], u[i]));
     }
     assert_success(ost_supports_complete(pose->supports));
     pose->system = make_system(mesh, pose->supports, pose->field);

@@ -38,7 +38,7 @@ static void a_slide_on_an_oblique_plane_takes_its_normal(void **state)
     OstSupports *supports = begin(&mesh);
     const double normal[3] = {2.0, -1.0, 2.0}; /* of length 3: P = I - n n' / 9 */
     double p[9], g[3];
-    assert_success(ost_supports_hold(supports, 0, normal, 0.6));
+    assert_success(ost_supports_constrain(supports, 0, normal, 0.6));
     assert_int_equal(ost_supports_get(supports, 0, p, g), 1);
     for (int i = 0; i < 9; i++)
         assert_close(p[i], (i % 4 == 0 ? 1.0 : 0.0) - normal[i / 3] * normal[i % 3] / 9.0, 1e-15);
@@ -58,7 +58,7 @@ static void skew_directions_together_hold_a_node(void **state)
     double p[9], g[3];
     for (int k = 0; k < 4; k++) /* the fourth repeats what the three say */
         assert_success(
-            ost_supports_hold(supports, 0, direction[k], ost_dot3(direction[k], u) / ost_norm3(direction[k])));
+            ost_supports_constrain(supports, 0, direction[k], ost_dot3(direction[k], u) / ost_norm3(direction[k])));
     assert_int_equal(ost_supports_get(supports, 0, p, g), 3);
     for (int i = 0; i < 9; i++)
         assert_close(p[i], 0.0, 0.0);
@@ -75,9 +75,9 @@ static void holding_the_same_twice_is_holding_it_once(void **state)
     const double x[3] = {1, 0, 0};
     const double back[3] = {-5, 0, 0};
     double p[9], g[3];
-    assert_success(ost_supports_hold(supports, 0, x, 0.1));
-    assert_success(ost_supports_hold(supports, 0, x, 0.1));
-    assert_success(ost_supports_hold(supports, 0, back, -0.1));
+    assert_success(ost_supports_constrain(supports, 0, x, 0.1));
+    assert_success(ost_supports_constrain(supports, 0, x, 0.1));
+    assert_success(ost_supports_constrain(supports, 0, back, -0.1));
     assert_int_equal(ost_supports_get(supports, 0, p, g), 1);
     assert_close(g[0], 0.1, 0.0);
     end(supports, mesh);
@@ -92,12 +92,12 @@ static void contradictions_are_refused_in_words(void **state)
     const double z[3] = {0, 0, 1};
     const double between[3] = {1, 0, 1};
     char text[80];
-    assert_success(ost_supports_hold(supports, 0, z, 0.0));
-    snprintf(text, sizeof text, "vertex %lld is held to 0 along (0, 0, 1) and to 0.1 by another constraint",
+    assert_success(ost_supports_constrain(supports, 0, z, 0.0));
+    snprintf(text, sizeof text, "vertex %lld is constrained to 0 along (0, 0, 1) and to 0.1 by another constraint",
              (long long)mesh->node_label[0]);
-    assert_failure(ost_supports_hold(supports, 0, z, 0.1), OST_INVALID_INPUT, text);
-    assert_success(ost_supports_hold(supports, 0, x, 0.0));
-    assert_failure(ost_supports_hold(supports, 0, between, 0.2), OST_INVALID_INPUT, "by another constraint");
+    assert_failure(ost_supports_constrain(supports, 0, z, 0.1), OST_INVALID_INPUT, text);
+    assert_success(ost_supports_constrain(supports, 0, x, 0.0));
+    assert_failure(ost_supports_constrain(supports, 0, between, 0.2), OST_INVALID_INPUT, "by another constraint");
     end(supports, mesh);
 }
 
@@ -109,9 +109,9 @@ static void useless_directions_are_refused(void **state)
     const double zero[3] = {0, 0, 0};
     const double endless[3] = {INFINITY, 0, 0};
     const double x[3] = {1, 0, 0};
-    assert_failure(ost_supports_hold(supports, 0, zero, 0.0), OST_INVALID_INPUT, "not zero");
-    assert_failure(ost_supports_hold(supports, 0, endless, 0.0), OST_INVALID_INPUT, "finite");
-    assert_failure(ost_supports_hold(supports, 0, x, NAN), OST_INVALID_INPUT, "finite");
+    assert_failure(ost_supports_constrain(supports, 0, zero, 0.0), OST_INVALID_INPUT, "not zero");
+    assert_failure(ost_supports_constrain(supports, 0, endless, 0.0), OST_INVALID_INPUT, "finite");
+    assert_failure(ost_supports_constrain(supports, 0, x, NAN), OST_INVALID_INPUT, "finite");
     end(supports, mesh);
 }
 
@@ -120,7 +120,7 @@ static void nothing_held_anywhere_is_refused(void **state)
     (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
-    assert_failure(ost_supports_complete(supports), OST_INVALID_INPUT, "nothing is held");
+    assert_failure(ost_supports_complete(supports), OST_INVALID_INPUT, "nothing is constrained");
     end(supports, mesh);
 }
 
@@ -134,7 +134,7 @@ static void ghosts_are_held_as_their_owners_say(void **state)
         const double label = (double)mesh->node_label[node];
         const double normal[3] = {1.0, label, -2.0};
         if (mesh->node_label[node] % 2 == 1)
-            assert_success(ost_supports_hold(supports, node, normal, label));
+            assert_success(ost_supports_constrain(supports, node, normal, label));
     }
     assert_success(ost_supports_complete(supports));
     for (OstLocal node = 0; node < mesh->node_count; node++) {

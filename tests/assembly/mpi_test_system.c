@@ -21,7 +21,7 @@ static void hold_surface_to_linear_field(const OstMesh *mesh, OstSupports *suppo
         double u[3];
         displacement_at(x, u);
         for (int i = 0; i < 3 && is_on_surface(x); i++)
-            assert_success(ost_supports_hold(supports, node, unit[i], u[i]));
+            assert_success(ost_supports_constrain(supports, node, unit[i], u[i]));
     }
     assert_success(ost_supports_complete(supports));
 }
@@ -90,9 +90,9 @@ static Held make_held(OstContext *of, int hold_all_of_bottom, double along_norma
         const double *x = mesh->coordinates + 3 * node;
         if (x[0] < 1e-12)
             for (int i = 0; i < (hold_all_of_bottom ? 3 : 2); i++)
-                assert_success(ost_supports_hold(held.supports, node, unit[i], 0.0));
+                assert_success(ost_supports_constrain(held.supports, node, unit[i], 0.0));
         else if (x[0] > size_of_body[0] - 1e-12)
-            assert_success(ost_supports_hold(held.supports, node, oblique, along_normal));
+            assert_success(ost_supports_constrain(held.supports, node, oblique, along_normal));
     }
     assert_success(ost_supports_complete(held.supports));
     held.system = make_system(mesh, held.supports, held.field);
@@ -211,7 +211,7 @@ static void effects_that_are_off_are_not_entered(void **state)
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         if (mesh->coordinates[3 * node] < 1e-12)
             for (int i = 0; i < 2; i++) /* free along z, held along coordinates: no slide */
-                assert_success(ost_supports_hold(supports, node, unit[i], 0.0));
+                assert_success(ost_supports_constrain(supports, node, unit[i], 0.0));
     assert_success(ost_supports_complete(supports));
     OstSystem *system = make_system(mesh, supports, field);
     double *force = numbers(3 * (size_t)mesh->node_count);
@@ -429,7 +429,7 @@ static void a_body_without_a_free_vertex_is_refused(void **state)
     assert_success(ost_supports_create(mesh, &supports));
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         for (int i = 0; i < 3; i++)
-            assert_success(ost_supports_hold(supports, node, unit[i], 0.0));
+            assert_success(ost_supports_constrain(supports, node, unit[i], 0.0));
     assert_success(ost_supports_complete(supports));
     assert_failure(ost_system_create(mesh, supports, &system), OST_INVALID_INPUT, "nothing to solve for");
     assert_null(system);

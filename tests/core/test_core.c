@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "core/small.h"
@@ -116,6 +117,24 @@ static void every_status_has_its_exit_code(void **state)
     assert_string_equal(ost_status_name(99), "unknown status");
 }
 
+static void assert_json_text(const char *text, const char *expected)
+{
+    json_t *json = ost_json_text(text);
+    assert_non_null(json);
+    assert_string_equal(json_string_value(json), expected);
+    json_decref(json);
+}
+
+/* JSON refuses a text whose last character a buffer has cut, and with it all that it stands in. */
+static void a_text_that_was_cut_is_json_all_the_same(void **state)
+{
+    (void)state;
+    assert_json_text("", "");
+    assert_json_text("p·Ap", "p·Ap");
+    assert_json_text("p\xc2", "p");         /* of a character of two bytes */
+    assert_json_text("√E \xe2\x88", "√E "); /* of three */
+}
+
 /* Asked before libraries are called that end the process where memory runs out. */
 static void memory_that_is_not_there_is_refused_before_it_is_asked_for(void **state)
 {
@@ -135,6 +154,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_status_has_its_exit_code),
     cmocka_unit_test(warnings_are_heard_even_when_quiet),
     cmocka_unit_test(memory_that_is_not_there_is_refused_before_it_is_asked_for),
+    cmocka_unit_test(a_text_that_was_cut_is_json_all_the_same),
 };
 
 OST_TEST_MAIN(tests)

@@ -45,13 +45,13 @@ static inline void orthotropic_material(OstMaterial *material)
     assert_success(ost_material_create(ctx, "ply", &constants, 2.0, material));
 }
 
-/* A 6×6 matrix, as an upper triangle, in every lane. */
-static inline void fill_lanes(const double c[36], OstLanes *lanes)
+/* The upper triangle of a 6×6 matrix, for every tet of a batch. */
+static inline void fill_batch(const double c[36], OstSimd *batch)
 {
     for (int p = 0, n = 0; p < 6; p++)
         for (int q = p; q < 6; q++, n++)
-            for (int lane = 0; lane < OST_LANES; lane++)
-                lanes[n][lane] = c[6 * p + q];
+            for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+                batch[n][slot] = c[6 * p + q];
 }
 
 /* One C in every tet. */
@@ -61,7 +61,7 @@ static inline void uniform_elasticity(const double c[36], OstElasticity *elastic
     elasticity->points = 1;
     elasticity->by_mean = 0;
     elasticity->region = 0;
-    fill_lanes(c, elasticity->c[0]);
+    fill_batch(c, elasticity->c[0]);
 }
 
 /* C of the ply in random axes. */
@@ -98,14 +98,14 @@ static inline void add_plain_product(int nodes, const double *g, const double c[
     free(b);
 }
 
-/* A lane's blocks as a full matrix. */
-static inline void full_matrix(int nodes, const OstLanes *blocks, int lane, double *k)
+/* One tet's blocks as a full matrix. */
+static inline void full_matrix(int nodes, const OstSimd *blocks, int slot, double *k)
 {
     const int width = 3 * nodes;
     for (int a = 0; a < nodes; a++)
         for (int b = a; b < nodes; b++)
             for (int n = 0; n < 9; n++) {
-                const double value = blocks[9 * ost_pair_index(nodes, a, b) + n][lane];
+                const double value = blocks[9 * ost_pair_index(nodes, a, b) + n][slot];
                 k[width * (3 * a + n / 3) + 3 * b + n % 3] = value;
                 k[width * (3 * b + n % 3) + 3 * a + n / 3] = value;
             }

@@ -43,20 +43,20 @@ static void assert_gathered(const OstMaterialField *field)
 {
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
-    for (OstLocal first = 0; first + OST_LANES <= TETS; first += OST_LANES) {
-        OstLocal tets[OST_LANES];
-        for (int lane = 0; lane < OST_LANES; lane++)
-            tets[lane] = first + lane;
+    for (OstLocal first = 0; first + OST_SIMD_WIDTH <= TETS; first += OST_SIMD_WIDTH) {
+        OstLocal tets[OST_SIMD_WIDTH];
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            tets[slot] = first + slot;
         ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
-        for (int lane = 0; lane < OST_LANES; lane++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             double c[36];
             double size = 0.0;
-            ost_field_stiffness(field, tets[lane], c);
+            ost_field_stiffness(field, tets[slot], c);
             for (int i = 0; i < 36; i++)
                 size = fmax(size, fabs(c[i]));
             for (int p = 0, n = 0; p < 6; p++)
                 for (int q = p; q < 6; q++)
-                    assert_close(elasticity.c[0][n++][lane] / size, c[6 * p + q] / size, 1e-15);
+                    assert_close(elasticity.c[0][n++][slot] / size, c[6 * p + q] / size, 1e-15);
         }
     }
 }
@@ -83,8 +83,8 @@ static void a_uniform_region_is_gathered_once(void **state)
 {
     (void)state;
     int32_t region[TETS];
-    const OstLocal same[OST_LANES] = {0, 1, 2, 3};
-    const OstLocal vary[OST_LANES] = {8, 9, 10, 11};
+    const OstLocal same[OST_SIMD_WIDTH] = {0, 1, 2, 3};
+    const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
     OstMaterialField *field = make_field(0, region);
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
@@ -101,43 +101,43 @@ static void a_uniform_region_is_gathered_once(void **state)
 }
 
 /* Three points in each of the tets 2 to 5 or 8 to 11. */
-static void some_places(OstLanes places[9])
+static void some_places(OstSimd places[9])
 {
     for (int n = 0; n < 9; n++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            places[n][lane] = cos(1.0 + n + 9 * lane);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            places[n][slot] = cos(1.0 + n + 9 * slot);
 }
 
-static void assert_at_points(const OstMaterialField *field, const OstLocal tets[OST_LANES])
+static void assert_at_points(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH])
 {
     OstElasticity elasticity;
-    OstLanes places[9];
+    OstSimd places[9];
     some_places(places);
     ost_elasticity_clear(&elasticity);
     ost_elasticity_gather(&elasticity, field, tets, 3, places);
     assert_int_equal(elasticity.points, 3);
     for (int point = 0; point < 3; point++)
-        for (int lane = 0; lane < OST_LANES; lane++) {
-            const int32_t region = field->tet_region[tets[lane]];
-            const double place[3] = {places[3 * point][lane], places[3 * point + 1][lane], places[3 * point + 2][lane]};
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            const int32_t region = field->tet_region[tets[slot]];
+            const double place[3] = {places[3 * point][slot], places[3 * point + 1][slot], places[3 * point + 2][slot]};
             const double *mode = elasticity.by_mean ? ost_field_stiff_mode(field, region) : NULL;
             double axes[9], turned[36], size = 0.0;
-            ost_field_axes_at(field, tets[lane], place, axes);
+            ost_field_axes_at(field, tets[slot], place, axes);
             ost_material_rotate_stiffness(field->material[region].stiffness, axes, turned);
             for (int p = 0; p < 36; p++)
                 size = fmax(size, fabs(turned[p]));
             for (int p = 0, n = 0; p < 6; p++)
                 for (int q = p; q < 6; q++, n++) {
-                    double c = elasticity.c[point][n][lane];
+                    double c = elasticity.c[point][n][slot];
                     if (elasticity.by_mean)
-                        c += elasticity.m[point][p][lane] * elasticity.m[point][q][lane];
+                        c += elasticity.m[point][p][slot] * elasticity.m[point][q][slot];
                     assert_close(c / size, turned[6 * p + q] / size, 1e-14);
                 }
             for (int p = 0; p < 6 && elasticity.by_mean; p++) {
                 double m = 0.0; /* the mode's stress in world axes */
                 for (int a = 0; a < 3 && mode; a++)
                     m += mode[a] * axes[3 * a + p % 3] * axes[3 * a + (p < 3 ? p : (p + 1) % 3)];
-                assert_close(elasticity.m[point][p][lane] / sqrt(size), m / sqrt(size), 1e-14);
+                assert_close(elasticity.m[point][p][slot] / sqrt(size), m / sqrt(size), 1e-14);
             }
         }
 }
@@ -146,13 +146,13 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
 {
     (void)state;
     int32_t region[TETS];
-    const OstLocal vary[OST_LANES] = {8, 9, 10, 11};
-    const OstLocal mixed_tets[OST_LANES] = {2, 3, 4, 5};
-    const OstLocal same[OST_LANES] = {4, 5, 6, 7};
+    const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
+    const OstLocal mixed_tets[OST_SIMD_WIDTH] = {2, 3, 4, 5};
+    const OstLocal same[OST_SIMD_WIDTH] = {4, 5, 6, 7};
     for (int mixed = 0; mixed < 2; mixed++) {
         int regions = 0;
         OstElasticity elasticity;
-        OstLanes places[9];
+        OstSimd places[9];
         OstMaterialField *field = make_field(mixed, region);
         assert_at_points(field, mixed ? mixed_tets : vary);
         assert_success(ost_field_mean_dilatation(field, 0.2, &regions));
@@ -175,29 +175,29 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
 static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **state)
 {
     (void)state;
-    static const int32_t region[OST_LANES] = {0};
-    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
-    const OstLocal tets[OST_LANES] = {0, 1, 2, 3};
+    static const int32_t region[OST_SIMD_WIDTH] = {0};
+    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
+    const OstLocal tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
     const OstOrthotropic constants = ost_orthotropic_isotropic(2.0, 0.5 - 1e-10);
     const double shear = 2.0 / (2.0 * 1.5),
                  bulk = 2.0 / (3.0 * 0.1); /* G = E / (2 (1 + nu)), E / (3 (1 - 2 nu_limit)) */
-    const OstLanes places[3] = {{0}};
+    const OstSimd places[3] = {{0}};
     OstMaterial material;
     OstMaterialField *field = NULL;
     OstElasticity elasticity;
     int regions = 0;
     assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, OST_LANES, region, label, NULL, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, OST_SIMD_WIDTH, region, label, NULL, NULL, &field));
     assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     ost_elasticity_clear(&elasticity);
     ost_elasticity_gather(&elasticity, field, tets, 1, places);
     assert_int_equal(elasticity.by_mean, 1);
     const double expected = bulk + 4.0 / 3.0 * shear, beside = bulk - 2.0 / 3.0 * shear;
-    for (int lane = 0; lane < OST_LANES; lane++) {
-        assert_close(elasticity.c[0][0][lane], expected, 1e-9 * expected); /* nu is 1e-10 from 1/2 */
-        assert_close(elasticity.c[0][1][lane], beside, 1e-9 * expected);
-        assert_close(elasticity.c[0][OST_ELASTICITY_COUNT - 1][lane], shear, 1e-9 * shear);
-        assert_close((elasticity.c[0][0][lane] - elasticity.c[0][1][lane]) /
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        assert_close(elasticity.c[0][0][slot], expected, 1e-9 * expected); /* nu is 1e-10 from 1/2 */
+        assert_close(elasticity.c[0][1][slot], beside, 1e-9 * expected);
+        assert_close(elasticity.c[0][OST_ELASTICITY_COUNT - 1][slot], shear, 1e-9 * shear);
+        assert_close((elasticity.c[0][0][slot] - elasticity.c[0][1][slot]) /
                          (2.0 * material.constants.shear_modulus[0]),
                      1.0, 1e-14);
     }
@@ -207,27 +207,28 @@ static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **st
 /* Four tets with random axes, each its own (CELLS) or one for all (FIXED), of one material of the family. */
 static OstMaterialField *family_field(const double youngs_modulus[3], double nu, OstShearRule rule, OstAxesKind kind)
 {
-    static const int32_t region[OST_LANES] = {0};
-    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
-    const double centroids[3 * OST_LANES] = {0};
+    static const int32_t region[OST_SIMD_WIDTH] = {0};
+    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
+    const double centroids[3 * OST_SIMD_WIDTH] = {0};
     const OstOrthotropic constants = ost_orthotropic_family(youngs_modulus, nu, rule);
     OstAxesSpec spec = {.kind = kind};
-    double axes[9 * OST_LANES];
+    double axes[9 * OST_SIMD_WIDTH];
     OstMaterial material;
     OstMaterialField *field = NULL;
-    for (unsigned lane = 0; lane < OST_LANES; lane++)
-        random_axes(lane + 1u, axes + 9 * lane);
+    for (unsigned slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        random_axes(slot + 1u, axes + 9 * slot);
     random_axes(9u, spec.fixed);
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, OST_LANES, region, label, centroids, axes, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, axes, &field));
     return field;
 }
 
 static const double moduli[][3] = {{1, 1e12, 1e6}, {1e12, 1, 1}, {3e-4, 2e2, 5e8}, {1e6, 1e9, 1e6}, {2, 3, 5}};
 enum { MODULI = sizeof moduli / sizeof *moduli };
-static const OstLocal first_tets[OST_LANES] = {0, 1, 2, 3};
+static const OstLocal first_tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
 
-/* C of the family, which comes from a metric, against eq. 9. */
+/* C of the family, which comes from its stretch tensor, against eq. 9. */
 static void the_familys_elasticity_is_the_rotated_one(void **state)
 {
     (void)state;
@@ -238,35 +239,35 @@ static void the_familys_elasticity_is_the_rotated_one(void **state)
         ost_elasticity_clear(&elasticity);
         ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
         assert_true(elasticity.stretched);
-        assert_false(elasticity.by_metric);
-        for (int lane = 0; lane < OST_LANES; lane++) {
+        assert_false(elasticity.by_stretch);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             double c[36], size = 0.0;
-            ost_field_stiffness(field, lane, c);
+            ost_field_stiffness(field, slot, c);
             for (int i = 0; i < 36; i++)
                 size = fmax(size, fabs(c[i]));
             for (int p = 0, i = 0; p < 6; p++)
                 for (int q = p; q < 6; q++)
-                    assert_close(elasticity.c[0][i++][lane] / size, c[6 * p + q] / size, 1e-14);
+                    assert_close(elasticity.c[0][i++][slot] / size, c[6 * p + q] / size, 1e-14);
         }
         ost_field_destroy(&field);
     }
 }
 
-/* Stiffness of the four tets, by the metric if that suffices. */
-static void stiffness_of_field(const OstMaterialField *field, int metric_suffices, OstLanes blocks[90])
+/* Stiffness of the four tets, by the stretch tensor if that suffices. */
+static void stiffness_of_field(const OstMaterialField *field, int stretch_suffices, OstSimd blocks[90])
 {
     OstElasticity elasticity;
-    OstLanes x[12];
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    OstSimd x[12];
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double of_tet[12];
-        random_tet((unsigned)lane + 1u, of_tet);
+        random_tet((unsigned)slot + 1u, of_tet);
         for (int i = 0; i < 12; i++)
-            x[i][lane] = of_tet[i];
+            x[i][slot] = of_tet[i];
     }
     ost_elasticity_clear(&elasticity);
-    elasticity.metric_suffices = metric_suffices;
+    elasticity.stretch_suffices = stretch_suffices;
     ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
-    assert_int_equal(elasticity.by_metric, metric_suffices);
+    assert_int_equal(elasticity.by_stretch, stretch_suffices);
     ost_element_of(4)->stiffness(x, &elasticity, blocks);
 }
 
@@ -276,15 +277,15 @@ static void stiffness_by_the_metric_is_that_by_the_elasticity(void **state)
     for (int n = 0; n < 2 * MODULI; n++) {
         OstMaterialField *field =
             family_field(moduli[n / 2], 0.3, OST_SHEAR_GEOMETRIC, n % 2 ? OST_AXES_CELLS : OST_AXES_FIXED);
-        OstLanes metric[90], plain[90];
-        stiffness_of_field(field, 1, metric);
+        OstSimd tensor[90], plain[90];
+        stiffness_of_field(field, 1, tensor);
         stiffness_of_field(field, 0, plain);
-        for (int lane = 0; lane < OST_LANES; lane++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             double size = 0.0;
             for (int i = 0; i < 90; i++)
-                size = fmax(size, fabs(plain[i][lane]));
+                size = fmax(size, fabs(plain[i][slot]));
             for (int i = 0; i < 90; i++)
-                assert_close(metric[i][lane] / size, plain[i][lane] / size, 1e-14);
+                assert_close(tensor[i][slot] / size, plain[i][slot] / size, 1e-14);
         }
         ost_field_destroy(&field);
     }
@@ -296,10 +297,10 @@ static void other_shear_has_no_metric(void **state)
     OstMaterialField *field = family_field(moduli[MODULI - 1], 0.3, OST_SHEAR_ARITHMETIC, OST_AXES_CELLS);
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
-    elasticity.metric_suffices = 1;
+    elasticity.stretch_suffices = 1;
     ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
     assert_false(elasticity.stretched);
-    assert_false(elasticity.by_metric);
+    assert_false(elasticity.by_stretch);
     ost_field_destroy(&field);
 }
 
@@ -307,46 +308,47 @@ static void other_shear_has_no_metric(void **state)
 static void the_metric_about_a_line_is_that_of_its_axes(void **state)
 {
     (void)state;
-    static const int32_t region[OST_LANES] = {0};
-    static const OstGlobal label[OST_LANES] = {1, 2, 3, 4};
+    static const int32_t region[OST_SIMD_WIDTH] = {0};
+    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
                               .origin = {0.3, -0.2, 0.5},
                               .axis = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
                               .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
     const OstOrthotropic constants = ost_orthotropic_family(moduli[3], 0.3, OST_SHEAR_GEOMETRIC);
-    double centroids[3 * OST_LANES] = {0.0}, axes[9];
+    double centroids[3 * OST_SIMD_WIDTH] = {0.0}, axes[9];
     OstMaterial material;
     OstMaterialField *field = NULL;
     OstElasticity about_line, of_axes;
-    OstLanes x[12], metric[6];
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    OstSimd x[12], tensor[6];
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double of_tet[12];
-        random_tet((unsigned)lane + 1u, of_tet);
+        random_tet((unsigned)slot + 1u, of_tet);
         for (int i = 0; i < 12; i++) {
-            x[i][lane] = of_tet[i];
-            centroids[3 * lane + i % 3] += of_tet[i] / 4.0;
+            x[i][slot] = of_tet[i];
+            centroids[3 * slot + i % 3] += of_tet[i] / 4.0;
         }
     }
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, NULL, 1, &material, &spec, OST_LANES, region, label, centroids, NULL, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, NULL, &field));
     ost_elasticity_clear(&about_line);
-    about_line.metric_suffices = 1;
+    about_line.stretch_suffices = 1;
     ost_elasticity_gather(&about_line, field, first_tets, 0, NULL);
-    assert_true(about_line.by_metric && about_line.about_line);
-    ost_metric_about_line(&about_line, x, metric);
-    for (int lane = 0; lane < OST_LANES; lane++) {
-        ost_field_axes(field, first_tets[lane], axes);
+    assert_true(about_line.by_stretch && about_line.about_line);
+    ost_stretch_about_line(&about_line, x, tensor);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        ost_field_axes(field, first_tets[slot], axes);
         for (int p = 0; p < 6; p++) {
             const int i = p % 3, j = p < 3 ? i : (p + 1) % 3;
             double expected = 0.0;
             for (int a = 0; a < 3; a++)
                 expected += about_line.stretch[a] * axes[3 * a + i] * axes[3 * a + j];
-            assert_close(metric[p][lane] / about_line.stretch[1], expected / about_line.stretch[1], 1e-14);
+            assert_close(tensor[p][slot] / about_line.stretch[1], expected / about_line.stretch[1], 1e-14);
         }
     }
     ost_elasticity_clear(&of_axes); /* C is asked for: the line does not suffice */
     ost_elasticity_gather(&of_axes, field, first_tets, 0, NULL);
-    assert_false(of_axes.by_metric || of_axes.about_line);
+    assert_false(of_axes.by_stretch || of_axes.about_line);
     ost_field_destroy(&field);
 }
 

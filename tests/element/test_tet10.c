@@ -20,10 +20,10 @@ static void random_tet10(unsigned seed, double bend, double x[WIDTH])
 
 /* Four tets at once, each of its own shape, with one C. */
 typedef struct Case {
-    double x[OST_LANES][WIDTH];
+    double x[OST_SIMD_WIDTH][WIDTH];
     double c[36];
-    OstLanes lanes_x[WIDTH];
-    OstLanes lanes_u[WIDTH];
+    OstSimd batch_x[WIDTH];
+    OstSimd batch_u[WIDTH];
     OstElasticity elasticity;
 } Case;
 
@@ -32,11 +32,11 @@ static void make_case(double bend, Case *test)
     unsigned seed = 5u;
     turned_ply(test->c);
     uniform_elasticity(test->c, &test->elasticity);
-    for (int lane = 0; lane < OST_LANES; lane++) {
-        random_tet10((unsigned)lane + 1u, bend, test->x[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        random_tet10((unsigned)slot + 1u, bend, test->x[slot]);
         for (int n = 0; n < WIDTH; n++) {
-            test->lanes_x[n][lane] = test->x[lane][n];
-            test->lanes_u[n][lane] = random_number(&seed);
+            test->batch_x[n][slot] = test->x[slot][n];
+            test->batch_u[n][slot] = random_number(&seed);
         }
     }
 }
@@ -89,26 +89,26 @@ static void make_varying(Case *test)
             test->elasticity.c[q][n] = factor_at(ost_tet_degree3.point[q].at) * test->elasticity.c[0][n];
 }
 
-/* Expects the kernels' K and K u of every lane to be the plain ones'. */
+/* Expects the kernels' K and K u of every tet to be the plain ones'. */
 static void assert_stiffness(const Case *test, int varies, double tolerance)
 {
-    OstLanes blocks[9 * PAIRS];
-    OstLanes force[WIDTH];
-    ost_tet10.stiffness(test->lanes_x, &test->elasticity, blocks);
-    ost_tet10.force(test->lanes_x, &test->elasticity, test->lanes_u, force);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    OstSimd blocks[9 * PAIRS];
+    OstSimd force[WIDTH];
+    ost_tet10.stiffness(test->batch_x, &test->elasticity, blocks);
+    ost_tet10.force(test->batch_x, &test->elasticity, test->batch_u, force);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double k[WIDTH * WIDTH];
         double expected[WIDTH * WIDTH];
-        full_matrix(NODES, blocks, lane, k);
-        plain_stiffness(test->x[lane], test->c, varies, expected);
+        full_matrix(NODES, blocks, slot, k);
+        plain_stiffness(test->x[slot], test->c, varies, expected);
         const double size = largest_of(WIDTH * WIDTH, expected);
         for (int i = 0; i < WIDTH; i++) {
             double sum = 0.0;
             for (int j = 0; j < WIDTH; j++) {
                 assert_close(k[WIDTH * i + j] / size, expected[WIDTH * i + j] / size, tolerance);
-                sum += expected[WIDTH * i + j] * test->lanes_u[j][lane];
+                sum += expected[WIDTH * i + j] * test->batch_u[j][slot];
             }
-            assert_close(force[i][lane] / size, sum / size, 10.0 * tolerance);
+            assert_close(force[i][slot] / size, sum / size, 10.0 * tolerance);
         }
     }
 }
@@ -181,18 +181,18 @@ static void a_straight_tet_does_not_feel_a_curved_one_beside_it(void **state)
 {
     (void)state;
     Case test;
-    OstLanes alone[9 * PAIRS];
-    OstLanes beside[9 * PAIRS];
+    OstSimd alone[9 * PAIRS];
+    OstSimd beside[9 * PAIRS];
     make_case(0.0, &test);
-    ost_tet10.stiffness(test.lanes_x, &test.elasticity, alone);
-    test.lanes_x[20][3] += 0.05;
-    ost_tet10.stiffness(test.lanes_x, &test.elasticity, beside);
+    ost_tet10.stiffness(test.batch_x, &test.elasticity, alone);
+    test.batch_x[20][3] += 0.05;
+    ost_tet10.stiffness(test.batch_x, &test.elasticity, beside);
     double size = 0.0;
     for (int n = 0; n < 9 * PAIRS; n++)
         size = fmax(size, fabs(alone[n][0]));
     for (int n = 0; n < 9 * PAIRS; n++)
-        for (int lane = 0; lane < 3; lane++)
-            assert_close(beside[n][lane] / size, alone[n][lane] / size, 1e-13);
+        for (int slot = 0; slot < 3; slot++)
+            assert_close(beside[n][slot] / size, alone[n][slot] / size, 1e-13);
 }
 
 static void rigid_motions_meet_no_stiffness(void **state)
@@ -200,20 +200,20 @@ static void rigid_motions_meet_no_stiffness(void **state)
     (void)state;
     for (int curved = 0; curved < 2; curved++) {
         Case test;
-        OstLanes force[WIDTH];
+        OstSimd force[WIDTH];
         make_case(0.05 * curved, &test);
         for (int mode = 0; mode < 6; mode++) {
             const int first = mode % 3, next = (mode + 1) % 3;
             for (int n = 0; n < WIDTH; n++)
-                test.lanes_u[n] = (OstLanes){0} + (mode < 3 && n % 3 == mode);
+                test.batch_u[n] = (OstSimd){0} + (mode < 3 && n % 3 == mode);
             for (int a = 0; a < NODES && mode >= 3; a++) {
-                test.lanes_u[3 * a + next] = test.lanes_x[3 * a + first] - 5.0;
-                test.lanes_u[3 * a + first] = 5.0 - test.lanes_x[3 * a + next];
+                test.batch_u[3 * a + next] = test.batch_x[3 * a + first] - 5.0;
+                test.batch_u[3 * a + first] = 5.0 - test.batch_x[3 * a + next];
             }
-            ost_tet10.force(test.lanes_x, &test.elasticity, test.lanes_u, force);
+            ost_tet10.force(test.batch_x, &test.elasticity, test.batch_u, force);
             for (int n = 0; n < WIDTH; n++)
-                for (int lane = 0; lane < OST_LANES; lane++)
-                    assert_close(force[n][lane] / test.c[0], 0.0, 1e-12);
+                for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+                    assert_close(force[n][slot] / test.c[0], 0.0, 1e-12);
         }
     }
 }
@@ -280,30 +280,30 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
 {
     (void)state;
     Case test;
-    OstLanes force[WIDTH];
-    OstLanes nodal[60];
+    OstSimd force[WIDTH];
+    OstSimd nodal[60];
     OstMeans means;
     make_case(0.0, &test);
     for (int n = 0; n < WIDTH; n++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            test.lanes_u[n][lane] = quadratic(n % 3, test.x[lane] + n / 3 * 3);
-    ost_tet10.force(test.lanes_x, &test.elasticity, test.lanes_u, force);
-    ost_tet10.means(test.lanes_x, &test.elasticity, test.lanes_u, &means);
-    ost_tet10.nodal_strain(test.lanes_x, test.lanes_u, nodal);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            test.batch_u[n][slot] = quadratic(n % 3, test.x[slot] + n / 3 * 3);
+    ost_tet10.force(test.batch_x, &test.elasticity, test.batch_u, force);
+    ost_tet10.means(test.batch_x, &test.elasticity, test.batch_u, &means);
+    ost_tet10.nodal_strain(test.batch_x, test.batch_u, nodal);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double expected[WIDTH], mean[13], strain[6];
-        plain_answer(test.x[lane], test.c, expected, mean);
+        plain_answer(test.x[slot], test.c, expected, mean);
         for (int n = 0; n < WIDTH; n++)
-            assert_close(force[n][lane] / test.c[0], expected[n] / test.c[0], 1e-13);
+            assert_close(force[n][slot] / test.c[0], expected[n] / test.c[0], 1e-13);
         for (int p = 0; p < 6; p++) {
-            assert_close(means.strain[p][lane], mean[p], 1e-13);
-            assert_close(means.stress[p][lane] / test.c[0], mean[6 + p] / test.c[0], 1e-13);
+            assert_close(means.strain[p][slot], mean[p], 1e-13);
+            assert_close(means.stress[p][slot] / test.c[0], mean[6 + p] / test.c[0], 1e-13);
         }
-        assert_close(means.energy[lane] / mean[12], 1.0, 1e-12);
+        assert_close(means.energy[slot] / mean[12], 1.0, 1e-12);
         for (int a = 0; a < NODES; a++) {
-            strain_of_quadratic(test.x[lane] + 3 * a, strain);
+            strain_of_quadratic(test.x[slot] + 3 * a, strain);
             for (int p = 0; p < 6; p++)
-                assert_close(nodal[6 * a + p][lane], strain[p], 1e-13);
+                assert_close(nodal[6 * a + p][slot], strain[p], 1e-13);
         }
     }
 }
@@ -313,19 +313,19 @@ static void magnitude_sums_absolute_values(void **state)
 {
     (void)state;
     Case test;
-    OstLanes magnitude[WIDTH];
-    OstLanes force[WIDTH];
+    OstSimd magnitude[WIDTH];
+    OstSimd force[WIDTH];
     make_case(0.0, &test);
-    ost_tet10.magnitude(test.lanes_x, &test.elasticity, test.lanes_u, magnitude);
-    ost_tet10.force(test.lanes_x, &test.elasticity, test.lanes_u, force);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    ost_tet10.magnitude(test.batch_x, &test.elasticity, test.batch_u, magnitude);
+    ost_tet10.force(test.batch_x, &test.elasticity, test.batch_u, force);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double k[WIDTH * WIDTH] = {0};
         double c[36];
         for (int p = 0; p < 36; p++)
             c[p] = fabs(test.c[p]);
         for (int q = 0; q < ost_tet_degree2.count; q++) {
             double g[WIDTH];
-            const double volume = fabs(ost_shape_gradients(NODES, ost_tet_degree2.point[q].at, test.x[lane], g)) / 6.0;
+            const double volume = fabs(ost_shape_gradients(NODES, ost_tet_degree2.point[q].at, test.x[slot], g)) / 6.0;
             for (int n = 0; n < WIDTH; n++)
                 g[n] = fabs(g[n]);
             add_plain_product(NODES, g, c, 0.25 * volume, k);
@@ -333,9 +333,9 @@ static void magnitude_sums_absolute_values(void **state)
         for (int i = 0; i < WIDTH; i++) {
             double expected = 0.0;
             for (int j = 0; j < WIDTH; j++)
-                expected += k[WIDTH * i + j] * fabs(test.lanes_u[j][lane]);
-            assert_close(magnitude[i][lane] / expected, 1.0, 1e-12);
-            assert_true(fabs(force[i][lane]) <= magnitude[i][lane]);
+                expected += k[WIDTH * i + j] * fabs(test.batch_u[j][slot]);
+            assert_close(magnitude[i][slot] / expected, 1.0, 1e-12);
+            assert_true(fabs(force[i][slot]) <= magnitude[i][slot]);
         }
     }
 }

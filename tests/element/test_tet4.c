@@ -61,11 +61,11 @@ static void plain_stiffness(const double x[12], const double c[36], double k[12]
         }
 }
 
-/* Four tets at once, each of its own shape; K as 12 × 12 of one lane. */
+/* Four tets at once, each of its own shape; K as 12 × 12 of one of them. */
 typedef struct Case {
-    double x[OST_LANES][12];
+    double x[OST_SIMD_WIDTH][12];
     double c[36];
-    OstLanes lanes_x[12];
+    OstSimd batch_x[12];
     OstElasticity elasticity;
 } Case;
 
@@ -73,10 +73,10 @@ static void make_case(Case *test)
 {
     turned_ply(test->c);
     uniform_elasticity(test->c, &test->elasticity);
-    for (int lane = 0; lane < OST_LANES; lane++) {
-        random_tet((unsigned)lane + 1u, test->x[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        random_tet((unsigned)slot + 1u, test->x[slot]);
         for (int i = 0; i < 12; i++)
-            test->lanes_x[i][lane] = test->x[lane][i];
+            test->batch_x[i][slot] = test->x[slot][i];
     }
 }
 
@@ -104,14 +104,14 @@ static void stiffness_is_the_full_product_b_c_b(void **state)
 {
     (void)state;
     Case test;
-    OstLanes blocks[9 * PAIRS];
+    OstSimd blocks[9 * PAIRS];
     make_case(&test);
-    ost_tet4.stiffness(test.lanes_x, &test.elasticity, blocks);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    ost_tet4.stiffness(test.batch_x, &test.elasticity, blocks);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double expected[12][12];
         double k[12][12];
-        plain_stiffness(test.x[lane], test.c, expected);
-        full_matrix(4, blocks, lane, *k);
+        plain_stiffness(test.x[slot], test.c, expected);
+        full_matrix(4, blocks, slot, *k);
         const double size = largest(expected);
         for (int i = 0; i < 12; i++)
             for (int j = 0; j < 12; j++)
@@ -123,22 +123,22 @@ static void force_is_stiffness_times_displacement(void **state)
 {
     (void)state;
     Case test;
-    OstLanes u[12];
-    OstLanes force[12];
+    OstSimd u[12];
+    OstSimd force[12];
     unsigned seed = 5u;
     make_case(&test);
     for (int i = 0; i < 12; i++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            u[i][lane] = random_number(&seed);
-    ost_tet4.force(test.lanes_x, &test.elasticity, u, force);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            u[i][slot] = random_number(&seed);
+    ost_tet4.force(test.batch_x, &test.elasticity, u, force);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double k[12][12];
-        plain_stiffness(test.x[lane], test.c, k);
+        plain_stiffness(test.x[slot], test.c, k);
         for (int i = 0; i < 12; i++) {
             double expected = 0.0;
             for (int j = 0; j < 12; j++)
-                expected += k[i][j] * u[j][lane];
-            assert_close(force[i][lane] / largest(k), expected / largest(k), 1e-12);
+                expected += k[i][j] * u[j][slot];
+            assert_close(force[i][slot] / largest(k), expected / largest(k), 1e-12);
         }
     }
 }
@@ -148,25 +148,25 @@ static void magnitude_sums_absolute_values(void **state)
 {
     (void)state;
     Case test;
-    OstLanes u[12];
-    OstLanes magnitude[12];
+    OstSimd u[12];
+    OstSimd magnitude[12];
     unsigned seed = 5u;
     make_case(&test);
     for (int i = 0; i < 12; i++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            u[i][lane] = random_number(&seed);
-    ost_tet4.magnitude(test.lanes_x, &test.elasticity, u, magnitude);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            u[i][slot] = random_number(&seed);
+    ost_tet4.magnitude(test.batch_x, &test.elasticity, u, magnitude);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double g[12];
         double b[6][12];
-        const double volume = fabs(plain_gradients(test.x[lane], g));
+        const double volume = fabs(plain_gradients(test.x[slot], g));
         strain_matrix(g, b);
         for (int i = 0; i < 12; i++) {
             double expected = 0.0;
             for (int pq = 0; pq < 36; pq++)
                 for (int j = 0; j < 12; j++)
-                    expected += volume * fabs(b[pq / 6][i] * test.c[pq] * b[pq % 6][j] * u[j][lane]);
-            assert_close(magnitude[i][lane] / expected, 1.0, 1e-11);
+                    expected += volume * fabs(b[pq / 6][i] * test.c[pq] * b[pq % 6][j] * u[j][slot]);
+            assert_close(magnitude[i][slot] / expected, 1.0, 1e-11);
         }
     }
 }
@@ -175,17 +175,17 @@ static void rigid_motions_meet_no_stiffness(void **state)
 {
     (void)state;
     Case test;
-    OstLanes blocks[9 * PAIRS];
+    OstSimd blocks[9 * PAIRS];
     make_case(&test);
-    ost_tet4.stiffness(test.lanes_x, &test.elasticity, blocks);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    ost_tet4.stiffness(test.batch_x, &test.elasticity, blocks);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double k[12][12];
-        full_matrix(4, blocks, lane, *k);
+        full_matrix(4, blocks, slot, *k);
         for (int mode = 0; mode < 6; mode++)
             for (int i = 0; i < 12; i++) {
                 double force = 0.0;
                 for (int a = 0; a < 4; a++) {
-                    const double *x = &test.x[lane][3 * a];
+                    const double *x = &test.x[slot][3 * a];
                     const int first = mode % 3, next = (mode + 1) % 3;
                     if (mode < 3) {
                         force += k[i][3 * a + mode];
@@ -205,30 +205,30 @@ static void a_linear_field_has_its_strain_and_energy(void **state)
     static const double a[9] = {0.1, 0.02, -0.03, 0.05, -0.2, 0.04, 0.07, 0.01, 0.3};
     const double expected[6] = {a[0], a[4], a[8], a[1] + a[3], a[5] + a[7], a[6] + a[2]};
     Case test;
-    OstLanes u[12];
-    OstLanes nodal[24];
+    OstSimd u[12];
+    OstSimd nodal[24];
     OstMeans means;
     double density = 0.0;
     make_case(&test);
     for (int n = 0; n < 12; n++)
-        u[n] = a[3 * (n % 3)] * test.lanes_x[n / 3 * 3] + a[3 * (n % 3) + 1] * test.lanes_x[n / 3 * 3 + 1] +
-               a[3 * (n % 3) + 2] * test.lanes_x[n / 3 * 3 + 2];
+        u[n] = a[3 * (n % 3)] * test.batch_x[n / 3 * 3] + a[3 * (n % 3) + 1] * test.batch_x[n / 3 * 3 + 1] +
+               a[3 * (n % 3) + 2] * test.batch_x[n / 3 * 3 + 2];
     for (int pq = 0; pq < 36; pq++)
         density += 0.5 * expected[pq / 6] * test.c[pq] * expected[pq % 6];
-    ost_tet4.means(test.lanes_x, &test.elasticity, u, &means);
-    ost_tet4.nodal_strain(test.lanes_x, u, nodal);
-    for (int lane = 0; lane < OST_LANES; lane++) {
+    ost_tet4.means(test.batch_x, &test.elasticity, u, &means);
+    ost_tet4.nodal_strain(test.batch_x, u, nodal);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         for (int p = 0; p < 6; p++) {
             double stress = 0.0;
             for (int q = 0; q < 6; q++)
                 stress += test.c[6 * p + q] * expected[q];
-            assert_close(means.strain[p][lane], expected[p], 1e-14);
-            assert_close(means.stress[p][lane] / test.c[0], stress / test.c[0], 1e-13);
+            assert_close(means.strain[p][slot], expected[p], 1e-14);
+            assert_close(means.stress[p][slot] / test.c[0], stress / test.c[0], 1e-13);
             for (int node = 0; node < 4; node++)
-                assert_close(nodal[6 * node + p][lane], expected[p], 1e-14);
+                assert_close(nodal[6 * node + p][slot], expected[p], 1e-14);
         }
-        assert_close(means.energy[lane] / density, 1.0, 1e-12);
-        assert_close(means.stiff[lane], 0.0, 0.0);
+        assert_close(means.energy[slot] / density, 1.0, 1e-12);
+        assert_close(means.stiff[slot], 0.0, 0.0);
     }
 }
 
@@ -307,15 +307,15 @@ static void tets_are_told_apart_by_their_nodes(void **state)
 static void lanes_turn_into_tets(void **state)
 {
     (void)state;
-    OstLanes in[OST_LANES];
-    OstLanes out[OST_LANES];
-    for (int i = 0; i < OST_LANES; i++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            in[i][lane] = 10 * i + lane;
-    ost_lanes_transpose(in, out);
-    for (int i = 0; i < OST_LANES; i++)
-        for (int lane = 0; lane < OST_LANES; lane++)
-            assert_close(out[lane][i], 10 * i + lane, 0.0);
+    OstSimd in[OST_SIMD_WIDTH];
+    OstSimd out[OST_SIMD_WIDTH];
+    for (int i = 0; i < OST_SIMD_WIDTH; i++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            in[i][slot] = 10 * i + slot;
+    ost_simd_transpose(in, out);
+    for (int i = 0; i < OST_SIMD_WIDTH; i++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            assert_close(out[slot][i], 10 * i + slot, 0.0);
 }
 
 static const struct CMUnitTest tests[] = {

@@ -19,7 +19,7 @@ static void hold(OstSupports *supports, OstGlobal label, double x, double y, dou
     const double direction[3] = {x, y, z};
     for (OstLocal n = 0; n < supports->mesh->owned_nodes; n++)
         if (supports->mesh->node_label[n] == label)
-            assert_success(ost_supports_hold(supports, n, direction, 0.0));
+            assert_success(ost_supports_constrain(supports, n, direction, 0.0));
 }
 
 static void hold_fully(OstSupports *supports, OstGlobal label)
@@ -141,8 +141,8 @@ static void a_screw_is_called_a_twist_with_its_pitch(void **state)
         double side[3], other[3];
         ost_cross3(velocity, up, side);
         ost_cross3(velocity, side, other);
-        assert_success(ost_supports_hold(supports, n, side, 0.0));
-        assert_success(ost_supports_hold(supports, n, other, 0.0));
+        assert_success(ost_supports_constrain(supports, n, side, 0.0));
+        assert_success(ost_supports_constrain(supports, n, other, 0.0));
     }
     assert_free(mesh, supports,
                 LINES("the body, 1 tet around (0.5, 0.5, 0.5): can twist about the line through (2, 0, 0.5) along "
@@ -162,7 +162,7 @@ static void a_block_on_a_plane_slides_and_turns_on_it_and_rests_in_a_corner(void
                 double normal[3] = {0.0};
                 normal[d] = 1.0;
                 if (mesh->coordinates[3 * n + d] == 0.0)
-                    assert_success(ost_supports_hold(supports, n, normal, 0.0));
+                    assert_success(ost_supports_constrain(supports, n, normal, 0.0));
             }
         if (planes == 1)
             assert_free(mesh, supports,
@@ -191,9 +191,9 @@ static void a_tube_on_its_cylinder_turns_about_its_axis_and_moves_along_it(void 
             const double radial[3] = {0.0, x[1] - 2.0, x[2] - 3.0};
             const double axial[3] = {1.0, 0.0, 0.0};
             if (ost_norm3(radial) > 1.4)
-                assert_success(ost_supports_hold(supports, n, radial, 0.0));
+                assert_success(ost_supports_constrain(supports, n, radial, 0.0));
             if (ends && x[0] == 1.0)
-                assert_success(ost_supports_hold(supports, n, axial, 0.0));
+                assert_success(ost_supports_constrain(supports, n, axial, 0.0));
         }
         assert_free(mesh, supports,
                     ends ? LINES("the body, 288 tets around (3, 2, 3): can turn about the line through (3, 2, 3) along "

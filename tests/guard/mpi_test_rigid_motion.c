@@ -52,9 +52,9 @@ static void hold_one_end(const OstMesh *mesh, OstSupports *supports)
     for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
         const double *x = mesh->coordinates + 3 * node;
         for (int i = 0; i < 3 && x[0] < 1e-12 && x[1] < 0.7; i++)
-            assert_success(ost_supports_hold(supports, node, unit[i], 0.0));
+            assert_success(ost_supports_constrain(supports, node, unit[i], 0.0));
         if (x[0] < 1e-12 && x[1] >= 0.7)
-            assert_success(ost_supports_hold(supports, node, oblique, 0.0));
+            assert_success(ost_supports_constrain(supports, node, oblique, 0.0));
     }
     assert_success(ost_supports_complete(supports));
 }

@@ -13,11 +13,11 @@ static json_t *reading_json(const HardReading *reading)
     hard_describe_column(hard_column(point), column, sizeof column);
     hard_describe_poisson(point->poisson, poisson, sizeof poisson);
     hard_describe(point, name, sizeof name);
-    json_t *json = json_pack("{s:s, s:s, s:i, s:s, s:i, s:s, s:i, s:b, s:s, s:s, s:s}", "point", name, "shape",
+    json_t *json = json_pack("{s:s, s:s, s:i, s:s, s:i, s:s, s:i, s:b, s:s, s:s, s:o}", "point", name, "shape",
                              hard_shape_name(point->shape), "order", point->order, "poisson", poisson, "row",
                              point->poisson, "stiffness_and_axes", column, "column", hard_column(point), "flawed",
                              point->flaw != HARD_SOUND, "outcome", hard_outcome_name[reading->outcome], "status",
-                             ost_status_name(reading->status), "reason", reading->reason);
+                             ost_status_name(reading->status), "reason", ost_json_text(reading->reason));
     if (!json || reading->unknowns == 0)
         return json;
     json_t *numbers = json_pack(

@@ -5,7 +5,6 @@
 #include "cli/destination.h"
 #include "core/error.h"
 
-#include <argp.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +19,7 @@ typedef struct Arguments {
     const char *report[MOST_REPORTS];
     int shape_count; /* 0: all */
     int wanted[HARD_SHAPES];
+    int passed; /* did all points that were run? */
 } Arguments;
 
 static const struct argp_option options[] = {
@@ -91,15 +91,15 @@ static OstStatus write_reports(const HardReport *report, const Arguments *argume
 }
 
 /* The grid takes a while, so the destinations of its reports are checked first. */
-static OstStatus run(OstContext *ctx, const Arguments *arguments, int *passed)
+static OstStatus run(OstContext *ctx, void *input)
 {
+    Arguments *arguments = input;
     static char name[] = "hard grid";
     const OstCase nothing = {.ctx = ctx, .path = name};
     HardReport *report = NULL;
-    *passed = 0;
     OST_TRY(ost_check_outputs(&nothing, arguments->report_count, arguments->report));
     OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, &report));
-    *passed = hard_passed(report);
+    arguments->passed = hard_passed(report);
     const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
     hard_report_destroy(&report);
     return status;
@@ -107,18 +107,16 @@ static OstStatus run(OstContext *ctx, const Arguments *arguments, int *passed)
 
 int main(int argc, char **argv)
 {
-    Arguments arguments = {0};
+    Arguments arguments = {.passed = 1};
     OstContext *ctx = NULL;
-    int exit_code = 0, passed = 0;
+    int exit_code = 0;
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS) {
         fputs("hard_grid: error: MPI could not be started\n", stderr);
         return 1;
     }
-    if (ost_cli_parse(ctx, &grid_argp, argc, argv, &arguments, &exit_code)) {
-        exit_code = ost_cli_finish(ctx, run(ctx, &arguments, &passed));
-        if (exit_code == 0 && !passed)
-            exit_code = ost_status_exit_code(OST_CHECK_FAILED);
-    }
+    exit_code = ost_cli_run(ctx, &grid_argp, argc, argv, &arguments, run);
+    if (exit_code == 0 && !arguments.passed)
+        exit_code = ost_status_exit_code(OST_CHECK_FAILED);
     ost_context_destroy(&ctx);
     MPI_Finalize();
     return exit_code;

@@ -192,7 +192,7 @@ static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
     assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, given, &field),
                    OST_INVALID_INPUT, "tet 102 (material 'wood'): given axes: e1 has length 1.5");
     assert_failure(ost_field_create(ctx, NULL, 1, &material, &spec, TETS, one_region, labels, centroids, NULL, &field),
-                   OST_INVALID_INPUT, "tet by tet, but none came");
+                   OST_INVALID_INPUT, "tet by tet, but the mesh brings none");
 }
 
 static void bad_axes_regions_and_points_are_refused(void **state)

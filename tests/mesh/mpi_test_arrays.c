@@ -178,7 +178,7 @@ static void what_does_not_fit_is_named(void **state)
     arrays = two_tets_arrays();
     arrays.region_names = (const char *const[]){"foot", "foot"};
     refuses(&arrays, "two regions are called 'foot'");
-    refuses(NULL, "rank 0 must bring arrays");
+    refuses(NULL, "rank 0 must have arrays");
 }
 
 static void boundaries_that_do_not_fit_are_named(void **state)

@@ -20,7 +20,7 @@ static void hold_and_number(Body *body)
     assert_success(ost_supports_create(body->mesh, &body->supports));
     for (OstLocal node = 0; node < body->mesh->owned_nodes; node++)
         for (int i = 0; i < 3 && body->mesh->coordinates[3 * node + 2] < 1e-9; i++)
-            assert_success(ost_supports_hold(body->supports, node, unit[i], 0.0));
+            assert_success(ost_supports_constrain(body->supports, node, unit[i], 0.0));
     assert_success(ost_supports_complete(body->supports));
     assert_success(ost_system_create(body->mesh, body->supports, &body->system));
 }

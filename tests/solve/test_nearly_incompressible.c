@@ -46,7 +46,7 @@ static void hold_planes_of_symmetry(Pose *pose)
         const double *x = pose->mesh->coordinates + 3 * node;
         for (int i = 0; i < 3; i++)
             if (fabs(x[i]) < 1e-9 || (i == 2 && x[2] > 0.3 - 1e-9))
-                assert_success(ost_supports_hold(pose->supports, node, unit[i], 0.0));
+                assert_success(ost_supports_constrain(pose->supports, node, unit[i], 0.0));
     }
     assert_success(ost_supports_complete(pose->supports));
 }

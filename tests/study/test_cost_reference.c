@@ -137,7 +137,7 @@ static void a_formula_is_exact(void **state)
     OstCostReference found;
     ost_reference_of_formula(-0.25, 3.0, &found);
     assert_int_equal(found.kind, OST_REFERENCE_FORMULA);
-    assert_string_equal(ost_reference_kind_word(found.kind), "formula");
+    assert_string_equal(ost_reference_kind_word[found.kind], "formula");
     assert_close(found.value, -0.25, 0.0);
     assert_close(found.size, 0.25, 0.0);
     assert_close(found.uncertainty, 0.0, 0.0);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/aggregation/aggregates.h"
 
-#include "algebra/aggregation/paths.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -9,12 +8,33 @@
 #include <math.h>
 #include <string.h>
 
-enum { RADIUS_TRIES = 6, RADIUS_SAMPLES = 40, UNREACHED = -1, LEFT_OUT = -2 };
+enum {
+    RADIUS_TRIES = 6,
+    RADIUS_SAMPLES = 40,
+    UNREACHED = -1,
+    LEFT_OUT = -2,
+    BELOW = 4 /* children of a heap's entry: half as many steps as with two, on the same cache lines */
+};
+
+typedef struct PathEnd {
+    float distance;
+    OstLocal node;
+} PathEnd;
+
+typedef struct Ball {
+    OstLocal nodes;
+    double reach; /* distance of the farthest node */
+} Ball;
 
 typedef struct Grouping {
     const OstMetricGraph *graph;
     const OstAggregateShape *shape;
-    OstPaths *paths;
+    /* shortest paths from the sources, by Dijkstra's method: */
+    float *distance;  /* nodes: from the nearest source */
+    OstLocal *source; /* nodes: which source that is; UNREACHED if none is connected */
+    PathEnd *queue;   /* a heap, nearest first */
+    OstLocal queue_count, queue_room;
+    /* the aggregates: */
     unsigned char *covered; /* nodes */
     OstLocal count;         /* number of seeds */
     OstLocal *seed;         /* nodes */
@@ -25,7 +45,9 @@ typedef struct Grouping {
 
 static void destroy_grouping(Grouping *g)
 {
-    ost_paths_destroy(&g->paths);
+    OST_FREE(g->distance);
+    OST_FREE(g->source);
+    OST_FREE(g->queue);
     OST_FREE(g->covered);
     OST_FREE(g->seed);
     OST_FREE(g->size);
@@ -38,7 +60,8 @@ static OstStatus create_grouping(const OstMetricGraph *graph, const OstAggregate
     const size_t n = (size_t)graph->nodes;
     *g = (Grouping){.graph = graph, .shape = shape};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_paths_create(graph, &g->paths));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->distance, n));
+    OST_TRY_DONE(OST_NEW(graph->ctx, &g->source, n));
     OST_TRY_DONE(OST_NEW(graph->ctx, &g->covered, n));
     OST_TRY_DONE(OST_NEW(graph->ctx, &g->seed, n));
     OST_TRY_DONE(OST_NEW(graph->ctx, &g->size, n));
@@ -50,16 +73,121 @@ done:
     return status;
 }
 
+static void clear_paths(Grouping *g)
+{
+    g->queue_count = 0;
+    for (OstLocal i = 0; i < g->graph->nodes; i++) {
+        g->source[i] = -1;
+        g->distance[i] = FLT_MAX;
+    }
+}
+
+static OstStatus push(Grouping *g, float distance, OstLocal node)
+{
+    if (g->queue_count == g->queue_room) {
+        const OstLocal room = 2 * g->queue_room + 256;
+        OST_TRY(OST_RESIZE(g->graph->ctx, &g->queue, room));
+        g->queue_room = room;
+    }
+    PathEnd *queue = g->queue;
+    OstLocal k = g->queue_count++;
+    for (; k > 0 && queue[(k - 1) / BELOW].distance > distance; k = (k - 1) / BELOW)
+        queue[k] = queue[(k - 1) / BELOW];
+    queue[k] = (PathEnd){distance, node};
+    return OST_SUCCESS;
+}
+
+static PathEnd pop(Grouping *g)
+{
+    PathEnd *queue = g->queue;
+    const PathEnd nearest = queue[0];
+    const OstLocal count = --g->queue_count;
+    const PathEnd last = queue[count];
+    OstLocal k = 0;
+    for (OstLocal child = 1; child < count; child = BELOW * k + 1) {
+        const OstLocal end = child + BELOW < count ? child + BELOW : count;
+        OstLocal least = child;
+        for (OstLocal c = child + 1; c < end; c++)
+            least = queue[c].distance < queue[least].distance ? c : least;
+        if (queue[least].distance >= last.distance)
+            break;
+        queue[k] = queue[least];
+        k = least;
+    }
+    queue[k] = last;
+    return nearest;
+}
+
+/* Settles the nodes within `radius` of `node`, at most `most` of them, nearest first, and sets their source to
+ * `source`, a number not used since clear_paths; marks of other sources are overwritten. `settled`, unless NULL, gets a
+ * 1 for each settled node. */
+static OstStatus settle_ball(Grouping *g, OstLocal node, OstLocal source, double radius, OstLocal most,
+                             unsigned char *settled, Ball *ball)
+{
+    const OstMetricGraph *graph = g->graph;
+    *ball = (Ball){0, 0.0};
+    g->queue_count = 0;
+    g->source[node] = source;
+    g->distance[node] = 0.0f;
+    OST_TRY(push(g, 0.0f, node));
+    while (g->queue_count > 0 && ball->nodes < most) {
+        const PathEnd end = pop(g);
+        if (end.distance > g->distance[end.node])
+            continue; /* a shorter path was found since */
+        ball->nodes++;
+        ball->reach = end.distance;
+        if (settled)
+            settled[end.node] = 1;
+        for (OstLocal k = graph->edge_start[end.node]; k < graph->edge_start[end.node + 1]; k++) {
+            const OstLocal j = graph->neighbour[k];
+            const float distance = end.distance + graph->length[k];
+            if (distance > radius || (g->source[j] == source && distance >= g->distance[j]))
+                continue;
+            g->source[j] = source;
+            g->distance[j] = distance;
+            OST_TRY(push(g, distance, j));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* Assigns every connected node to the nearest seed. */
+static OstStatus assign(Grouping *g)
+{
+    const OstMetricGraph *graph = g->graph;
+    clear_paths(g);
+    for (OstLocal s = 0; s < g->count; s++) {
+        g->distance[g->seed[s]] = 0.0f;
+        g->source[g->seed[s]] = s;
+        OST_TRY(push(g, 0.0f, g->seed[s]));
+    }
+    while (g->queue_count > 0) {
+        const PathEnd end = pop(g);
+        if (end.distance > g->distance[end.node])
+            continue;
+        for (OstLocal k = graph->edge_start[end.node]; k < graph->edge_start[end.node + 1]; k++) {
+            const OstLocal j = graph->neighbour[k];
+            const float distance = end.distance + graph->length[k];
+            if (distance >= g->distance[j])
+                continue;
+            g->distance[j] = distance;
+            g->source[j] = g->source[end.node];
+            OST_TRY(push(g, distance, j));
+        }
+    }
+    return OST_SUCCESS;
+}
+
 /* First guess: the mean radius of a ball with 1.6 × target nodes, over a sample of the nodes. */
 static OstStatus guess_radius(Grouping *g, double *radius)
 {
     const OstLocal most = (OstLocal)ceil(1.6 * g->shape->target);
     OstLocal samples = 0;
     double sum = 0.0;
-    ost_paths_clear(g->paths);
+    clear_paths(g);
     for (OstLocal i = 0; i < g->graph->nodes; i += g->graph->nodes / RADIUS_SAMPLES + 1) {
-        OstBall ball;
-        OST_TRY(ost_paths_ball(g->paths, i, samples++, FLT_MAX, most, NULL, &ball));
+        Ball ball;
+        OST_TRY(settle_ball(g, i, samples++, FLT_MAX, most, NULL, &ball));
         sum += ball.reach;
     }
     *radius = sum / samples;
@@ -72,13 +200,13 @@ static OstStatus cover(Grouping *g, double radius)
     const OstLocal n = g->graph->nodes;
     g->count = 0;
     memset(g->covered, 0, (size_t)n);
-    ost_paths_clear(g->paths);
+    clear_paths(g);
     for (OstLocal i = 0; i < n; i++) {
-        OstBall ball;
+        Ball ball;
         if (g->covered[i])
             continue;
         g->seed[g->count] = i;
-        OST_TRY(ost_paths_ball(g->paths, i, g->count, radius, n, g->covered, &ball));
+        OST_TRY(settle_ball(g, i, g->count, radius, n, g->covered, &ball));
         g->count++;
     }
     return OST_SUCCESS;
@@ -115,7 +243,7 @@ static OstStatus choose_seeds(Grouping *g)
 static void recentre(Grouping *g)
 {
     const OstMetricGraph *graph = g->graph;
-    const OstLocal *of_node = g->paths->source;
+    const OstLocal *of_node = g->source;
     memset(g->centre, 0, 3 * (size_t)g->count * sizeof *g->centre);
     memset(g->size, 0, (size_t)g->count * sizeof *g->size);
     for (OstLocal i = 0; i < graph->nodes; i++) {
@@ -161,17 +289,16 @@ static int drop_small(Grouping *g)
  */
 static OstStatus adopt_orphans(Grouping *g)
 {
-    OstPaths *paths = g->paths;
     const OstLocal n = g->graph->nodes;
     for (OstLocal i = 0; i < n; i++) {
-        OstBall component;
-        if (paths->source[i] != UNREACHED)
+        Ball component;
+        if (g->source[i] != UNREACHED)
             continue;
-        OST_TRY(ost_paths_ball(paths, i, g->count, FLT_MAX, n, NULL, &component));
+        OST_TRY(settle_ball(g, i, g->count, FLT_MAX, n, NULL, &component));
         if (component.nodes >= g->shape->minimum)
             g->seed[g->count++] = i;
         else
-            OST_TRY(ost_paths_ball(paths, i, LEFT_OUT, FLT_MAX, n, NULL, &component));
+            OST_TRY(settle_ball(g, i, LEFT_OUT, FLT_MAX, n, NULL, &component));
     }
     return OST_SUCCESS;
 }
@@ -180,12 +307,12 @@ static OstStatus group(Grouping *g)
 {
     int dropped = 1;
     OST_TRY(choose_seeds(g));
-    OST_TRY(ost_paths_assign(g->paths, g->count, g->seed));
+    OST_TRY(assign(g));
     for (int pass = 0; pass < g->shape->recentrings || dropped; pass++) {
         recentre(g);
         dropped = drop_small(g);
         if (pass < g->shape->recentrings || dropped)
-            OST_TRY(ost_paths_assign(g->paths, g->count, g->seed));
+            OST_TRY(assign(g));
         if (dropped)
             OST_TRY(adopt_orphans(g));
     }
@@ -204,7 +331,7 @@ OstStatus ost_aggregates_create(const OstMetricGraph *graph, const OstAggregateS
     if (graph->nodes > 0)
         OST_TRY_DONE(group(&g));
     for (OstLocal i = 0; i < graph->nodes; i++)
-        (*aggregates)->of_node[i] = g.paths->source[i] < 0 ? -1 : g.paths->source[i];
+        (*aggregates)->of_node[i] = g.source[i] < 0 ? -1 : g.source[i];
     (*aggregates)->count = g.count;
 done:
     destroy_grouping(&g);

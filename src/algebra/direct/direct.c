@@ -46,11 +46,6 @@ done:
     return status;
 }
 
-static OstStatus apply_factors(void *data, const double *r, double *z)
-{
-    return ost_mumps_solve(data, r, z);
-}
-
 /* An unconstrained body also factors once the diagonal is shifted: a rounding error of 0.1 or more gives it away. */
 static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *report)
 {
@@ -65,7 +60,7 @@ static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *re
 
 OstStatus ost_direct_solve(OstDirect *direct, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner factors = {.data = direct->factors, .apply = apply_factors, .factors = 1};
+    const OstPreconditioner factors = {.data = direct->factors, .apply = ost_mumps_solve, .factors = 1};
     report->levels = 1;
     report->level_unknowns[0] = 3 * direct->system.matrix->global_rows;
     report->operator_complexity = 1.0;

@@ -65,7 +65,6 @@ void ost_mumps_destroy(OstMumps **mumps)
     if ((*mumps)->started)
         call(*mumps, JOB_END);
     OST_FREE((*mumps)->counts);
-    OST_FREE((*mumps)->starts);
     OST_FREE((*mumps)->vector);
     OST_FREE(*mumps);
 }
@@ -157,14 +156,6 @@ static void fill_entries(const OstDoubleMatrix *matrix, const OstGlobal *number,
     id->nnz_loc = n;
 }
 
-static OstStatus global_numbers(const OstMumps *mumps, const OstDoubleMatrix *matrix, OstGlobal **number)
-{
-    OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, number, matrix->columns)));
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        (*number)[i] = mumps->first + (OstGlobal)matrix->size * i;
-    return ost_halo_import(matrix->halo, sizeof **number, *number);
-}
-
 static OstStatus allocate_entries(const OstDoubleMatrix *matrix, DMUMPS_STRUC_C *id)
 {
     const size_t most = (size_t)(matrix->size * matrix->size) * (size_t)matrix->row_start[matrix->rows];
@@ -239,7 +230,7 @@ static OstStatus factor_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
     OstGlobal *number = NULL;
     OstStatus status;
     OST_TRY_DONE(ost_agree(mumps->ctx, allocate_entries(matrix, id)));
-    OST_TRY_DONE(ost_agree(mumps->ctx, global_numbers(mumps, matrix, &number)));
+    OST_TRY_DONE(ost_double_matrix_numbers(matrix, mumps->first, &number));
     id->n = (MUMPS_INT)mumps->all;
     fill_entries(matrix, number, id);
     OST_TRY_DONE(factor(mumps));
@@ -256,18 +247,14 @@ static OstStatus prepare_vectors(OstMumps *mumps)
 {
     OstContext *ctx = mumps->ctx;
     const int size = ost_rank(ctx) == 0 ? ost_size(ctx) : 0;
-    OST_TRY(OST_NEW(ctx, &mumps->counts, size));
-    OST_TRY(OST_NEW(ctx, &mumps->starts, size));
-    return OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0);
-}
-
-static OstStatus gather_counts(OstMumps *mumps)
-{
-    OstContext *ctx = mumps->ctx;
+    OstStatus status = OST_NEW(ctx, &mumps->counts, 2 * size);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0);
+    OST_TRY(ost_agree(ctx, status));
+    mumps->starts = mumps->counts + size;
     OST_TRY(OST_MPI(ctx, MPI_Gather(&mumps->unknowns, 1, MPI_INT, mumps->counts, 1, MPI_INT, 0, ost_comm(ctx))));
-    if (ost_rank(ctx) == 0)
-        for (int r = 1; r < ost_size(ctx); r++)
-            mumps->starts[r] = mumps->starts[r - 1] + mumps->counts[r - 1];
+    for (int r = 1; r < size; r++)
+        mumps->starts[r] = mumps->starts[r - 1] + mumps->counts[r - 1];
     return OST_SUCCESS;
 }
 
@@ -282,8 +269,7 @@ static OstStatus create(const OstDoubleMatrix *matrix, double memory, double mos
     made->memory = memory;
     made->most_shift = most_shift;
     OST_TRY_DONE(number_unknowns(made, matrix));
-    OST_TRY_DONE(ost_agree(ctx, prepare_vectors(made)));
-    OST_TRY_DONE(gather_counts(made));
+    OST_TRY_DONE(prepare_vectors(made));
     OST_TRY_DONE(start(made));
     OST_TRY_DONE(factor_matrix(made, matrix));
 done:
@@ -311,8 +297,9 @@ OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScalin
     return status;
 }
 
-OstStatus ost_mumps_solve(OstMumps *mumps, const double *b, double *x)
+OstStatus ost_mumps_solve(void *data, const double *b, double *x)
 {
+    OstMumps *mumps = data;
     OstContext *ctx = mumps->ctx;
     OST_TRY(OST_MPI(ctx, MPI_Gatherv(b, mumps->unknowns, MPI_DOUBLE, mumps->vector, mumps->counts, mumps->starts,
                                      MPI_DOUBLE, 0, ost_comm(ctx))));

@@ -20,7 +20,7 @@ OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScalin
                                    double *shift, OstMumps **mumps);
 void ost_mumps_destroy(OstMumps **mumps);
 
-/* Collective. x = A^-1 b, size × rows numbers each. */
-OstStatus ost_mumps_solve(OstMumps *mumps, const double *b, double *x);
+/* Collective. x = A^-1 b, size × rows numbers each; as OstPreconditioner's `apply`, with the factors as `data`. */
+OstStatus ost_mumps_solve(void *data, const double *b, double *x);
 
 #endif

@@ -159,18 +159,16 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
     OstContext *ctx = system->matrix->ctx;
     Cg cg = {
         .run = {.ctx = ctx, .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)system->matrix->rows}};
-    OstStatus status = OST_NEW(ctx, &cg.run.unscaled, 3 * (size_t)system->matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &cg.run.residual, cg.run.n);
+    OstStatus status = OST_NEW(ctx, &cg.run.residual, cg.run.n + 3 * (size_t)system->matrix->columns);
     if (status == OST_SUCCESS)
         status = ost_lanczos_create(ctx, goal->most_iterations, &cg.run.lanczos);
     OST_TRY_DONE(ost_agree(ctx, status));
+    cg.run.unscaled = cg.run.residual + cg.run.n;
     OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));
     OST_TRY_DONE(report_error(&cg, f, u, goal, report));
     if (cg.hidden && goal->end == OST_END_REACHED)
         OST_TRY_DONE(solve_hidden(&cg, f, u, goal, report));
 done:
-    OST_FREE(cg.run.unscaled);
     OST_FREE(cg.run.residual);
     ost_lanczos_destroy(&cg.run.lanczos);
     return status;

@@ -20,8 +20,10 @@ typedef struct OstCgRun {
 } OstCgRun;
 
 /* Collective. Improves u', which is 0 on entry, until the goal is reached or ended; overwrites r'. Raises
- * OST_NOT_CONVERGED if p·Ap is negative beyond rounding: the matrix is indefinite. AztecOO's needs a fixed, symmetric
- * and positive definite preconditioner; the other, our own, the factors of A. */
+ * OST_NOT_CONVERGED if p·Ap is negative beyond rounding: the matrix is indefinite. AztecOO's
+ * (algebra/trilinos/conjugate_gradients.c) needs a fixed, symmetric and positive definite preconditioner, and raises
+ * OST_OUT_OF_MEMORY if there is no room for AztecOO's four vectors (it would end the process); the other, our own,
+ * needs the factors of A. */
 OstStatus ost_cg_run_by_aztec(OstCgRun *run, double *u, OstGoal *goal);
 OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal);
 

@@ -2,7 +2,6 @@
 #include "algebra/krylov/energy_error.h"
 
 #include "algebra/matrix/compensated_step.h"
-#include "algebra/matrix/residual.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
@@ -172,10 +171,8 @@ static OstStatus measure_apart(Work *work, OstEnergyError *error)
 static OstStatus prepare_cg(Work *work)
 {
     OstContext *ctx = work->system->matrix->ctx;
-    OstStatus status = OST_NEW(ctx, &work->remaining, work->n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work->solution, work->n);
-    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &work->remaining, 2 * work->n)));
+    work->solution = work->remaining + work->n;
     return ost_compensated_step_create(work->system->matrix, &work->step);
 }
 
@@ -212,23 +209,14 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
     OstContext *ctx = matrix->ctx;
     Work work = {
         .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows, .smallest = smallest};
-    OstStatus status = OST_NEW(ctx, &work.u, 3 * (size_t)matrix->columns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.residual, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.vector, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.corrected, work.n);
-    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
+    work.vector = work.residual + work.n;
+    work.corrected = work.vector + work.n;
+    work.u = work.corrected + work.n;
     memcpy(work.u, u, work.n * sizeof *u);
-    OST_TRY_DONE(estimate(&work, f, compensated, error));
-done:
-    OST_FREE(work.u);
+    const OstStatus status = estimate(&work, f, compensated, error);
     OST_FREE(work.residual);
-    OST_FREE(work.vector);
-    OST_FREE(work.corrected);
     OST_FREE(work.remaining);
-    OST_FREE(work.solution);
     ost_compensated_step_destroy(&work.step);
     return status;
 }

@@ -24,9 +24,9 @@ typedef struct FactorRun {
 static OstStatus next_direction(FactorRun *work, int first, double *beta)
 {
     const OstCgRun *run = work->run;
+    double weight;
     OST_TRY(run->preconditioner->apply(run->preconditioner->data, run->residual, work->corrected));
-    double weight = ost_dot(run->n, run->residual, work->corrected);
-    OST_TRY(ost_sum(run->ctx, 1, &weight));
+    OST_TRY(ost_vector_dot(run->ctx, run->n, run->residual, work->corrected, &weight));
     if (!ost_goal_accepts(work->goal, weight))
         return OST_SUCCESS;
     *beta = first ? 0.0 : weight / work->weight;
@@ -99,16 +99,10 @@ static OstStatus iterate(FactorRun *work, double *u)
 OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal)
 {
     FactorRun work = {.run = run, .goal = goal};
-    OstStatus status = OST_NEW(run->ctx, &work.direction, run->n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(run->ctx, &work.product, run->n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(run->ctx, &work.corrected, run->n);
-    status = ost_agree(run->ctx, status);
-    if (status == OST_SUCCESS)
-        status = iterate(&work, u);
+    OST_TRY(ost_agree(run->ctx, OST_NEW(run->ctx, &work.direction, 3 * run->n)));
+    work.product = work.direction + run->n;
+    work.corrected = work.product + run->n;
+    const OstStatus status = iterate(&work, u);
     OST_FREE(work.direction);
-    OST_FREE(work.product);
-    OST_FREE(work.corrected);
     return status;
 }

@@ -2,8 +2,7 @@
 #include "algebra/krylov/refine.h"
 
 #include "algebra/matrix/compensated_step.h"
-#include "algebra/matrix/residual.h"
-#include "algebra/matrix/term_rounding.h"
+#include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -219,21 +218,13 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
         memset(u, 0, work.n * sizeof *u);
         return OST_SUCCESS;
     }
-    OstStatus status = OST_NEW(ctx, &work.residual, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.correction, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.candidate_residual, work.n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &work.candidate, 3 * (size_t)matrix->columns);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(refine(&work, inner, data));
-done:
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
+    work.correction = work.residual + work.n;
+    work.candidate_residual = work.correction + work.n;
+    work.candidate = work.candidate_residual + work.n;
+    const OstStatus status = refine(&work, inner, data);
     ost_progress(ctx, "solve", -1.0);
     ost_compensated_step_destroy(&work.step);
     OST_FREE(work.residual);
-    OST_FREE(work.correction);
-    OST_FREE(work.candidate_residual);
-    OST_FREE(work.candidate);
     return status;
 }

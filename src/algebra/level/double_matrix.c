@@ -33,6 +33,14 @@ void ost_double_matrix_destroy(OstDoubleMatrix **source)
     OST_FREE(*source);
 }
 
+OstStatus ost_double_matrix_numbers(const OstDoubleMatrix *matrix, OstGlobal first, OstGlobal **number)
+{
+    OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, number, matrix->columns)));
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        (*number)[i] = first + (OstGlobal)matrix->size * i;
+    return ost_agree(matrix->ctx, ost_halo_import(matrix->halo, sizeof **number, *number));
+}
+
 double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row)
 {
     OstLocal low = matrix->row_start[row];

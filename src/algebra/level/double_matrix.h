@@ -23,6 +23,10 @@ typedef struct OstDoubleMatrix {
 OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstDoubleMatrix **source);
 void ost_double_matrix_destroy(OstDoubleMatrix **source);
 
+/* Collective. The global number of each column's first unknown, `first` being that of this rank's first row. The caller
+ * frees it. */
+OstStatus ost_double_matrix_numbers(const OstDoubleMatrix *matrix, OstGlobal first, OstGlobal **number);
+
 /* Local. Block k, in row i: a pointer to it, or its scaled copy in `room`. `size` is the matrix's, passed as a constant
  * so that the compiler unrolls. */
 OST_UNROLLED const double *ost_double_matrix_block(const OstDoubleMatrix *matrix, int size, OstLocal i, OstLocal k,

@@ -45,11 +45,13 @@ typedef struct Parcel {
     void *in;
 } Parcel;
 
-/* MPI counts bytes in an int. */
-static OstStatus check_lengths(const OstHalo *halo, const OstLocal *start, size_t bytes)
+/* Where each neighbour's blocks start. MPI counts their bytes in an int. */
+static OstStatus find_blocks(const OstHalo *halo, const OstLocal *row_start, const OstFetchedRows *rows,
+                             OstLocal *blocks)
 {
-    for (int k = 0; k < halo->neighbour_count; k++) {
-        const size_t length = (size_t)(start[k + 1] - start[k]) * bytes;
+    for (int k = 0; k <= halo->neighbour_count; k++) {
+        blocks[k] = rows->start[row_start[k]];
+        const size_t length = k > 0 ? (size_t)(blocks[k] - blocks[k - 1]) * rows->block_bytes : 0;
         if (length > INT_MAX)
             return OST_RAISE(halo->ctx, OST_LIMIT_EXCEEDED,
                              "a message of %zu bytes exceeds MPI's 2^31 - 1; use more ranks", length);
@@ -77,15 +79,6 @@ static OstStatus send_parcel(OstHalo *halo, const Parcel *parcel)
     return OST_MPI(ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
 }
 
-/* Where each neighbour's blocks start. */
-static OstStatus block_starts(const OstHalo *halo, const OstLocal *row_start, const OstLocal *start, OstLocal **blocks)
-{
-    OST_TRY(OST_NEW(halo->ctx, blocks, halo->neighbour_count + 1));
-    for (int k = 0; k <= halo->neighbour_count; k++)
-        (*blocks)[k] = start[row_start[k]];
-    return OST_SUCCESS;
-}
-
 /* Lengths of the rows: they say how many blocks follow. */
 static OstStatus exchange_lengths(OstHalo *halo, const OstLocal *out_row, const OstLocal *in_row,
                                   const OstFetchedRows *out, OstFetchedRows *in)
@@ -107,23 +100,22 @@ done:
 static OstStatus exchange_blocks(OstHalo *halo, const OstLocal *out_row, const OstLocal *in_row,
                                  const OstFetchedRows *out, OstFetchedRows *in)
 {
-    OstContext *ctx = halo->ctx;
+    const int starts = halo->neighbour_count + 1;
     OstLocal *out_block = NULL, *in_block = NULL;
-    OstStatus status = block_starts(halo, out_row, out->start, &out_block);
+    OstStatus status = OST_NEW(halo->ctx, &out_block, 2 * starts);
+    if (status == OST_SUCCESS) {
+        in_block = out_block + starts;
+        status = find_blocks(halo, out_row, out, out_block);
+    }
     if (status == OST_SUCCESS)
-        status = block_starts(halo, in_row, in->start, &in_block);
-    if (status == OST_SUCCESS)
-        status = check_lengths(halo, out_block, out->block_bytes);
-    if (status == OST_SUCCESS)
-        status = check_lengths(halo, in_block, out->block_bytes);
+        status = find_blocks(halo, in_row, in, in_block);
     if (status == OST_SUCCESS)
         status = ost_fetched_rows_reserve(in);
-    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_agree(halo->ctx, status));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, sizeof *out->column, out->column, in->column}));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, out->block_bytes, out->value, in->value}));
 done:
     OST_FREE(out_block);
-    OST_FREE(in_block);
     return status;
 }
 

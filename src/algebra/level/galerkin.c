@@ -71,15 +71,6 @@ static OstStatus pack_rows(const Product *product, const OstGlobal *number, OstF
     return OST_SUCCESS;
 }
 
-static OstStatus number_far_columns(Product *product)
-{
-    const OstLocal blocks = product->far->start[product->far->rows];
-    OST_TRY(OST_NEW(product->ctx, &product->far_column, blocks));
-    for (OstLocal k = 0; k < blocks; k++)
-        OST_TRY(ost_block_sum_number(product->sum, product->far->column[k], &product->far_column[k]));
-    return OST_SUCCESS;
-}
-
 static OstStatus import_rows(Product *product, const OstGlobal *number)
 {
     OstContext *ctx = product->ctx;
@@ -91,7 +82,11 @@ static OstStatus import_rows(Product *product, const OstGlobal *number)
         status = pack_rows(product, number, out);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_GHOSTS, out, &product->far));
-    OST_TRY_DONE(ost_agree(ctx, number_far_columns(product)));
+    const OstLocal blocks = product->far->start[product->far->rows];
+    status = OST_NEW(ctx, &product->far_column, blocks);
+    for (OstLocal k = 0; k < blocks && status == OST_SUCCESS; k++)
+        status = ost_block_sum_number(product->sum, product->far->column[k], &product->far_column[k]);
+    status = ost_agree(ctx, status);
 done:
     ost_fetched_rows_destroy(&out);
     return status;

@@ -88,9 +88,9 @@ OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix 
     return status;
 }
 
-OstStatus ost_level_vector_create(OstContext *ctx, int size, OstLocal columns, double **vector)
+OstStatus ost_level_vector_create(OstContext *ctx, int size, size_t columns, double **vector)
 {
-    return OST_NEW(ctx, vector, (size_t)size * (size_t)columns + OST_PADDING);
+    return OST_NEW(ctx, vector, (size_t)size * columns + OST_PADDING);
 }
 
 /* 3 × 3 blocks. Each block right of the diagonal acts on its row and, transposed, on the row of its column. */
@@ -158,12 +158,11 @@ static void add6(const OstLevelMatrix *matrix, double scale, const double *restr
     }
 }
 
-OstStatus ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
+void ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
 {
     ost_exchange_import(matrix->exchange, x);
     if (matrix->size == 3)
         add3(matrix, scale, x, y);
     else
         add6(matrix, scale, x, y);
-    return OST_SUCCESS;
 }

@@ -32,10 +32,10 @@ static inline size_t ost_level_unknowns(const OstLevelMatrix *matrix)
 }
 
 /* Local. A level vector: zeros for `columns` nodes, and the padding that the products need. */
-OstStatus ost_level_vector_create(OstContext *ctx, int size, OstLocal columns, double **vector);
+OstStatus ost_level_vector_create(OstContext *ctx, int size, size_t columns, double **vector);
 
 /* Collective over neighbours. y += scale A x; the ghosts of x are filled here. Both are level vectors: x over the
  * columns, y over the rows. */
-OstStatus ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y);
+void ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y);
 
 #endif

@@ -47,17 +47,16 @@ OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const doubl
     }
 }
 
-OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
+void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
 {
     ost_exchange_import(prolongator->exchange, c);
     if (prolongator->height == 3)
         add_rows(prolongator, 3, c, x);
     else
         add_rows(prolongator, 6, c, x);
-    return OST_SUCCESS;
 }
 
-OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
+void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
 {
     memset(c, 0, OST_MODES * (size_t)prolongator->columns * sizeof *c);
     if (prolongator->height == 3)
@@ -65,5 +64,4 @@ OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const doub
     else
         restrict_rows(prolongator, 6, x, c);
     ost_exchange_add_to_owners(prolongator->exchange, c);
-    return OST_SUCCESS;
 }

@@ -20,9 +20,9 @@ typedef struct OstProlongator {
 void ost_prolongator_destroy(OstProlongator **prolongator);
 
 /* Collective over neighbours. x += P c; the ghosts of c are filled here. Both are level vectors. */
-OstStatus ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x);
+void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x);
 
 /* Collective over neighbours. c = Pᵀ x; c has room for all columns; its owned part is the result. */
-OstStatus ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c);
+void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c);
 
 #endif

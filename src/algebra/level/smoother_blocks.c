@@ -124,9 +124,20 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
     }
 }
 
-static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node, const OstLocal *place, double *dense,
-                          double *inverse, OstSmootherBlocks *blocks)
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *blocks)
 {
+    OstLocal *of_node = NULL;
+    double *dense = NULL;
+    OstStatus status;
+    OST_TRY_DONE(OST_NEW(blocks->ctx, &of_node, 2 * (size_t)matrix->rows));
+    OST_TRY_DONE(OST_NEW(blocks->ctx, &dense, 2 * LARGEST_SIDE * LARGEST_SIDE));
+    OstLocal *place = of_node + matrix->rows;
+    double *inverse = dense + LARGEST_SIDE * LARGEST_SIDE;
+    for (OstLocal b = 0; b < blocks->count; b++)
+        for (OstLocal k = blocks->node_start[b]; k < blocks->node_start[b + 1]; k++) {
+            of_node[blocks->node[k]] = b;
+            place[blocks->node[k]] = k - blocks->node_start[b];
+        }
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
         gather_block(matrix, blocks, b, of_node, place, dense);
@@ -138,29 +149,9 @@ static void invert_blocks(const OstLevelMatrix *matrix, const OstLocal *of_node,
         for (int k = 0; k < side * side; k++)
             value[k] = (float)inverse[k];
     }
-}
-
-static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *blocks)
-{
-    OstContext *ctx = blocks->ctx;
-    OstLocal *of_node = NULL, *place = NULL;
-    double *dense = NULL, *inverse = NULL;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(OST_NEW(ctx, &of_node, matrix->rows));
-    OST_TRY_DONE(OST_NEW(ctx, &place, matrix->rows));
-    OST_TRY_DONE(OST_NEW(ctx, &dense, LARGEST_SIDE * LARGEST_SIDE));
-    OST_TRY_DONE(OST_NEW(ctx, &inverse, LARGEST_SIDE * LARGEST_SIDE));
-    for (OstLocal b = 0; b < blocks->count; b++)
-        for (OstLocal k = blocks->node_start[b]; k < blocks->node_start[b + 1]; k++) {
-            of_node[blocks->node[k]] = b;
-            place[blocks->node[k]] = k - blocks->node_start[b];
-        }
-    invert_blocks(matrix, of_node, place, dense, inverse, blocks);
 done:
     OST_FREE(of_node);
-    OST_FREE(place);
     OST_FREE(dense);
-    OST_FREE(inverse);
     return status;
 }
 

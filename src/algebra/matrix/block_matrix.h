@@ -29,4 +29,12 @@ OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double
 /* Local. The same; the ghosts of x are already set. */
 void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *x, double *y);
 
+/* Collective over neighbours. residual = f - A u by compensated sums, as if computed in twice the precision and rounded
+ * once (Ogita, Rump, Oishi, Accurate sum and dot product, SIAM J. Sci. Comput. 26, 2005, Dot2). Costs about ten
+ * products A u. u has room for 3 × columns numbers; its ghosts are filled here. */
+OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f, double *u, double *residual);
+
+/* Collective over neighbours. The same, in plain double precision unless `compensated`. */
+OstStatus ost_residual(const OstBlockMatrix *matrix, const double *f, double *u, int compensated, double *residual);
+
 #endif

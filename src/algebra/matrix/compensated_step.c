@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/compensated_step.h"
 
-#include "algebra/matrix/residual.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -12,25 +11,23 @@
 OstStatus ost_compensated_step_create(const OstBlockMatrix *matrix, OstCompensatedStep **step)
 {
     OstContext *ctx = matrix->ctx;
-    OstCompensatedStep *made = NULL;
-    OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS) {
-        made->matrix = matrix;
-        status = OST_NEW(ctx, &made->direction, 3 * (size_t)matrix->columns);
-    }
+    const size_t n = 3 * (size_t)matrix->rows;
+    OstStatus status = OST_NEW(ctx, step, 1);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->product, 3 * (size_t)matrix->rows);
+        status = OST_NEW(ctx, &(*step)->product, n + 3 * (size_t)matrix->columns);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    (*step)->matrix = matrix;
+    (*step)->direction = (*step)->product + n;
+done:
     if (status != OST_SUCCESS)
-        ost_compensated_step_destroy(&made);
-    *step = made;
-    return ost_agree(ctx, status);
+        ost_compensated_step_destroy(step);
+    return status;
 }
 
 void ost_compensated_step_destroy(OstCompensatedStep **step)
 {
     if (!*step)
         return;
-    OST_FREE((*step)->direction);
     OST_FREE((*step)->product);
     OST_FREE(*step);
 }

@@ -12,6 +12,10 @@
  * `force` has 3 × rows numbers. */
 void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, int which, double *force);
 
+/* Local. The expected rounding error of each component of A u if its terms are rounded at random: DBL_EPSILON times the
+ * root of the sum of their squares. The ghosts of u are set; `rounding` has 3 × rows numbers. */
+void ost_term_rounding(const OstBlockMatrix *matrix, const double *u, double *rounding);
+
 /* The sizes found with the samples so far. */
 typedef struct OstSamples {
     int count;

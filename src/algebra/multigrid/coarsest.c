@@ -21,9 +21,7 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
     if (!*coarsest)
         return;
     OST_FREE((*coarsest)->count);
-    OST_FREE((*coarsest)->start);
     OST_FREE((*coarsest)->factor);
-    OST_FREE((*coarsest)->vector);
     ost_mumps_destroy(&(*coarsest)->sparse);
     OST_FREE(*coarsest);
 }
@@ -73,23 +71,6 @@ static OstStatus gather_rows(OstCoarsest *coarsest)
     return status != OST_SUCCESS ? status : freed;
 }
 
-static OstStatus assemble(const OstDoubleMatrix *matrix, OstCoarsest *coarsest)
-{
-    OstContext *ctx = coarsest->ctx;
-    OstGlobal *number = NULL;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &number, matrix->columns));
-    if (status != OST_SUCCESS)
-        goto done;
-    for (OstLocal i = 0; i < matrix->rows; i++)
-        number[i] = coarsest->start[ost_rank(ctx)] + (OstGlobal)matrix->size * i;
-    OST_TRY_DONE(ost_halo_import(matrix->halo, sizeof *number, number));
-    spread_rows(matrix, number, coarsest);
-    OST_TRY_DONE(gather_rows(coarsest));
-done:
-    OST_FREE(number);
-    return status;
-}
-
 /* Restores the matrix after a failed factorisation. LAPACK, by columns, factors what is the upper triangle of our rows;
  * the lower one still has the entries. */
 static void restore(OstCoarsest *coarsest, const double *diagonal, double shift)
@@ -129,12 +110,18 @@ static OstStatus factor(OstCoarsest *coarsest)
 static OstStatus factor_dense(const OstDoubleMatrix *matrix, OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
-    OstStatus status = OST_NEW(ctx, &coarsest->factor, (size_t)coarsest->order * (size_t)coarsest->order);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &coarsest->vector, coarsest->order);
-    OST_TRY(ost_agree(ctx, status));
-    OST_TRY(ost_agree(ctx, assemble(matrix, coarsest)));
-    return ost_agree(ctx, factor(coarsest));
+    const size_t order = (size_t)coarsest->order;
+    OstGlobal *number = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &coarsest->factor, order * order + order)));
+    coarsest->vector = coarsest->factor + order * order;
+    OST_TRY_DONE(ost_double_matrix_numbers(matrix, coarsest->start[ost_rank(ctx)], &number));
+    spread_rows(matrix, number, coarsest);
+    OST_TRY_DONE(ost_agree(ctx, gather_rows(coarsest)));
+    OST_TRY_DONE(ost_agree(ctx, factor(coarsest)));
+done:
+    OST_FREE(number);
+    return status;
 }
 
 OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest)
@@ -145,10 +132,9 @@ OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstC
     *coarsest = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->count, ranks);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->start, ranks);
+        status = OST_NEW(ctx, &made->count, 2 * ranks);
     OST_TRY_DONE(ost_agree(ctx, status));
+    made->start = made->count + ranks;
     made->ctx = ctx;
     made->owned = matrix->size * matrix->rows;
     OST_TRY_DONE(ost_agree(ctx, number_unknowns(made)));

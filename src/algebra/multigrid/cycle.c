@@ -5,6 +5,7 @@
 #include "algebra/trilinos/cycle.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <string.h>
 
@@ -17,12 +18,12 @@ static const double careful = 1.2; /* safety factor of an eigenvalue estimate th
 
 typedef struct Level {
     const OstLevelMatrix *matrix;
-    OstSmoother *smoother;                 /* NULL where the level is solved by factors */
-    const OstProlongator *prolongator;     /* from the next level; or */
-    const OstInterpolation *interpolation; /* from the linear tets; neither on the coarsest level */
-    OstCoarsest *coarsest;                 /* its factors; NULL if it is smoothed */
-    double *own;                           /* a vector of this level with room for ghosts */
-    double *coarse;                        /* a vector of the next level with room for the prolongator's ghosts */
+    OstSmoother *smoother;             /* NULL where the level is solved by factors */
+    const OstProlongator *prolongator; /* from the next level; or */
+    OstQuadraticLevel *quadratic;      /* which interpolates from the linear tets; neither on the coarsest level */
+    OstCoarsest *coarsest;             /* its factors; NULL if it is smoothed */
+    double *own;                       /* a vector of this level with room for ghosts */
+    double *coarse;                    /* a vector of the next level with room for the prolongator's ghosts */
 } Level;
 
 struct OstCycle {
@@ -55,7 +56,7 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
     OstLevels *levels = &cycle->levels;
     const int last = levels->count - 1;
     OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
-    OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx)));
+    OstStatus status = ost_sum_numbers(ctx, 1, &unknowns);
     if (status == OST_SUCCESS && (unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels))
         status = ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest);
     else if (status == OST_SUCCESS)
@@ -74,7 +75,8 @@ static OstStatus multiply(void *data, const double *x, double *y)
         memcpy(level->own, x, n * sizeof *x);
         memset(y, 0, n * sizeof *y);
     }
-    return ost_level_matrix_add(level->matrix, 1.0, level->own, y);
+    ost_level_matrix_add(level->matrix, 1.0, level->own, y);
+    return OST_SUCCESS;
 }
 
 static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
@@ -82,18 +84,18 @@ static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
     const Level *level = data;
     if (level->coarsest)
         return ost_coarsest_solve(level->coarsest, b, x);
-    const int is_last = !level->prolongator && !level->interpolation;
+    const int is_last = !level->prolongator && !level->quadratic;
     for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
-        OST_TRY(ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0));
+        ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0);
     return OST_SUCCESS;
 }
 
 static OstStatus restrict_to(void *data, const double *fine, double *coarse)
 {
     const Level *level = data;
-    if (level->interpolation)
-        return ost_interpolation_restrict(level->interpolation, fine, coarse);
-    OST_TRY(ost_prolongator_restrict(level->prolongator, fine, level->coarse));
+    if (level->quadratic)
+        return ost_quadratic_level_restrict(level->quadratic, fine, coarse);
+    ost_prolongator_restrict(level->prolongator, fine, level->coarse);
     const size_t n = ost_level_unknowns(level[1].matrix);
     if (n > 0)
         memcpy(coarse, level->coarse, n * sizeof *coarse);
@@ -104,34 +106,34 @@ static OstStatus prolong(void *data, const double *coarse, double *fine)
 {
     const Level *level = data;
     const size_t n = ost_level_unknowns(level->matrix), coarse_n = ost_level_unknowns(level[1].matrix);
+    if (level->quadratic)
+        return ost_quadratic_level_prolong(level->quadratic, coarse, fine);
     if (n > 0)
         memset(fine, 0, n * sizeof *fine);
-    if (level->interpolation)
-        return ost_interpolation_add(level->interpolation, coarse, fine);
     if (coarse_n > 0)
         memcpy(level->coarse, coarse, coarse_n * sizeof *coarse);
-    return ost_prolongator_add(level->prolongator, level->coarse, fine);
+    ost_prolongator_add(level->prolongator, level->coarse, fine);
+    return OST_SUCCESS;
 }
 
 /* Lists the levels, the finest first. */
 static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
 {
     const OstLevels *levels = &cycle->levels;
-    const OstQuadraticLevel *quadratic = cycle->quadratic;
+    OstQuadraticLevel *quadratic = cycle->quadratic;
     const int finest = quadratic ? 1 : 0; /* level of the linear tets */
     cycle->count = levels->count + finest;
     if (quadratic)
-        cycle->level[0] = (Level){
-            .matrix = quadratic->matrix, .smoother = quadratic->smoother, .interpolation = quadratic->interpolation};
+        cycle->level[0] = (Level){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
     for (int l = 0; l < levels->count; l++)
         cycle->level[finest + l] = (Level){
             .matrix = levels->matrix[l], .smoother = levels->smoother[l], .prolongator = levels->prolongator[l]};
     cycle->level[cycle->count - 1].coarsest = cycle->coarsest;
     for (int l = 0; l < cycle->count; l++) {
         Level *level = &cycle->level[l];
-        OST_TRY(ost_level_vector_create(ctx, level->matrix->size, level->matrix->columns, &level->own));
+        OST_TRY(ost_level_vector_create(ctx, level->matrix->size, (size_t)level->matrix->columns, &level->own));
         if (level->prolongator)
-            OST_TRY(ost_level_vector_create(ctx, OST_MODES, level->prolongator->columns, &level->coarse));
+            OST_TRY(ost_level_vector_create(ctx, OST_MODES, (size_t)level->prolongator->columns, &level->coarse));
     }
     return OST_SUCCESS;
 }
@@ -172,8 +174,9 @@ done:
     return status;
 }
 
-OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z)
+OstStatus ost_cycle_apply(void *data, const double *r, double *z)
 {
+    OstCycle *cycle = data;
     return cycle->ml ? ost_ml_cycle_apply(cycle->ml, r, z) : smooth(&cycle->level[0], r, z, 1);
 }
 

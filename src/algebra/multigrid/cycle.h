@@ -15,8 +15,9 @@ OstStatus ost_cycle_create(OstContext *ctx, OstLevels *levels, OstQuadraticLevel
                            const OstSolverOptions *options, OstCycle **cycle);
 void ost_cycle_destroy(OstCycle **cycle);
 
-/* Collective. z = one cycle from zero for A z = r on the finest level; 3 × rows numbers each. */
-OstStatus ost_cycle_apply(OstCycle *cycle, const double *r, double *z);
+/* Collective. z = one cycle from zero for A z = r on the finest level; as OstPreconditioner's `apply`, with the cycle
+ * as `data`. */
+OstStatus ost_cycle_apply(void *data, const double *r, double *z);
 
 /* Local. Raises the degree of the smoothers' polynomials by `more`, sets the width of their interval to `ratio`, and
  * raises its upper end. */

@@ -6,6 +6,7 @@
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <string.h>
@@ -59,7 +60,7 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
         status = ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]);
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
-    return OST_MPI(work->ctx, MPI_Allreduce(MPI_IN_PLACE, unknowns, 1, MPI_INT64_T, MPI_SUM, ost_comm(work->ctx)));
+    return ost_sum_numbers(work->ctx, 1, unknowns);
 }
 
 /* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.

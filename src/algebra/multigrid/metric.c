@@ -7,9 +7,9 @@
 #include "algebra/multigrid/quadratic.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <stdio.h>
-#include <string.h>
 
 struct OstMetric {
     OstContext *ctx;
@@ -57,8 +57,7 @@ static OstStatus measure_levels(OstMetric *metric, const OstLevels *levels)
         size[2 * l] = (OstGlobal)ost_level_unknowns(levels->matrix[l]);
         size[2 * l + 1] = levels->matrix[l]->nonzeros;
     }
-    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, size, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM,
-                                               ost_comm(metric->ctx))));
+    OST_TRY(ost_sum_numbers(metric->ctx, 2 * OST_MAX_LEVELS, size));
     OstGlobal nonzeros = 0;
     metric->levels = levels->count;
     for (int l = 0; l < levels->count; l++) {
@@ -90,7 +89,7 @@ done:
 static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear)
 {
     OstGlobal blocks[2] = {metric->matrix->row_start[metric->matrix->rows], linear->row_start[linear->rows]};
-    OST_TRY(OST_MPI(metric->ctx, MPI_Allreduce(MPI_IN_PLACE, blocks, 2, MPI_INT64_T, MPI_SUM, ost_comm(metric->ctx))));
+    OST_TRY(ost_sum_numbers(metric->ctx, 2, blocks));
     if (metric->levels < OST_MAX_LEVELS)
         metric->levels++;
     for (int l = metric->levels - 1; l > 0; l--)
@@ -119,16 +118,15 @@ done:
     return status;
 }
 
-OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstMetric **metric)
 {
+    OstContext *ctx = matrix->ctx;
     OstMetric *made = NULL;
     OstLevels levels = {0};
     OstQuadraticLevel *quadratic = NULL;
-    *metric = NULL;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
-    if (status != OST_SUCCESS)
-        goto done;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
     made->ctx = ctx;
     made->options = *options;
     made->matrix = matrix;
@@ -147,11 +145,6 @@ done:
     return status;
 }
 
-static OstStatus apply_cycle(void *data, const double *r, double *z)
-{
-    return ost_cycle_apply(data, r, z);
-}
-
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 {
     ost_cycle_strengthen(metric->cycle, options->smoother_degree - metric->options.smoother_degree,
@@ -162,7 +155,7 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner cycle = {.data = metric->cycle, .apply = apply_cycle};
+    const OstPreconditioner cycle = {.data = metric->cycle, .apply = ost_cycle_apply};
     const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
@@ -170,15 +163,4 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
     report->operator_complexity = metric->operator_complexity;
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML cycle of %d levels", metric->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
-}
-
-OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report)
-{
-    OstGoal goal;
-    OST_TRY(ost_goal_set(metric->matrix, f, &metric->options, &goal));
-    memset(u, 0, 3 * (size_t)metric->matrix->rows * sizeof *u);
-    const OstStatus status = ost_metric_improve(metric, f, u, &goal, report);
-    report->iterations = goal.iterations;
-    report->relative_residual = goal.start > 0.0 ? goal.norm / goal.start : 0.0;
-    return status == OST_SUCCESS ? ost_goal_verdict(&goal) : status;
 }

@@ -12,7 +12,7 @@ typedef struct OstMetric OstMetric;
 
 /* Collective. The matrix stays the caller's and must outlive the solver. Raises OST_INVALID_INPUT if a coordinate or
  * metric is not usable or a diagonal block is not positive definite. */
-OstStatus ost_metric_create(OstContext *ctx, const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
+OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                             const OstSolverOptions *options, OstMetric **metric);
 void ost_metric_destroy(OstMetric **metric);
 
@@ -22,9 +22,5 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
 
 /* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
-
-/* Collective. Solves from u = 0 to the residual that the options request; also fills the report's iterations and
- * relative_residual. Raises OST_NOT_CONVERGED if it is not reached. */
-OstStatus ost_metric_solve(OstMetric *metric, const double *f, double *u, OstSolveReport *report);
 
 #endif

@@ -4,8 +4,10 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <string.h>
+
 /* Linear tets leave a wider part of the spectrum to the smoother than aggregates do: two more degrees pay. */
-enum { MORE_SMOOTHING = 2 };
+enum { MORE_SMOOTHING = 2, PARENTS = 4 };
 
 void ost_quadratic_level_destroy(OstQuadraticLevel **level)
 {
@@ -13,18 +15,8 @@ void ost_quadratic_level_destroy(OstQuadraticLevel **level)
         return;
     ost_smoother_destroy(&(*level)->smoother);
     ost_level_matrix_destroy(&(*level)->matrix);
-    ost_interpolation_destroy(&(*level)->interpolation);
+    OST_FREE((*level)->fine);
     OST_FREE(*level);
-}
-
-static OstStatus create_matrix(const OstBlockMatrix *matrix, const OstScaling *scaling, OstLevelMatrix **made)
-{
-    OstDoubleMatrix *source = NULL;
-    OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &source));
-    if (status == OST_SUCCESS)
-        status = ost_level_matrix_create(source, made);
-    ost_double_matrix_destroy(&source);
-    return status;
 }
 
 OstStatus ost_quadratic_level_create(const OstBlockMatrix *matrix, const OstMetricGraph *graph,
@@ -32,19 +24,56 @@ OstStatus ost_quadratic_level_create(const OstBlockMatrix *matrix, const OstMetr
                                      const OstSolverOptions *options, OstQuadraticLevel **level)
 {
     OstContext *ctx = matrix->ctx;
+    const size_t fine = 3 * (size_t)matrix->rows, coarse = 3 * (size_t)space->matrix->columns;
     OstSolverOptions smoothing = *options;
+    OstDoubleMatrix *view = NULL;
     OstQuadraticLevel *made = NULL;
-    *level = NULL;
     smoothing.smoother_degree += MORE_SMOOTHING;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(create_matrix(matrix, quadratic, &made->matrix));
-    OST_TRY_DONE(ost_agree(ctx, ost_interpolation_create(space, quadratic, linear, &made->interpolation)));
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(ctx, &made->fine, fine + coarse);
+    if (status == OST_SUCCESS)
+        status = ost_double_matrix_borrow(matrix, quadratic, &view);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    made->space = *space;
+    made->quadratic = quadratic;
+    made->linear = linear;
+    made->coarse = made->fine + fine;
+    OST_TRY_DONE(ost_level_matrix_create(view, &made->matrix));
     OST_TRY_DONE(ost_smoother_create(made->matrix, graph, &smoothing, &made->smoother));
 done:
+    ost_double_matrix_destroy(&view);
     if (status != OST_SUCCESS)
         ost_quadratic_level_destroy(&made);
     *level = made;
     return status;
+}
+
+OstStatus ost_quadratic_level_prolong(const OstQuadraticLevel *level, const double *c, double *x)
+{
+    const size_t rows = (size_t)level->quadratic->rows;
+    ost_scaling_from_scaled(level->linear, c, level->coarse);
+    OST_TRY(ost_halo_import(level->space.matrix->halo, 3 * sizeof(double), level->coarse));
+    memset(x, 0, 3 * rows * sizeof *x);
+    for (size_t k = 0; k < PARENTS * rows; k++) {
+        const OstLocal parent = level->space.parents[k];
+        for (size_t i = 0; i < 3 && parent >= 0; i++)
+            x[3 * (k / PARENTS) + i] += level->space.weights[k] * level->coarse[3 * (size_t)parent + i];
+    }
+    ost_scaling_to_scaled_mode(level->quadratic, x, x);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_quadratic_level_restrict(const OstQuadraticLevel *level, const double *x, double *c)
+{
+    ost_scaling_unscale_residual(level->quadratic, x, level->fine);
+    memset(level->coarse, 0, 3 * (size_t)level->space.matrix->columns * sizeof(double));
+    for (size_t k = 0; k < PARENTS * (size_t)level->quadratic->rows; k++) {
+        const OstLocal parent = level->space.parents[k];
+        for (size_t i = 0; i < 3 && parent >= 0; i++)
+            level->coarse[3 * (size_t)parent + i] += level->space.weights[k] * level->fine[3 * (k / PARENTS) + i];
+    }
+    OST_TRY(ost_halo_add_to_owners(level->space.matrix->halo, 3, level->coarse));
+    ost_scaling_to_scaled(level->linear, level->coarse, c);
+    return OST_SUCCESS;
 }

@@ -15,7 +15,6 @@ void ost_smoother_destroy(OstSmoother **smoother)
         return;
     ost_smoother_blocks_destroy(&(*smoother)->blocks);
     OST_FREE((*smoother)->residual);
-    OST_FREE((*smoother)->direction);
     OST_FREE(*smoother);
 }
 
@@ -35,13 +34,13 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
     *smoother = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS)
-        status = ost_level_vector_create(ctx, matrix->size, matrix->rows, &made->residual);
-    if (status == OST_SUCCESS)
-        status = ost_level_vector_create(ctx, matrix->size, matrix->columns, &made->direction);
+        status =
+            ost_level_vector_create(ctx, matrix->size, (size_t)matrix->rows + (size_t)matrix->columns, &made->residual);
     if (status == OST_SUCCESS)
         status = ost_smoother_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->matrix = matrix;
+    made->direction = made->residual + ost_level_unknowns(matrix); /* which is the residual's padding */
     made->degree = options->smoother_degree;
     made->ratio = options->smoother_ratio;
     OST_TRY_DONE(ost_largest_eigenvalue(matrix, apply_blocks, made, &made->largest));
@@ -53,7 +52,7 @@ done:
 }
 
 /* Chebyshev iteration: Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
-OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
+void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
 {
     const size_t n = ost_level_unknowns(smoother->matrix);
     const double upper = safety * smoother->largest;
@@ -69,17 +68,16 @@ OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, 
     if (!from_zero) {
         if (n > 0)
             memcpy(smoother->direction, x, n * sizeof(double));
-        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
+        ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
     }
     OstBlockStep step = {.keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x};
     ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
     for (int k = 1; k < smoother->degree; k++) {
-        OST_TRY(ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual));
+        ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
         const double next = 1.0 / (2.0 * sigma - rho);
         step.keep = next * rho;
         step.add = 2.0 * next / half_width;
         ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
         rho = next;
     }
-    return OST_SUCCESS;
 }

@@ -21,6 +21,6 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
 void ost_smoother_destroy(OstSmoother **smoother);
 
 /* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken as 0. */
-OstStatus ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero);
+void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero);
 
 #endif

@@ -30,30 +30,23 @@ static double noise(OstGlobal unknown)
     return (double)(ost_scatter((uint64_t)unknown) >> 11) * 0x1p-53 - 0.5;
 }
 
-static OstStatus start(Lanczos *lanczos)
-{
-    OstContext *ctx = lanczos->a->ctx;
-    const OstGlobal n = (OstGlobal)lanczos->n;
-    OstGlobal end = 0;
-    OST_TRY(OST_MPI(ctx, MPI_Scan(&n, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    for (OstGlobal i = 0; i < n; i++)
-        lanczos->r[i] = noise(end - n + i);
-    return OST_SUCCESS;
-}
-
 static OstStatus run(Lanczos *lanczos)
 {
     OstContext *ctx = lanczos->a->ctx;
     const size_t n = lanczos->n;
+    const OstGlobal mine = (OstGlobal)n;
+    OstGlobal end = 0;
     double weight, energy, alpha = 1.0, beta = 0.0;
-    OST_TRY(start(lanczos));
+    OST_TRY(OST_MPI(ctx, MPI_Scan(&mine, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    for (size_t i = 0; i < n; i++)
+        lanczos->r[i] = noise(end - mine + (OstGlobal)i);
     lanczos->solve(lanczos->data, lanczos->r, lanczos->z);
     OST_TRY(ost_vector_dot(ctx, n, lanczos->r, lanczos->z, &weight));
     for (int k = 0; k < STEPS && weight > 0.0; k++) {
         for (size_t i = 0; i < n; i++)
             lanczos->p[i] = lanczos->z[i] + beta * lanczos->p[i];
         memset(lanczos->ap, 0, n * sizeof(double));
-        OST_TRY(ost_level_matrix_add(lanczos->a, 1.0, lanczos->p, lanczos->ap));
+        ost_level_matrix_add(lanczos->a, 1.0, lanczos->p, lanczos->ap);
         OST_TRY(ost_vector_dot(ctx, n, lanczos->p, lanczos->ap, &energy));
         if (!(energy > 0.0))
             break;
@@ -72,23 +65,18 @@ static OstStatus run(Lanczos *lanczos)
     return OST_SUCCESS;
 }
 
-static OstStatus allocate(Lanczos *lanczos)
-{
-    const OstLevelMatrix *a = lanczos->a;
-    OST_TRY(ost_level_vector_create(a->ctx, a->size, a->rows, &lanczos->r));
-    OST_TRY(ost_level_vector_create(a->ctx, a->size, a->rows, &lanczos->z));
-    OST_TRY(ost_level_vector_create(a->ctx, a->size, a->rows, &lanczos->ap));
-    return ost_level_vector_create(a->ctx, a->size, a->columns, &lanczos->p);
-}
-
 OstStatus ost_largest_eigenvalue(const OstLevelMatrix *a, OstLocalSolve solve, const void *data, double *largest)
 {
     Lanczos lanczos = {.a = a, .solve = solve, .data = data, .n = ost_level_unknowns(a)};
     int info = 0;
     *largest = 1.0;
-    OstStatus status = ost_agree(a->ctx, allocate(&lanczos));
-    if (status == OST_SUCCESS)
-        status = ost_agree(a->ctx, run(&lanczos));
+    /* in one piece, so that what follows r, z and A p is their padding */
+    OST_TRY(ost_agree(a->ctx,
+                      ost_level_vector_create(a->ctx, a->size, 3 * (size_t)a->rows + (size_t)a->columns, &lanczos.r)));
+    lanczos.z = lanczos.r + lanczos.n;
+    lanczos.ap = lanczos.z + lanczos.n;
+    lanczos.p = lanczos.ap + lanczos.n;
+    OstStatus status = ost_agree(a->ctx, run(&lanczos));
     if (status == OST_SUCCESS && lanczos.count > 0) {
         dsterf_(&lanczos.count, lanczos.diagonal, lanczos.below, &info);
         *largest = lanczos.diagonal[lanczos.count - 1];
@@ -96,8 +84,5 @@ OstStatus ost_largest_eigenvalue(const OstLevelMatrix *a, OstLocalSolve solve, c
             status = OST_RAISE(a->ctx, OST_LIBRARY_FAILED, "LAPACK's dsterf returned %d", info);
     }
     OST_FREE(lanczos.r);
-    OST_FREE(lanczos.z);
-    OST_FREE(lanczos.ap);
-    OST_FREE(lanczos.p);
     return status;
 }

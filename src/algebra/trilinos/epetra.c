@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <limits.h>
 
@@ -30,27 +31,21 @@ void ost_epetra_map_destroy(OstEpetraMap **map)
     OST_FREE(*map);
 }
 
-/* The map is a 32-bit one: in Trilinos 13 the C wrapper for a 64-bit map cannot be called, as the library defines it
- * with other argument types than its header, under a C++ name. */
-static OstStatus check_limit(OstContext *ctx, OstLocal count)
-{
-    OstGlobal total = count;
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
-    if (total > INT_MAX)
-        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "%lld unknowns are more than Epetra's C interface can number (2^31 - 1); use a smaller mesh",
-                         (long long)total);
-    return OST_SUCCESS;
-}
-
 OstStatus ost_epetra_map_create(OstContext *ctx, OstLocal count, OstEpetraMap **map)
 {
     OstEpetraMap *made = NULL;
     MPI_Comm comm = ost_comm(ctx);
-    *map = NULL;
+    OstGlobal total = count;
     OstStatus status;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
-    OST_TRY_DONE(check_limit(ctx, count));
+    OST_TRY_DONE(ost_sum_numbers(ctx, 1, &total));
+    /* The map is a 32-bit one: in Trilinos 13 the C wrapper for a 64-bit map cannot be called, as the library defines
+     * it with other argument types than its header, under a C++ name. */
+    if (total > INT_MAX)
+        OST_TRY_DONE(
+            OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
+                      "%lld unknowns are more than Epetra's C interface can number (2^31 - 1); use a smaller mesh",
+                      (long long)total));
     made->ctx = ctx;
     made->communicator = epetra_mpicomm_create2(&comm);
     if (made->communicator)
@@ -63,16 +58,6 @@ done:
         ost_epetra_map_destroy(&made);
     *map = made;
     return status;
-}
-
-OstGlobal ost_epetra_map_size(const OstEpetraMap *map)
-{
-    return epetra_map_numglobalelements(map->map);
-}
-
-OstGlobal ost_epetra_map_first(const OstEpetraMap *map)
-{
-    return epetra_map_nummyelements(map->map) > 0 ? epetra_map_myglobalelements(map->map)[0] : 0;
 }
 
 OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm)

@@ -12,10 +12,6 @@ typedef struct OstEpetraMap OstEpetraMap;
 OstStatus ost_epetra_map_create(OstContext *ctx, OstLocal count, OstEpetraMap **map);
 void ost_epetra_map_destroy(OstEpetraMap **map);
 
-/* Local. Unknowns over all ranks, and the global number of this rank's first one (0 on a rank that has none). */
-OstGlobal ost_epetra_map_size(const OstEpetraMap *map);
-OstGlobal ost_epetra_map_first(const OstEpetraMap *map);
-
 /* Collective. The 2-norm of a distributed vector, which Epetra uses in place. */
 OstStatus ost_epetra_norm(const OstEpetraMap *map, const double *values, double *norm);
 

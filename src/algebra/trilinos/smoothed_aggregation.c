@@ -5,7 +5,9 @@
 #include "algebra/trilinos/ml.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
+#include <limits.h>
 #include <string.h>
 
 enum {
@@ -21,7 +23,8 @@ struct OstSmoothedAggregation {
     const OstBlockMatrix *matrix;
     ML *ml;
     ML_Aggregate *aggregates;
-    OstMlMatrix *link;
+    double *vector;   /* 3 × columns: with room for ghosts */
+    OstStatus status; /* the first failure inside a callback, as ML cannot pass it on */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -35,8 +38,90 @@ void ost_smoothed_aggregation_destroy(OstSmoothedAggregation **hierarchy)
         ML_Aggregate_Destroy(&(*hierarchy)->aggregates);
     if ((*hierarchy)->ml)
         ML_Destroy(&(*hierarchy)->ml);
-    ost_ml_matrix_destroy(&(*hierarchy)->link);
+    OST_FREE((*hierarchy)->vector);
     OST_FREE(*hierarchy);
+}
+
+static void note(OstSmoothedAggregation *hierarchy, OstStatus status)
+{
+    if (hierarchy->status == OST_SUCCESS)
+        hierarchy->status = status;
+}
+
+/* ML's row callback: scalar rows `rows[0..count)`; returns 0 when `space` is too small, and is called again. */
+static int get_rows(ML_Operator *operator, int count, int *rows, int space, int *columns, double *values, int *lengths)
+{
+    const OstBlockMatrix *a = ((const OstSmoothedAggregation *)ML_Get_MyGetrowData(operator))->matrix;
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        const OstLocal row = rows[i] / 3;
+        const size_t line = 3 * (size_t)(rows[i] % 3);
+        const OstLocal start = a->row_start[row];
+        const OstLocal end = a->row_start[row + 1];
+        lengths[i] = 3 * (end - start);
+        if (n + lengths[i] > space)
+            return 0;
+        for (OstLocal k = start; k < end; k++)
+            for (int c = 0; c < 3; c++) {
+                columns[n] = 3 * a->column[k] + c;
+                values[n++] = a->value[9 * (size_t)k + line + (size_t)c];
+            }
+    }
+    return 1;
+}
+
+static int multiply(ML_Operator *operator, int in_length, double *x, int out_length, double *y)
+{
+    OstSmoothedAggregation *hierarchy = ML_Get_MyMatvecData(operator);
+    (void)out_length;
+    if (in_length > 0) /* ML passes NULL on a rank that has no rows */
+        memcpy(hierarchy->vector, x, (size_t)in_length * sizeof *x);
+    note(hierarchy, ost_block_matrix_apply(hierarchy->matrix, hierarchy->vector, y));
+    return 0;
+}
+
+/* ML finds its neighbours by calling this exchange. */
+static int exchange(double *x, void *data)
+{
+    OstSmoothedAggregation *hierarchy = data;
+    note(hierarchy, ost_halo_import(hierarchy->matrix->halo, 3 * sizeof *x, x));
+    return 1;
+}
+
+static OstStatus check_limits(const OstBlockMatrix *a)
+{
+    const OstGlobal blocks = a->row_start[a->rows];
+    if (a->global_rows > INT_MAX / 3)
+        return OST_RAISE(a->ctx, OST_LIMIT_EXCEEDED,
+                         "%lld unknowns are more than ML can number (2^31 - 1); use a smaller mesh",
+                         3LL * (long long)a->global_rows);
+    if (blocks > INT_MAX / 9)
+        return OST_RAISE(a->ctx, OST_LIMIT_EXCEEDED,
+                         "%lld nonzeros on rank %d are more than ML can count (2^31 - 1); use more ranks",
+                         9LL * (long long)blocks, ost_rank(a->ctx));
+    return OST_SUCCESS;
+}
+
+/* Passes the matrix to ML, by callbacks for rows, product and halo exchange; ML copies only the diagonal. */
+static OstStatus set_matrix(OstSmoothedAggregation *hierarchy)
+{
+    const OstBlockMatrix *a = hierarchy->matrix;
+    ML *ml = hierarchy->ml;
+    const int unknowns = 3 * a->rows;
+    OstStatus status = check_limits(a);
+    if (status == OST_SUCCESS)
+        status = OST_NEW(a->ctx, &hierarchy->vector, 3 * (size_t)a->columns);
+    OST_TRY(ost_agree(a->ctx, status));
+    ML_Init_Amatrix(ml, FINEST, unknowns, unknowns, hierarchy);
+    ML_Set_Amatrix_Getrow(ml, FINEST, get_rows, exchange, 3 * a->columns);
+    ML_Set_Amatrix_Matvec(ml, FINEST, multiply);
+    for (OstLocal i = 0; i < a->rows; i++)
+        for (int c = 0; c < 3; c++)
+            hierarchy->vector[3 * i + c] = a->value[9 * (size_t)a->diagonal[i] + 4 * (size_t)c];
+    ML_Set_Amatrix_Diag(ml, FINEST, unknowns, hierarchy->vector);
+    ml->Amat[FINEST].N_nonzeros = 9 * a->row_start[a->rows];
+    ml->Amat[FINEST].num_PDEs = 3;
+    return ost_agree(a->ctx, hierarchy->status);
 }
 
 static OstStatus set_aggregation(OstSmoothedAggregation *hierarchy, const double *modes,
@@ -57,33 +142,26 @@ static OstStatus set_aggregation(OstSmoothedAggregation *hierarchy, const double
     return OST_SUCCESS;
 }
 
+/* Also counts the levels' unknowns and nonzeros over all ranks. */
 static OstStatus coarsen(OstSmoothedAggregation *hierarchy)
 {
     OstContext *ctx = hierarchy->matrix->ctx;
-    hierarchy->levels =
-        ML_Gen_MultiLevelHierarchy_UsingAggregation(hierarchy->ml, FINEST, ML_INCREASING, hierarchy->aggregates);
-    OST_TRY(ost_ml_check(hierarchy->link));
+    OstGlobal counts[2 * OST_MAX_LEVELS] = {0}, nonzeros = 0;
+    ML *ml = hierarchy->ml;
+    hierarchy->levels = ML_Gen_MultiLevelHierarchy_UsingAggregation(ml, FINEST, ML_INCREASING, hierarchy->aggregates);
+    OST_TRY(ost_agree(ctx, hierarchy->status));
     if (hierarchy->levels < 1)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML made no hierarchy (%d levels)", hierarchy->levels);
-    return OST_SUCCESS;
-}
-
-/* Unknowns and nonzeros of the levels over all ranks. */
-static OstStatus measure(OstSmoothedAggregation *hierarchy)
-{
-    OstContext *ctx = hierarchy->matrix->ctx;
-    OstGlobal counts[2][OST_MAX_LEVELS] = {{0}};
-    OstGlobal nonzeros = 0;
     for (int level = 0; level < hierarchy->levels; level++) {
-        counts[0][level] = hierarchy->ml->Amat[level].outvec_leng;
-        counts[1][level] = hierarchy->ml->Amat[level].N_nonzeros;
+        counts[2 * level] = ml->Amat[level].outvec_leng;
+        counts[2 * level + 1] = ml->Amat[level].N_nonzeros;
     }
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, counts, 2 * OST_MAX_LEVELS, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
+    OST_TRY(ost_sum_numbers(ctx, 2 * OST_MAX_LEVELS, counts));
     for (int level = 0; level < hierarchy->levels; level++) {
-        hierarchy->level_unknowns[level] = counts[0][level];
-        nonzeros += counts[1][level];
+        hierarchy->level_unknowns[level] = counts[2 * level];
+        nonzeros += counts[2 * level + 1];
     }
-    hierarchy->operator_complexity = (double)nonzeros / (double)counts[1][FINEST];
+    hierarchy->operator_complexity = (double)nonzeros / (double)counts[1];
     return OST_SUCCESS;
 }
 
@@ -108,7 +186,7 @@ static OstStatus set_smoothers(OstSmoothedAggregation *hierarchy, const OstSolve
                          (long long)hierarchy->level_unknowns[coarsest]);
     if (coarsest > FINEST && ML_Gen_Solver(ml, ML_MGV, FINEST, coarsest) != 0)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "ML_Gen_Solver failed");
-    return ost_ml_check(hierarchy->link);
+    return hierarchy->status;
 }
 
 /* Refuses unusable diagonal blocks first, as a failed factorisation in Amesos prints and writes the matrix to files. */
@@ -131,10 +209,9 @@ OstStatus ost_smoothed_aggregation_create(const OstBlockMatrix *matrix, const Os
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
     made->matrix = matrix;
     OST_TRY_DONE(ost_agree(ctx, ost_ml_create(ctx, OST_MAX_LEVELS, &made->ml)));
-    OST_TRY_DONE(ost_ml_set_matrix(made->ml, FINEST, matrix, &made->link));
+    OST_TRY_DONE(set_matrix(made));
     OST_TRY_DONE(ost_agree(ctx, set_aggregation(made, geometry->modes, options)));
     OST_TRY_DONE(coarsen(made));
-    OST_TRY_DONE(measure(made));
     OST_TRY_DONE(ost_agree(ctx, set_smoothers(made, options)));
 done:
     if (status != OST_SUCCESS)
@@ -152,7 +229,7 @@ OstStatus ost_smoothed_aggregation_apply(void *data, const double *r, double *z)
         ML_Solve_MGV(hierarchy->ml, (double *)r, z);
     else /* with one level ML's cycle would print a warning; the smoother is the direct solve */
         ML_Smoother_Apply(&hierarchy->ml->post_smoother[FINEST], n, z, n, (double *)r, ML_ZERO);
-    return hierarchy->link->status;
+    return hierarchy->status;
 }
 
 void ost_smoothed_aggregation_report(const OstSmoothedAggregation *hierarchy, OstSolveReport *report)

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number behind `key` in a file of lines "key value", or the file's first number where key is NULL; INFINITY if
- * there is none ("max" of a control group is none). */
+/* The number after `key` in a file of lines "key value"; with key NULL the file's first number. INFINITY if there is
+ * none: a control group without a limit says "max". */
 static double number_in(const char *path, const char *key)
 {
     FILE *file = fopen(path, "r");
@@ -30,7 +30,8 @@ static double number_in(const char *path, const char *key)
 static const char group_limit[] = "/sys/fs/cgroup/memory.max";
 static const char older_group_limit[] = "/sys/fs/cgroup/memory/memory.limit_in_bytes";
 
-/* What a control group (a container, a job of a batch system) has left; the cache of files it read is given back. */
+/* What a control group (a container, a job of a batch system) may still allocate. Its inactive file cache counts as
+ * free, since the kernel drops that on demand. */
 static double left_in_group(const char *most, const char *used, const char *statistics, const char *cache)
 {
     const double limit = number_in(most, NULL);
@@ -40,7 +41,7 @@ static double left_in_group(const char *most, const char *used, const char *stat
     return limit - number_in(used, NULL) + (isfinite(inactive) ? inactive : 0.0);
 }
 
-/* By the kernel's own estimate and the control groups; INFINITY where there is no /proc. */
+/* Free memory by the kernel's estimate and the control groups' limits; INFINITY without /proc. */
 static double free_here(void)
 {
     const double machine = 1024.0 * number_in("/proc/meminfo", "MemAvailable:");
@@ -51,8 +52,8 @@ static double free_here(void)
     return fmax(fmin(machine, fmin(group, older)), 0.0);
 }
 
-/* Ranks of one machine, and this rank's number among them. What they keep for themselves is given back, so that it
- * counts as free. */
+/* A communicator of this machine's ranks, and this rank's number in it. First returns freed memory to the system, so
+ * that it counts as free. */
 static OstStatus share_machine(OstContext *ctx, MPI_Comm *machine, int *rank)
 {
     ost_return_freed_memory();
@@ -66,14 +67,14 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
     MPI_Comm machine;
     int rank = 0;
     OST_TRY(share_machine(ctx, &machine, &rank));
-    double here = free_here(); /* ranks read it at different moments: the least counts */
+    double here = free_here(); /* ranks read it at different moments: the least value counts */
     OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_SUM, machine));
     if (status == OST_SUCCESS)
         status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_DOUBLE, MPI_MIN, machine));
     MPI_Comm_free(&machine);
     OST_TRY(ost_agree(ctx, status));
     struct {
-        double lack;
+        double shortage;
         int rank;
     } worst = {mine - here, ost_rank(ctx)};
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ost_comm(ctx))));
@@ -83,7 +84,7 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
     return OST_SUCCESS;
 }
 
-/* Adds up what every machine has, each counted once. */
+/* Sums a number over the machines. */
 static OstStatus sum_machines(OstContext *ctx, double (*of_machine)(void), double *bytes)
 {
     MPI_Comm machine;
@@ -99,7 +100,7 @@ OstStatus ost_memory_free(OstContext *ctx, double *bytes)
     return sum_machines(ctx, free_here, bytes);
 }
 
-/* A container may be given less than its machine has. */
+/* A container's limit may be below its machine's memory. */
 static double installed_here(void)
 {
     const double machine = 1024.0 * number_in("/proc/meminfo", "MemTotal:");
@@ -119,7 +120,7 @@ OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who)
     if (fits)
         return ost_agree(ctx, OST_SUCCESS);
     return ost_agree(ctx, OST_RAISE(ctx, OST_OUT_OF_MEMORY,
-                                    "%s would need another %.1f MiB on rank %d, which are not free; use more machines "
-                                    "or a smaller mesh",
+                                    "%s would need another %.1f MiB on rank %d, which has not that much free; use more "
+                                    "machines or a smaller mesh",
                                     who, bytes / 0x1p20, ost_rank(ctx)));
 }

@@ -4,22 +4,11 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-/* Where each rank's items start, and how many there are. */
-static OstGlobal add_up(const int *count, int ranks, int *start)
-{
-    OstGlobal total = 0;
-    for (int r = 0; r < ranks && total <= INT32_MAX; r++) {
-        start[r] = (int)total;
-        total += count[r];
-    }
-    return total;
-}
-
 OstStatus ost_gather_items(OstContext *ctx, size_t size, const void *items, OstLocal count, const char *too_many,
                            void **all, OstLocal *total)
 {
     const int ranks = ost_size(ctx);
-    int *counts = NULL; /* per rank, then where its items start */
+    int *counts = NULL; /* of each rank; behind them, where each rank's items start */
     MPI_Datatype item = MPI_DATATYPE_NULL;
     OstGlobal sum = 0;
     *all = NULL;
@@ -27,7 +16,10 @@ OstStatus ost_gather_items(OstContext *ctx, size_t size, const void *items, OstL
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(OST_MPI(ctx, MPI_Allgather(&count, 1, MPI_INT32_T, counts, 1, MPI_INT, ost_comm(ctx))));
-    sum = add_up(counts, ranks, counts + ranks);
+    for (int r = 0; r < ranks && sum <= INT32_MAX; r++) {
+        counts[ranks + r] = (int)sum;
+        sum += counts[r];
+    }
     if (sum > INT32_MAX)
         OST_TRY_DONE(OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%s", too_many));
     OST_TRY_DONE(ost_agree(ctx, ost_allocate(ctx, (size_t)sum, size, all)));

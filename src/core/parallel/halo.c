@@ -10,7 +10,7 @@
 
 enum { HALO_TAG = 7171 };
 
-/* The buffer for the largest entries; checks that every message fits MPI's int. */
+/* Allocates the buffer, and checks that the length of every message fits MPI's int. */
 static OstStatus reserve_buffer(OstHalo *halo)
 {
     const int n = halo->neighbour_count;
@@ -49,7 +49,7 @@ static OstStatus check_ghosts(OstContext *ctx, const OstGlobal *end, OstLocal gh
             return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: no rank owns entry %lld", (long long)number);
         const int owner = ost_number_holder(end, ost_size(ctx), number);
         if (owner == ost_rank(ctx) || owner < last_owner)
-            return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: copy %d (entry %lld) is not grouped by owner", g,
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "halo: ghost %d (entry %lld) is not grouped by owner", g,
                              (long long)number);
         last_owner = owner;
         receive_count[owner]++;
@@ -80,7 +80,7 @@ static OstStatus make_lists(OstHalo *halo, const int *send_count, const int *rec
     return OST_NEW(ctx, &halo->send_index, halo->send_start[n]);
 }
 
-/* Tells each owner which of its entries this rank copies. */
+/* Tells each owner which of its entries are ghosts here. */
 static OstStatus exchange_requests(OstHalo *halo, OstGlobal first_number, const OstGlobal *ghost_number)
 {
     OstContext *ctx = halo->ctx;
@@ -184,13 +184,13 @@ done:
     return status;
 }
 
-/* Bytes of some entries; ost_halo_create has seen to it that they fit. */
+/* Fits an int: reserve_buffer has checked it. */
 static int message_length(OstLocal entries, size_t size)
 {
     return (int)((size_t)entries * size);
 }
 
-/* Depends on `size` alone, which is the same on all ranks. */
+/* All ranks fail together, since `size` is the same on all. */
 static OstStatus check_entry(const OstHalo *halo, size_t size)
 {
     if (size <= OST_LARGEST_ENTRY)

@@ -4,12 +4,12 @@
 
 #include "orthostat/context.h"
 
-/* The largest entry that a halo carries, in bytes. Its messages are checked and its buffer is had when it is made, so
- * that no exchange can fail on one rank alone and leave the others waiting. */
+/* The largest entry that a halo exchanges, in bytes. The messages are checked and the buffer is allocated when the halo
+ * is made, so that no exchange can fail on one rank alone and leave the others waiting. */
 enum { OST_LARGEST_ENTRY = 288 };
 
-/* Who needs which of my entries, and whose entries I hold copies of. A distributed array has `owned` entries followed
- * by `ghosts` copies, the copies grouped by the rank that owns them; an entry is `width` numbers. */
+/* The exchange of ghosts of a distributed array: which ranks have ghosts of this rank's entries, and which ranks own
+ * its ghosts. The array has `owned` entries followed by `ghosts` copies, grouped by the rank that owns them. */
 typedef struct OstHalo {
     OstContext *ctx;
     OstLocal owned;
@@ -17,27 +17,28 @@ typedef struct OstHalo {
     int neighbour_count;
     int *neighbour;          /* ranks, ascending */
     OstLocal *send_start;    /* neighbour_count + 1 */
-    OstLocal *send_index;    /* owned entries that neighbour k holds copies of: send_index[send_start[k] .. ] */
-    OstLocal *receive_start; /* neighbour_count + 1; copies from neighbour k: owned + receive_start[k] .. */
-    void *buffer;            /* outgoing or incoming messages of the largest entries */
+    OstLocal *send_index;    /* owned entries that are ghosts on neighbour k: send_index[send_start[k] .. ] */
+    OstLocal *receive_start; /* neighbour_count + 1; ghosts from neighbour k: owned + receive_start[k] .. */
+    void *buffer;            /* for all messages one way, of the largest entries */
     MPI_Request *request;
 } OstHalo;
 
-/* Collective. Builds the halo of `owned` entries with the global numbers first_number .. first_number + owned - 1
- * (contiguous over ranks) and of `ghosts` copies with the given global numbers, which must be grouped by ascending
- * owner. Raises OST_INVALID_INPUT if a number belongs to nobody or to this rank. */
+/* Collective. The halo of `owned` entries with the global numbers first_number .. first_number + owned - 1 (contiguous
+ * over ranks) and of `ghosts` with the given global numbers, grouped by ascending owner. Raises OST_INVALID_INPUT if a
+ * ghost's number belongs to no rank or to this one. */
 OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_number, OstLocal ghosts,
                           const OstGlobal *ghost_number, OstHalo **halo);
 void ost_halo_destroy(OstHalo **halo);
 
-/* Collective. The halo of the entries with renumber[i] >= 0 (i over owned then ghosts; kept entries must be numbered
- * in their old order, owned first); the flags must agree between a ghost and its owner. */
+/* Collective. The halo of the entries with renumber[i] >= 0 (i over owned entries, then ghosts), their new numbers.
+ * They must keep their order; a ghost must be in if and only if its owner's entry is. */
 OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo **subset);
 
 /* Collective over neighbours. Copies owners' values into the ghosts; `size` is the bytes of an entry. */
 OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values);
 
-/* Collective over neighbours. Adds the ghosts' values to their owners' (width doubles an entry); ghosts keep theirs. */
+/* Collective over neighbours. Adds the ghosts' values to their owners' (`width` doubles per entry); the ghosts' own
+ * values stay. */
 OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values);
 
 #endif

@@ -4,15 +4,15 @@
 
 #include "orthostat/context.h"
 
-/* Things of all ranks, numbered contiguously: first those of rank 0, then those of rank 1, ... */
+/* A contiguous numbering over ranks: rank 0 has the first numbers, rank 1 the next, ... */
 
-/* Collective. Of `count` things here: the number of the first one, and how many there are on all ranks. */
+/* Collective. The first of this rank's `count` numbers, and the count of all ranks. */
 OstStatus ost_number_from(OstContext *ctx, OstGlobal count, OstGlobal *first, OstGlobal *total);
 
-/* Collective. Where each rank's numbers end (one past its last): `end` has an entry for each rank. */
+/* Collective. One past the last number of each rank: `end` has an entry for each. */
 OstStatus ost_number_ends(OstContext *ctx, OstGlobal my_end, OstGlobal *end);
 
-/* Local. The rank that has a number, given where each of `ranks` ranks ends; the last rank for a number beyond all. */
+/* Local. The rank that has a number, from ost_number_ends; the last rank for a number beyond all. */
 int ost_number_holder(const OstGlobal *end, int ranks, OstGlobal number);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "orthostat/context.h"
 
-/* Over all ranks, in place, each of `count` values by itself. Collective. */
+/* Collective. Sum, maximum or minimum over all ranks, in place, of each of `count` values. */
 OstStatus ost_sum(OstContext *ctx, int count, double *values);
 OstStatus ost_max(OstContext *ctx, int count, double *values);
 OstStatus ost_min(OstContext *ctx, int count, double *values);

@@ -19,7 +19,7 @@ void ost_route_destroy(OstRoute **route)
     OST_FREE(*route);
 }
 
-/* Is to[k] named for the first time? */
+/* Is to[k] a rank that is not among to[0 .. k - 1]? */
 static int is_new(const int *to, int k)
 {
     if (to[k] < 0)
@@ -30,7 +30,7 @@ static int is_new(const int *to, int k)
     return 1;
 }
 
-/* Prefix sums of counts; MPI wants them as int. */
+/* Prefix sums of the counts, as int for MPI. */
 static OstStatus sum_up(OstContext *ctx, const int *count, int *start, OstLocal *total)
 {
     OstGlobal sum = 0;

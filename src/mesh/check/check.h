@@ -4,13 +4,14 @@
 
 #include "mesh/mesh_data.h"
 
-/* Collective. What can be told of a chunk before its tets meet their vertices: counts and ranges that fit together,
- * finite coordinates, node and region numbers in range, no tet that uses a node twice. Empty shares get the place in
- * the ranges that they have. */
+/* Collective. Checks what a rank can see before the mesh is distributed: counts and ranges fit together, coordinates
+ * are finite, node and region numbers in range, and no tet uses a node twice. Sets first_node and first_tet of empty
+ * shares.
+ */
 OstStatus ost_check_chunk(OstMeshChunk *chunk);
 
-/* Collective. The rest, on the finished pieces: no inverted or flat tet, every vertex used, every item of a boundary
- * part of a tet. */
+/* Collective. Checks the rest on the distributed mesh: no tet is inverted or flat, every vertex is used, and every
+ * boundary item is a face, an edge or a vertex of a tet. */
 OstStatus ost_check_mesh(const OstMesh *mesh);
 
 /* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices. */

@@ -16,7 +16,7 @@ static OstGlobal tet_label(const OstMeshChunk *chunk, OstLocal t)
     return chunk->tet_label ? chunk->tet_label[t] : chunk->first_tet + t + 1;
 }
 
-/* Do the ranks' ranges follow each other, and add up to the whole? An empty range is put in its place. */
+/* Checks that the ranks' ranges are contiguous and add up to the total. Sets `first` of an empty range. */
 static OstStatus check_range(OstContext *ctx, const char *what, OstGlobal *first, OstLocal count, OstGlobal total)
 {
     OstGlobal before = 0;
@@ -34,7 +34,7 @@ static OstStatus check_range(OstContext *ctx, const char *what, OstGlobal *first
     return ost_agree(ctx, status);
 }
 
-/* All ranks must describe the same kind of mesh, or they would part ways later. */
+/* All ranks must describe the same mesh, or later collective calls would not match. */
 static OstStatus check_kind(const OstMeshChunk *chunk)
 {
     OstContext *ctx = chunk->ctx;

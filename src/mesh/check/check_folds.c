@@ -10,17 +10,8 @@ static const double *node_at(const OstMesh *mesh, OstLocal tet, int node)
     return mesh->coordinates + 3 * (size_t)mesh->tet_nodes[10 * (size_t)tet + (size_t)node];
 }
 
-static int middle_of(int a, int b)
-{
-    int e = 0;
-    while (
-        !((ost_tet_edge[e][0] == a && ost_tet_edge[e][1] == b) || (ost_tet_edge[e][0] == b && ost_tet_edge[e][1] == a)))
-        e++;
-    return 4 + e;
-}
-
-/* Six times the volume that the tet would have if it were all as at a vertex: the determinant of the tangents
- * 4 m - 3 v - w to its three edges vw with middles m. */
+/* The determinant of the map from the reference tet at a vertex v: of the tangents 4 m - 3 v - w to the three edges vw
+ * with middles m. */
 static double jacobian_at(const OstMesh *mesh, OstLocal tet, int vertex)
 {
     double tangent[9];
@@ -28,14 +19,14 @@ static double jacobian_at(const OstMesh *mesh, OstLocal tet, int vertex)
     for (int i = 0; i < 3; i++) {
         const int other = ost_tet_face[vertex][i];
         const double *w = node_at(mesh, tet, other);
-        const double *m = node_at(mesh, tet, middle_of(vertex, other));
+        const double *m = node_at(mesh, tet, ost_tet_mid_node(vertex, other));
         for (int d = 0; d < 3; d++)
             tangent[3 * i + d] = 4.0 * (m[d] - v[d]) - (w[d] - v[d]);
     }
     return ost_determinant3(tangent);
 }
 
-/* The mesh's folded tet with the lowest label is named by the rank that owns it. */
+/* The message names the folded tet with the lowest label of all ranks. */
 OstStatus ost_check_folds(const OstMesh *mesh)
 {
     OstGlobal lowest = INT64_MAX;

@@ -14,11 +14,11 @@
 
 enum { LABELS_SHOWN = 8 };
 
-/* Below this share of its longest edge cubed, a tet's volume is that of rounded coordinates. */
+/* A tet counts as flat if its volume is below this share of its longest edge cubed / 6. */
 static const double flat_share = 1e-12;
 
-/* The volume that a tet must have more than not to be flat: a share of its longest edge cubed, and what rounding its
- * coordinates in the last place can make. */
+/* The volume up to which a tet counts as flat: a share of its longest edge cubed, or what rounding its coordinates in
+ * the last place can change. */
 static double flat_volume(const double *coordinates, const OstLocal *nodes)
 {
     double longest = 0.0;
@@ -34,7 +34,7 @@ static double flat_volume(const double *coordinates, const OstLocal *nodes)
     return longest * longest * fmax(flat_share * longest, DBL_EPSILON * farthest) / 6.0;
 }
 
-/* Lengths below 1e-102 or above 1e102 have cubes that are not held. */
+/* The cube of a length below 1e-102 or above 1e102 underflows or overflows. */
 static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad)
 {
     if (!(flat >= DBL_MIN && isfinite(flat) && isfinite(volume)))
@@ -49,7 +49,7 @@ static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volu
         (long long)label, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
 }
 
-/* The mesh's bad tet with the lowest label is named by the rank that owns it. */
+/* The message names the bad tet with the lowest label of all ranks. */
 static OstStatus check_volumes(const OstMesh *mesh)
 {
     OstGlobal lowest = INT64_MAX;
@@ -77,7 +77,7 @@ static OstStatus check_volumes(const OstMesh *mesh)
     return ost_agree(mesh->ctx, status);
 }
 
-/* The lowest labels of a sorted list in words: "17, 23, 99 and 4 more". */
+/* The first labels of a sorted list: "17, 23, 99 and 4 more". */
 static void list_labels(const OstGlobal *label, OstGlobal count, char *text, size_t size)
 {
     size_t used = 0;
@@ -87,7 +87,7 @@ static void list_labels(const OstGlobal *label, OstGlobal count, char *text, siz
         snprintf(text + used, size - used, " and %lld more", (long long)(count - LABELS_SHOWN));
 }
 
-/* Takes the lowest labels of all ranks to each, sorted to the front of `all` (LABELS_SHOWN per rank). */
+/* Gathers the lowest labels of all ranks in `all` (LABELS_SHOWN per rank), and names the lowest of these. */
 static OstStatus raise_unused(const OstMesh *mesh, OstGlobal count, OstGlobal *lowest, OstGlobal *all)
 {
     OST_TRY(OST_MPI(mesh->ctx, MPI_Allgather(lowest, LABELS_SHOWN, MPI_INT64_T, all, LABELS_SHOWN, MPI_INT64_T,
@@ -99,7 +99,7 @@ static OstStatus raise_unused(const OstMesh *mesh, OstGlobal count, OstGlobal *l
                      count == 1 ? "vertex is" : "vertices are", text, count == 1 ? "it" : "them");
 }
 
-/* Puts a label among the lowest, which stay sorted. */
+/* Inserts a label among the lowest, which are sorted, if it is one of them. */
 static void keep_lowest(OstGlobal label, OstGlobal lowest[LABELS_SHOWN])
 {
     if (label >= lowest[LABELS_SHOWN - 1])
@@ -142,7 +142,7 @@ static int has_node(const OstLocal *tet, int nodes_per_tet, OstGlobal node)
     return 0;
 }
 
-/* Does one tet have all the item's nodes? Asked of an owned node, whose tets are all here. */
+/* Does a tet have all the item's nodes? Looks at the tets of an owned node, all of which are here. */
 static int is_part_of_a_tet(const OstMesh *mesh, const Incidence *incidence, int count, const OstGlobal *nodes)
 {
     int owned = 0;

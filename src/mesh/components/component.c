@@ -20,8 +20,8 @@ void ost_components_destroy(OstComponents **components)
     OST_FREE(*components);
 }
 
-/* Two tets on one side of a face would add up their stiffness where there is one body; which pair is named does not
- * depend on the ranks. */
+/* Two tets on one side of a face would add their stiffness in the same place. The pair in the message does not depend
+ * on the number of ranks. */
 static OstStatus check_overlap(OstContext *ctx, const OstOverlap *mine)
 {
     OstGlobal low = mine->found ? mine->low : INT64_MAX;
@@ -51,7 +51,7 @@ static void widen_by_tet(const OstMesh *mesh, OstLocal tet, OstComponent *compon
         widen(mesh->coordinates + 3 * (size_t)nodes[v], component);
 }
 
-/* Counts, labels and boxes of what this rank owns. */
+/* Number of tets, lowest label and box of each component, from the tets that this rank owns. */
 static void measure(const OstMesh *mesh, OstComponents *components)
 {
     for (OstLocal p = 0; p < components->count; p++)
@@ -68,7 +68,7 @@ static void measure(const OstMesh *mesh, OstComponents *components)
         widen(mesh->coordinates + 3 * (size_t)n, &components->component[0]);
 }
 
-/* A box as numbers that are least over the ranks: the high side by its negative. */
+/* A box as six numbers, the upper corner negated, so that one MPI_MIN reduces both corners. */
 enum { MINIMA = 6 };
 
 static OstStatus reduce(OstContext *ctx, OstComponents *components)
@@ -119,7 +119,7 @@ static int compare_ranks(const void *a, const void *b)
     return (x->component > y->component) - (x->component < y->component);
 }
 
-/* Numbers the components as a reader of the mesh file meets them, whatever the ranks. */
+/* Numbers the components in the order of their lowest labels, on any number of ranks. */
 static OstStatus order(const OstMesh *mesh, OstComponents *components)
 {
     const size_t count = (size_t)components->count;
@@ -149,7 +149,7 @@ done:
     return status;
 }
 
-static OstStatus find_parts(const OstMesh *mesh, OstComponents *components)
+static OstStatus find_components(const OstMesh *mesh, OstComponents *components)
 {
     OstContext *ctx = mesh->ctx;
     OstOverlap overlap = {0};
@@ -174,7 +174,7 @@ OstStatus ost_components_create(const OstMesh *mesh, OstComponents **components)
     OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &made, 1));
     if (status == OST_SUCCESS) {
         made->ctx = mesh->ctx;
-        status = find_parts(mesh, made);
+        status = find_components(mesh, made);
     }
     if (status != OST_SUCCESS)
         ost_components_destroy(&made);

@@ -4,8 +4,8 @@
 
 #include "mesh/mesh_data.h"
 
-/* A component: tets joined through faces. Such a set moves as one where it does not deform; components that touch in an
- * edge or a vertex alone are hinged there. */
+/* A connected component: tets joined through faces. Components that touch only at an edge or a vertex are hinged there.
+ */
 typedef struct OstComponent {
     OstGlobal tets;
     OstGlobal first_tet; /* its lowest label */
@@ -15,11 +15,11 @@ typedef struct OstComponent {
 typedef struct OstComponents {
     OstContext *ctx;
     OstLocal count;          /* over the whole body */
-    OstLocal *of_tet;        /* tet_count: the component of each tet held here */
+    OstLocal *of_tet;        /* tet_count: the component of each local tet, ghosts included */
     OstComponent *component; /* count: the same on every rank, in the order of first_tet */
 } OstComponents;
 
-/* Collective. Raises OST_INVALID_INPUT, naming two tets, where tets lie on the same side of a face. */
+/* Collective. Raises OST_INVALID_INPUT with the labels of two tets if tets lie on the same side of a face. */
 OstStatus ost_components_create(const OstMesh *mesh, OstComponents **components);
 void ost_components_destroy(OstComponents **components);
 

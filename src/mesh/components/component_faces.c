@@ -5,12 +5,12 @@
 #include "core/memory.h"
 #include "mesh/union_find.h"
 
-/* A face, chained to others with the same lowest vertex. Numbers of faces and tets count from 1, so that 0 says none
- * and zeroed memory is an empty table. */
+/* A face in the chain of faces with the same lowest vertex. Faces and tets are counted from 1: 0 is none, so that
+ * zeroed memory is an empty table. */
 typedef struct Face {
     OstLocal middle, high; /* its other vertices */
     OstLocal next;
-    OstLocal side[2]; /* the tets for which its vertices ascend counter-clockwise and clockwise, seen from outside */
+    OstLocal side[2]; /* tets seen from outside of which its vertices ascend counter-clockwise, and clockwise */
 } Face;
 
 typedef struct FaceChains {
@@ -62,9 +62,9 @@ static void note_overlap(const OstMesh *mesh, OstLocal s, OstLocal t, OstOverlap
     *overlap = (OstOverlap){1, low, high};
 }
 
-/* Files a tet's face, and joins the tet with the one behind it. */
-static void file_face(const OstMesh *mesh, FaceChains *chains, OstLocal low, OstLocal middle, OstLocal high, int side,
-                      OstLocal tet, OstLocal *parent, OstOverlap *overlap)
+/* Adds a tet's face to the chains, and joins the tet with the one behind it. */
+static void add_face(const OstMesh *mesh, FaceChains *chains, OstLocal low, OstLocal middle, OstLocal high, int side,
+                     OstLocal tet, OstLocal *parent, OstOverlap *overlap)
 {
     OstLocal f = chains->first[low];
     while (f > 0 && (chains->face[f].middle != middle || chains->face[f].high != high))
@@ -83,7 +83,7 @@ static void file_face(const OstMesh *mesh, FaceChains *chains, OstLocal low, Ost
         ost_set_join(parent, face->side[!side] - 1, tet);
 }
 
-static OstStatus file_all(const OstMesh *mesh, FaceChains *chains, OstLocal *parent, OstOverlap *overlap)
+static OstStatus add_all_faces(const OstMesh *mesh, FaceChains *chains, OstLocal *parent, OstOverlap *overlap)
 {
     const size_t width = (size_t)mesh->nodes_per_tet;
     const OstLocal owned = mesh->owned_nodes;
@@ -93,12 +93,12 @@ static OstStatus file_all(const OstMesh *mesh, FaceChains *chains, OstLocal *par
         OST_TRY(make_room(mesh->ctx, chains));
         sort_vertices(mesh->tet_nodes + (size_t)t * width, v, &turned);
         if (v[0] < owned) { /* owned nodes have the lowest numbers, so a face's lowest vertex decides */
-            file_face(mesh, chains, v[0], v[1], v[2], turned, t, parent, overlap);
-            file_face(mesh, chains, v[0], v[1], v[3], !turned, t, parent, overlap);
-            file_face(mesh, chains, v[0], v[2], v[3], turned, t, parent, overlap);
+            add_face(mesh, chains, v[0], v[1], v[2], turned, t, parent, overlap);
+            add_face(mesh, chains, v[0], v[1], v[3], !turned, t, parent, overlap);
+            add_face(mesh, chains, v[0], v[2], v[3], turned, t, parent, overlap);
         }
         if (v[1] < owned)
-            file_face(mesh, chains, v[1], v[2], v[3], !turned, t, parent, overlap);
+            add_face(mesh, chains, v[1], v[2], v[3], !turned, t, parent, overlap);
     }
     return OST_SUCCESS;
 }
@@ -113,7 +113,7 @@ OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal 
     /* Twice as many faces as tets, and some more for the surface. */
     chains.capacity = (OstLocal)(mesh->tet_count < INT32_MAX / 4 ? mesh->tet_count / 4 * 9 + 64 : INT32_MAX / 4 * 3);
     OST_TRY_DONE(OST_NEW(mesh->ctx, &chains.face, chains.capacity));
-    OST_TRY_DONE(file_all(mesh, &chains, set, overlap));
+    OST_TRY_DONE(add_all_faces(mesh, &chains, set, overlap));
     *set_count = ost_set_number(set, mesh->tet_count);
 done:
     OST_FREE(chains.first);

@@ -12,7 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A tet that several ranks hold, by its vertices' global numbers, ascending; and the set that a rank has it in. */
+/* A tet that is owned on one rank and a ghost on others: its vertices' global numbers, ascending, and a rank's set of
+ * it.
+ */
 typedef struct SharedTet {
     OstGlobal vertex[4];
     OstLocal set;
@@ -84,29 +86,29 @@ static int owner_of_tet(const OstMesh *mesh, OstLocal tet)
     return owner_of_ghost(mesh, lowest);
 }
 
-/* Tells the owners of the tets that are visitors here which sets they are in. */
-static OstStatus send_visitors(const OstMesh *mesh, const OstLocal *set, SharedTet **arrived, OstLocal *count)
+/* Tells the owners of the ghost tets which sets these are in here. */
+static OstStatus send_ghosts(const OstMesh *mesh, const OstLocal *set, SharedTet **arrived, OstLocal *count)
 {
     OstContext *ctx = mesh->ctx;
-    const OstLocal visitors = mesh->tet_count - mesh->owned_tets;
+    const OstLocal ghosts = mesh->tet_count - mesh->owned_tets;
     int *to = NULL;
-    SharedTet *visitor = NULL;
+    SharedTet *ghost = NULL;
     OstRoute *route = NULL;
-    OstStatus status = OST_NEW(ctx, &to, visitors);
+    OstStatus status = OST_NEW(ctx, &to, ghosts);
     if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &visitor, visitors);
+        status = OST_NEW(ctx, &ghost, ghosts);
     OST_TRY_DONE(ost_agree(ctx, status));
-    for (OstLocal i = 0; i < visitors; i++) {
+    for (OstLocal i = 0; i < ghosts; i++) {
         const OstLocal tet = mesh->owned_tets + i;
         to[i] = owner_of_tet(mesh, tet);
-        visitor[i] = describe(mesh, tet, set[tet]);
+        ghost[i] = describe(mesh, tet, set[tet]);
     }
-    OST_TRY_DONE(ost_route_create(ctx, visitors, 1, to, &route));
-    OST_TRY_DONE(ost_route_carry(route, sizeof *visitor, visitor, (void **)arrived));
+    OST_TRY_DONE(ost_route_create(ctx, ghosts, 1, to, &route));
+    OST_TRY_DONE(ost_route_carry(route, sizeof *ghost, ghost, (void **)arrived));
     *count = route->receives;
 done:
     OST_FREE(to);
-    OST_FREE(visitor);
+    OST_FREE(ghost);
     ost_route_destroy(&route);
     return status;
 }
@@ -119,7 +121,7 @@ static int is_shared(const OstMesh *mesh, OstLocal tet)
     return 0;
 }
 
-/* The owned tets that other ranks hold too, sorted. */
+/* The owned tets that are ghosts on other ranks, sorted. */
 static OstStatus list_shared(const OstMesh *mesh, const OstLocal *set, SharedTet **shared, OstLocal *count)
 {
     *count = 0;
@@ -144,9 +146,9 @@ static void remove_repetitions(Links *links)
     links->count = kept;
 }
 
-/* Which set of another rank is which set of mine, each pair once. */
-static OstStatus match_visitors(const OstMesh *mesh, const OstLocal *set, const SharedTet *arrived, OstLocal count,
-                                Links *links)
+/* Links this rank's sets with the other ranks' sets of the same tets, each pair once. */
+static OstStatus match_ghosts(const OstMesh *mesh, const OstLocal *set, const SharedTet *arrived, OstLocal count,
+                              Links *links)
 {
     SharedTet *shared = NULL;
     OstLocal shared_count = 0;
@@ -156,8 +158,9 @@ static OstStatus match_visitors(const OstMesh *mesh, const OstLocal *set, const 
     for (OstLocal i = 0; i < count; i++) {
         const SharedTet *mine = bsearch(&arrived[i], shared, (size_t)shared_count, sizeof *shared, compare_tets);
         if (!mine) {
-            status = OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED, "a tet at vertex %lld is not with the rank that owns it",
-                               (long long)arrived[i].vertex[0]);
+            status =
+                OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED, "a tet at vertex %lld is missing on the rank that owns it",
+                          (long long)arrived[i].vertex[0]);
             goto done;
         }
         links->link[links->count++] = (Link){mine->set, arrived[i].set};
@@ -168,21 +171,21 @@ done:
     return status;
 }
 
-/* Joins the sets of all ranks on each: there are few links, one per pair of sets and ranks that meet. */
+/* Every rank joins the sets of all ranks. There are few links: one for each pair of sets that meet. */
 static OstStatus join_everywhere(OstContext *ctx, const Links *mine, OstLocal *parent)
 {
     Link *all = NULL;
     OstLocal total = 0;
     OST_TRY(ost_gather_items(ctx, sizeof *all, mine->link, mine->count,
-                             "the mesh falls into too many components to count", (void **)&all, &total));
+                             "the mesh has too many connected components to count", (void **)&all, &total));
     for (OstLocal i = 0; i < total; i++)
         ost_set_join(parent, all[i].a, all[i].b);
     OST_FREE(all);
     return OST_SUCCESS;
 }
 
-/* Numbers this rank's sets after those of the ranks before. */
-static OstStatus shift_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *total)
+/* Numbers the sets contiguously over ranks. */
+static OstStatus number_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *total)
 {
     OstContext *ctx = mesh->ctx;
     OstGlobal before = 0;
@@ -190,8 +193,8 @@ static OstStatus shift_sets(const OstMesh *mesh, OstLocal set_count, OstLocal *s
     OST_TRY(ost_number_from(ctx, set_count, &before, &sum));
     if (sum > INT32_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED,
-                         "the mesh falls into %lld components, more than the %d that can be told apart", (long long)sum,
-                         INT32_MAX);
+                         "the mesh has %lld connected components, more than the %d that can be numbered",
+                         (long long)sum, INT32_MAX);
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         set[t] += (OstLocal)before;
     *total = (OstLocal)sum;
@@ -206,9 +209,9 @@ OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, Ost
     OstLocal *merged = NULL;
     Links links = {0};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(shift_sets(mesh, set_count, set, count));
-    OST_TRY_DONE(send_visitors(mesh, set, &arrived, &arrivals));
-    status = match_visitors(mesh, set, arrived, arrivals, &links);
+    OST_TRY_DONE(number_sets(mesh, set_count, set, count));
+    OST_TRY_DONE(send_ghosts(mesh, set, &arrived, &arrivals));
+    status = match_ghosts(mesh, set, arrived, arrivals, &links);
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &merged, *count);
     OST_TRY_DONE(ost_agree(ctx, status));

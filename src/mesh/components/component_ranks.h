@@ -4,8 +4,9 @@
 
 #include "mesh/mesh_data.h"
 
-/* Collective. Merges each rank's sets of tets into those of the whole body, by the tets that several ranks hold:
- * set[t] comes as one of this rank's `set_count` numbers and leaves as one of *count numbers that all ranks share. */
+/* Collective. Joins the ranks' sets of tets into those of the whole body: two sets are one if they have a tet in
+ * common, which is owned on one rank and a ghost on the other. On entry set[t] is one of this rank's `set_count`
+ * numbers, on return one of *count numbers of all ranks. */
 OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, OstLocal *set, OstLocal *count);
 
 #endif

@@ -107,11 +107,11 @@ static OstStatus copy_share(const OstMeshArrays *arrays, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* A rank without arrays has no share, unless it is rank 0, which tells the others what the mesh is. */
+/* A rank may have no arrays, except rank 0, which tells the others regions and boundaries. */
 static OstStatus create_share(OstContext *ctx, const OstMeshArrays *arrays, OstMeshChunk **chunk)
 {
     if (!arrays && ost_rank(ctx) == 0)
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "mesh from arrays: rank 0 must bring arrays, if only empty ones");
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "mesh from arrays: rank 0 must have arrays, which may be empty");
     if (!arrays)
         return OST_SUCCESS;
     OST_TRY(check_counts(ctx, arrays));
@@ -120,7 +120,7 @@ static OstStatus create_share(OstContext *ctx, const OstMeshArrays *arrays, OstM
     return copy_share(arrays, *chunk);
 }
 
-/* The ranks' shares follow each other. */
+/* Numbers the shares contiguously over ranks. */
 static OstStatus number_share(OstContext *ctx, OstMeshChunk *chunk)
 {
     OstGlobal mine[2] = {0, 0};

@@ -5,7 +5,7 @@
 #include "mesh/distribution/redistribute.h"
 #include "mesh/local_number.h"
 
-/* From new global numbers to local ones. A node that is not here belongs to no tet that touches the item. */
+/* From new global numbers to local ones. If a node is not here, no tet has all nodes of the item. */
 static OstStatus number_locally(OstBoundary *boundary, const OstMesh *mesh)
 {
     const size_t width = (size_t)boundary->nodes_per_item;

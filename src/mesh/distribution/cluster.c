@@ -6,11 +6,11 @@
 #include "core/parallel/numbering.h"
 
 enum {
-    CLUSTERS_PER_RANK = 64,  /* fine enough to balance parts to a few percent */
-    SMALLEST_CLUSTER = 4,    /* below this a cluster is not worth its name: nodes stay by themselves */
-    PART_IMBALANCE = 30,     /* per mille over the mean: METIS' own choice */
-    CLUSTER_IMBALANCE = 300, /* clusters are put together anyway, and are shaped better by what holds their nodes */
-    METIS_SEED = 20140721    /* any fixed number: the same mesh is always cut the same way */
+    CLUSTERS_PER_RANK = 64,  /* enough to balance the parts to a few percent */
+    SMALLEST_CLUSTER = 4,    /* with fewer nodes on average, each node is a cluster of its own */
+    PART_IMBALANCE = 30,     /* per mille above the mean: METIS' default */
+    CLUSTER_IMBALANCE = 300, /* unequal clusters balance out within a part, and cut fewer heavy edges */
+    METIS_SEED = 20140721    /* any fixed number: the same mesh always has the same partition */
 };
 
 void ost_clusters_clear(Clusters *clusters)
@@ -18,8 +18,8 @@ void ost_clusters_clear(Clusters *clusters)
     OST_FREE(clusters->of_node);
 }
 
-/* METIS wants at least one edge, and fewer parts than rows. */
-static int cut_without_metis(const Graph *graph, idx_t parts, idx_t *part)
+/* METIS needs an edge, and fewer parts than rows. */
+static int partition_without_metis(const Graph *graph, idx_t parts, idx_t *part)
 {
     if (parts > 1 && parts < graph->rows && graph->start[graph->rows] > 0)
         return 0;
@@ -28,9 +28,9 @@ static int cut_without_metis(const Graph *graph, idx_t parts, idx_t *part)
     return 1;
 }
 
-static OstStatus metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part)
+static OstStatus partition_by_metis(OstContext *ctx, const Graph *graph, idx_t parts, idx_t imbalance, idx_t *part)
 {
-    if (cut_without_metis(graph, parts, part))
+    if (partition_without_metis(graph, parts, part))
         return OST_SUCCESS;
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
@@ -39,11 +39,11 @@ static OstStatus metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx
     options[METIS_OPTION_UFACTOR] = imbalance;
     idx_t rows = graph->rows;
     idx_t constraints = 1;
-    idx_t cut = 0;
+    idx_t edge_cut = 0;
     const int result = METIS_PartGraphKway(&rows, &constraints, graph->start, graph->neighbour, graph->row_weight, NULL,
-                                           graph->edge_weight, &parts, NULL, NULL, options, &cut, part);
+                                           graph->edge_weight, &parts, NULL, NULL, options, &edge_cut, part);
     if (result == METIS_ERROR_MEMORY)
-        return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "METIS could not have the memory to cut a graph of %lld rows",
+        return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "METIS ran out of memory when it partitioned a graph of %lld rows",
                          (long long)rows);
     if (result != METIS_OK)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "METIS_PartGraphKway returned %d for %lld rows and %lld parts",
@@ -51,12 +51,12 @@ static OstStatus metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx
     return OST_SUCCESS;
 }
 
-OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part)
 {
-    return metis_cut(ctx, graph, parts, PART_IMBALANCE, part);
+    return partition_by_metis(ctx, graph, parts, PART_IMBALANCE, part);
 }
 
-/* How many clusters this rank makes of its nodes. */
+/* The number of clusters for this rank's nodes. */
 static idx_t cluster_target(const Slab *slab)
 {
     const OstLocal n = slab->node_count;
@@ -66,7 +66,7 @@ static idx_t cluster_target(const Slab *slab)
     return wanted * SMALLEST_CLUSTER >= n ? n : (idx_t)wanted + 1;
 }
 
-/* The graph of this rank's nodes among themselves, with weights that METIS can sum. */
+/* The graph without its edges to ghosts, with weights that METIS can sum. */
 static OstStatus drop_ghosts(OstContext *ctx, const Graph *nodes, Graph *inner)
 {
     const OstLocal n = nodes->rows;
@@ -91,7 +91,7 @@ static OstStatus drop_ghosts(OstContext *ctx, const Graph *nodes, Graph *inner)
     return OST_SUCCESS;
 }
 
-static OstStatus cut_slab(const Slab *slab, const Graph *nodes, Clusters *clusters)
+static OstStatus cluster_slab(const Slab *slab, const Graph *nodes, Clusters *clusters)
 {
     Graph inner = {0};
     OstStatus status = OST_SUCCESS;
@@ -102,7 +102,7 @@ static OstStatus cut_slab(const Slab *slab, const Graph *nodes, Clusters *cluste
         OST_TRY_DONE(drop_ghosts(slab->ctx, nodes, &inner));
     else
         inner.rows = nodes->rows;
-    OST_TRY_DONE(metis_cut(slab->ctx, &inner, target, CLUSTER_IMBALANCE, clusters->of_node));
+    OST_TRY_DONE(partition_by_metis(slab->ctx, &inner, target, CLUSTER_IMBALANCE, clusters->of_node));
 done:
     ost_graph_clear(&inner);
     return status;
@@ -111,7 +111,7 @@ done:
 OstStatus ost_clusters_create(const Slab *slab, const Graph *nodes, Clusters *clusters)
 {
     OstContext *ctx = slab->ctx;
-    OST_TRY(ost_agree(ctx, cut_slab(slab, nodes, clusters)));
+    OST_TRY(ost_agree(ctx, cluster_slab(slab, nodes, clusters)));
     OST_TRY(ost_number_from(ctx, clusters->count, &clusters->first, &clusters->total));
     OST_TRY(ost_graph_check_limits(ctx, "graph of node clusters", clusters->total, 0));
     for (OstLocal i = 0; i < slab->node_count; i++)
@@ -134,8 +134,8 @@ static OstStatus sort_by_cluster(const Slab *slab, const Clusters *clusters, Ost
     return OST_SUCCESS;
 }
 
-/* Adds the edges of one node to its cluster's row, which starts at `begin`; position[d] is where the row has cluster d,
- * if that is not before `begin`. */
+/* Adds the edges of one node to its cluster's row, which starts at `begin`. position[d] is where the row has cluster d;
+ * a position before `begin` is from an earlier row. */
 static void add_edges(const Graph *nodes, const idx_t *of_node, OstLocal node, idx_t begin, idx_t *position,
                       Graph *graph, idx_t *end)
 {

@@ -4,23 +4,23 @@
 
 #include "mesh/distribution/graph.h"
 
-/* A slab's nodes in clusters, numbered over all ranks. */
+/* The slab's nodes in clusters, which have global numbers. */
 typedef struct Clusters {
     OstLocal count;  /* of this rank */
-    OstGlobal first; /* number of this rank's first */
-    OstGlobal total; /* over all ranks */
-    idx_t *of_node;  /* of the slab's nodes and ghosts: numbers over all ranks */
+    OstGlobal first; /* number of this rank's first cluster */
+    OstGlobal total; /* of all ranks */
+    idx_t *of_node;  /* global number of the cluster of each node and ghost of the slab */
 } Clusters;
 
 /* Collective. Start from {0}; clear also after a failure. */
 OstStatus ost_clusters_create(const Slab *slab, const Graph *nodes, Clusters *clusters);
 void ost_clusters_clear(Clusters *clusters);
 
-/* Local. The rows of this rank's clusters: neighbours are numbers over all ranks; an edge weighs what the edges
- * between its clusters' nodes do, a row the nodes in it. */
+/* Local. This rank's rows of the graph of clusters: neighbours are global numbers; the weight of an edge is the sum
+ * over the edges between its clusters' nodes, the weight of a row the number of nodes. */
 OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters *clusters, Graph *graph);
 
-/* Local. METIS_PartGraphKway with fixed seed, also for the cases that it does not take. */
-OstStatus ost_metis_cut(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part);
+/* Local. Partitions a graph: METIS_PartGraphKway with a fixed seed, or directly for graphs that METIS refuses. */
+OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, idx_t *part);
 
 #endif

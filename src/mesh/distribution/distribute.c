@@ -20,7 +20,7 @@ static OstStatus label_all(OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* What every rank knows moves over as it is; a boundary's items are put right later. */
+/* Moves what all ranks have in common to the mesh; the boundaries' items are redistributed later. */
 static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
 {
     mesh->nodes_per_tet = chunk->nodes_per_tet;
@@ -40,7 +40,7 @@ static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
         (chunk)->array = NULL;          \
     } while (0)
 
-/* On one rank the chunk is the mesh, but for the size of its numbers. */
+/* On one rank the mesh is the chunk, with local numbers. */
 static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
@@ -62,7 +62,7 @@ static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
     return ost_halo_create(ctx, mesh->owned_nodes, 0, 0, NULL, &mesh->halo);
 }
 
-static OstStatus cut_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
+static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
     Slab *slab = NULL;
@@ -71,7 +71,7 @@ static OstStatus cut_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, Ost
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
     if (tets)
-        OST_TRY_DONE(ost_cut_metric_create(chunk, slab, tets, &metric));
+        OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
     OST_TRY_DONE(ost_partition(slab, metric, part));
     OST_FREE(metric);
@@ -91,7 +91,7 @@ static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMe
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, mesh, 1)));
     (*mesh)->ctx = ctx;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
-    OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : cut_and_move(chunk, tets, *mesh));
+    OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : partition_and_move(chunk, tets, *mesh));
     return ost_check_mesh(*mesh);
 }
 

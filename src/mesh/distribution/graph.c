@@ -32,14 +32,15 @@ void ost_graph_shrink_weights(OstGlobal count, idx_t *weight)
     double sum = 0.0;
     for (OstGlobal i = 0; i < count; i++)
         sum += (double)weight[i];
-    const double limit = (double)(IDX_MAX / 2); /* rounding up adds at most `count` to what is scaled to this */
+    const double limit = (double)(IDX_MAX / 2); /* rounding up adds at most `count` */
     if (sum <= limit)
         return;
     for (OstGlobal i = 0; i < count; i++)
         weight[i] = (idx_t)ceil((double)weight[i] * (limit / sum));
 }
 
-/* Neighbours of one node, each once: `seen` holds the last node that met each. With neighbour NULL, only counts. */
+/* Lists the neighbours of one node, each once; with neighbour NULL only counts. seen[n] is the last node of which n was
+ * found to be a neighbour. */
 static OstLocal list_neighbours(const Slab *slab, const Incidence *incidence, OstLocal node, OstLocal *seen,
                                 idx_t *neighbour)
 {

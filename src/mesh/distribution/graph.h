@@ -6,8 +6,8 @@
 
 #include <metis.h>
 
-/* Neighbours of each row: neighbour[start[r]] .. neighbour[start[r + 1] - 1], as METIS takes them. The weights are NULL
- * where all are 1. */
+/* A graph as METIS takes it: the neighbours of row r are neighbour[start[r]] .. neighbour[start[r + 1] - 1]. Weights
+ * that are all 1 are NULL. */
 typedef struct Graph {
     OstLocal rows;
     idx_t *start;
@@ -16,15 +16,16 @@ typedef struct Graph {
     idx_t *row_weight;
 } Graph;
 
-/* Local. Nodes that share a tet: rows are the slab's nodes, neighbours its local numbers. Start from {0}; clear it also
- * after a failure. Raises OST_LIMIT_EXCEEDED where METIS could not number it. */
+/* Local. The graph of nodes that share a tet: rows are the slab's nodes, neighbours local numbers. Start from {0};
+ * clear it also after a failure. Raises OST_LIMIT_EXCEEDED if it is too large for METIS' numbers. */
 OstStatus ost_graph_of_nodes(const Slab *slab, Graph *graph);
 void ost_graph_clear(Graph *graph);
 
-/* Local. Can METIS number so many rows and entries (two for each edge)? `what` names the graph in the message. */
+/* Local. Raises OST_LIMIT_EXCEEDED if METIS cannot number so many rows or entries (two for each edge). `what` names the
+ * graph in the message. */
 OstStatus ost_graph_check_limits(OstContext *ctx, const char *what, OstGlobal rows, OstGlobal entries);
 
-/* Local. METIS sums weights in idx_t: scales them down, none to 0, until their sum fits. */
+/* Local. Scales weights down, none to 0, until their sum fits idx_t, in which METIS sums them. */
 void ost_graph_shrink_weights(OstGlobal count, idx_t *weight);
 
 #endif

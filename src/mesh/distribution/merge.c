@@ -21,7 +21,7 @@ typedef struct Merge {
     OstMeshChunk *chunk;
     OstPoints points;
     Slab *slab;
-    OstGlobal *lowest; /* of this rank's vertices */
+    OstGlobal *lowest; /* of this rank's vertices: see ost_coincident_find */
     OstGlobal *number; /* new numbers, of the slab's nodes and ghosts */
     OstGlobal new_first, new_total;
 } Merge;
@@ -75,7 +75,7 @@ static OstStatus check_tolerance(const Merge *merge, double tolerance)
         (long long)label, shortest);
 }
 
-/* Vertices that stay get new numbers, contiguous over ranks. */
+/* Numbers the vertices that stay, contiguously over ranks. */
 static OstStatus number_kept(Merge *merge)
 {
     OstContext *ctx = merge->chunk->ctx;
@@ -89,7 +89,7 @@ static OstStatus number_kept(Merge *merge)
     return OST_SUCCESS;
 }
 
-/* What the ranks that hold the vertices `asked` for say: their new numbers, or -1 for a vertex that goes itself. */
+/* Gets the new numbers of the vertices `asked` for from the ranks that have them; -1 for a vertex that is removed. */
 static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal *asked, OstGlobal *number)
 {
     OstContext *ctx = merge->chunk->ctx;
@@ -125,7 +125,7 @@ static OstStatus raise_chain(const Merge *merge, OstLocal local, double toleranc
         tolerance, (long long)(chunk->node_label ? chunk->node_label[local] : merge->points.first + local + 1));
 }
 
-/* Vertices that go take the number of the one that stands for them, which any rank may hold. */
+/* Gives each removed vertex the number of the vertex that replaces it, which may be on another rank. */
 static OstStatus number_merged(Merge *merge, double tolerance)
 {
     OstContext *ctx = merge->chunk->ctx;

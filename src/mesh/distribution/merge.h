@@ -4,10 +4,10 @@
 
 #include "mesh/mesh_data.h"
 
-/* Collective. Joins vertices of the chunk that are no farther apart than `tolerance` (above 0): of such vertices the
- * one with the lowest number stays, with its label and place; `merged` is how many went. Raises OST_INVALID_INPUT if
- * the tolerance reaches the shortest edge of a tet, or if vertices form a chain in which neighbours are within it but
- * ends are not. */
+/* Collective. Merges vertices of the chunk that are no farther apart than `tolerance` (above 0): the one with the
+ * lowest number stays, with its label and position; *merged is the number of vertices removed. Raises OST_INVALID_INPUT
+ * if the tolerance reaches the shortest edge of a tet, or if vertices form a chain whose neighbours are within the
+ * tolerance but whose ends are not. */
 OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merged);
 
 #endif

@@ -8,7 +8,8 @@
 
 #include <limits.h>
 
-/* What rank 0 needs to gather a graph by rows; the arrays are per rank, and NULL elsewhere. */
+/* Rank 0's graph of all ranks' rows, with the number of rows and entries of each rank. The arrays are NULL elsewhere.
+ */
 typedef struct Gathering {
     int *row_count, *row_start;
     int *entry_count, *entry_start;
@@ -29,7 +30,7 @@ static void gathering_clear(Gathering *gathering)
     ost_graph_clear(&gathering->whole);
 }
 
-/* Rank 0 makes room for the rows and entries of all. */
+/* Checks the limits, and allocates the arrays on rank 0. */
 static OstStatus make_room(OstContext *ctx, OstGlobal rows, OstGlobal entries, Gathering *gathering)
 {
     if (entries > INT_MAX)
@@ -62,7 +63,7 @@ static OstStatus gather_counts(OstContext *ctx, int rows, int entries, Gathering
     return OST_SUCCESS;
 }
 
-/* Row ends of each rank count from its own first entry: shift them by what came before. */
+/* Each rank counts the ends of its rows from its own first entry: shifts them by the entries of the ranks before. */
 static void shift_starts(OstContext *ctx, Gathering *gathering)
 {
     for (int r = 1; r < ost_size(ctx); r++)
@@ -117,7 +118,7 @@ static OstStatus fill_part(const Slab *slab, const Graph *graph, idx_t empty, Os
     return OST_SUCCESS;
 }
 
-/* METIS leaves parts empty where there are few nodes. */
+/* METIS may leave parts empty if there are few nodes. */
 static OstStatus fill_empty_parts(const Slab *slab, const Graph *graph, idx_t *part)
 {
     OstContext *ctx = slab->ctx;
@@ -133,8 +134,8 @@ static OstStatus fill_empty_parts(const Slab *slab, const Graph *graph, idx_t *p
     return status;
 }
 
-/* Cuts the gathered graph on rank 0, and gives each rank the parts of its clusters. */
-static OstStatus cut_on_rank_0(const Slab *slab, Gathering *gathering, int clusters, idx_t *cluster_part)
+/* Rank 0 partitions the gathered graph, and sends each rank the parts of its clusters. */
+static OstStatus partition_on_rank_0(const Slab *slab, Gathering *gathering, int clusters, idx_t *cluster_part)
 {
     OstContext *ctx = slab->ctx;
     idx_t *part = NULL;
@@ -144,7 +145,7 @@ static OstStatus cut_on_rank_0(const Slab *slab, Gathering *gathering, int clust
         ost_graph_shrink_weights(gathering->whole.start[gathering->whole.rows], gathering->whole.edge_weight);
         status = OST_NEW(ctx, &part, gathering->whole.rows);
         if (status == OST_SUCCESS)
-            status = ost_metis_cut(ctx, &gathering->whole, ost_size(ctx), part);
+            status = ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), part);
         if (status == OST_SUCCESS)
             status = fill_empty_parts(slab, &gathering->whole, part);
     }
@@ -156,7 +157,7 @@ done:
     return status;
 }
 
-static OstStatus cut_clusters(const Slab *slab, const Graph *nodes, const Clusters *clusters, int *part)
+static OstStatus partition_clusters(const Slab *slab, const Graph *nodes, const Clusters *clusters, int *part)
 {
     OstContext *ctx = slab->ctx;
     Graph mine = {0};
@@ -167,7 +168,7 @@ static OstStatus cut_clusters(const Slab *slab, const Graph *nodes, const Cluste
         status = OST_NEW(ctx, &cluster_part, clusters->count);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(gather_graph(ctx, &mine, &gathering));
-    OST_TRY_DONE(cut_on_rank_0(slab, &gathering, clusters->count, cluster_part));
+    OST_TRY_DONE(partition_on_rank_0(slab, &gathering, clusters->count, cluster_part));
     for (OstLocal i = 0; i < slab->node_count; i++)
         part[i] = (int)cluster_part[clusters->of_node[i] - clusters->first];
     OST_TRY_DONE(ost_halo_import(slab->halo, sizeof *part, part));
@@ -188,10 +189,10 @@ OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part)
         return raise_too_small(slab);
     status = ost_graph_of_nodes(slab, &nodes);
     if (status == OST_SUCCESS && metric)
-        status = ost_cut_metric_weigh(slab, metric, &nodes);
+        status = ost_graph_weigh_edges(slab, metric, &nodes);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_clusters_create(slab, &nodes, &clusters));
-    OST_TRY_DONE(cut_clusters(slab, &nodes, &clusters, part));
+    OST_TRY_DONE(partition_clusters(slab, &nodes, &clusters, part));
 done:
     ost_graph_clear(&nodes);
     ost_clusters_clear(&clusters);

@@ -2,12 +2,12 @@
 #ifndef ORTHOSTAT_MESH_DISTRIBUTION_PARTITION_H
 #define ORTHOSTAT_MESH_DISTRIBUTION_PARTITION_H
 
-#include "mesh/distribution/cut_metric.h"
+#include "mesh/distribution/edge_weights.h"
 
-/* Collective. Parts of the slab's nodes and ghosts (node_count + ghost_count numbers of the caller), one part per rank,
- * none of them empty. Where one rank holds all nodes, METIS cuts their graph there. Where they are spread, METIS first
- * cuts each rank's nodes into small clusters, and then the graph of all clusters on rank 0: no rank sees the whole
- * mesh. `metric` (NULL: none) is of the slab's nodes and ghosts, and keeps what is stiff together. */
+/* Collective. The part of each of the slab's nodes and ghosts (part: node_count + ghost_count numbers): one part per
+ * rank, none empty. If one rank has all nodes, METIS partitions their graph there. Otherwise METIS divides each rank's
+ * nodes into small clusters, and rank 0 partitions the graph of clusters, so that no rank needs the whole mesh.
+ * `metric` (of the nodes and ghosts; NULL: none) weights the edges, so that stiff couplings are not cut. */
 OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part);
 
 #endif

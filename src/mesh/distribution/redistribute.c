@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-/* New global numbers of the slab's nodes: the parts one after the other, each in the old order. */
+/* New global numbers of the slab's nodes: part after part, each in the old order. */
 static OstStatus number_nodes(const Slab *slab, const int *part, OstGlobal *number, OstGlobal *my_first)
 {
     OstContext *ctx = slab->ctx;
@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* Some ranks of a serial reader hold no tets and no axes; the mesh has axes if any rank does. */
+/* The mesh has axes if any rank has: after a serial read, the other ranks have neither tets nor axes. */
 static OstStatus has_axes(const OstMeshChunk *chunk, int *axes)
 {
     *axes = chunk->tet_axes != NULL;
@@ -161,7 +161,7 @@ done:
     return status;
 }
 
-/* The nodes of the tets that are not owned become ghosts: ascending numbers are grouped by owner as well. */
+/* The tets' nodes that are not owned become ghosts. Ascending numbers are grouped by owner, as the halo needs them. */
 static OstStatus number_ghosts(OstMesh *mesh, const OstGlobal *nodes)
 {
     const size_t entries = (size_t)mesh->tet_count * (size_t)mesh->nodes_per_tet;

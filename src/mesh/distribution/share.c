@@ -7,13 +7,13 @@
 #include <limits.h>
 #include <string.h>
 
-/* What every rank must know of the mesh that rank 0 brings. */
+/* What every rank must know of rank 0's chunk. */
 typedef struct Outline {
     OstGlobal nodes, tets;
     int nodes_per_tet;
     int region_count, boundary_count;
     int has_node_labels, has_tet_labels;
-    int text_bytes; /* all names with their zeros, regions first */
+    int text_bytes; /* of all names with their terminating zeros, regions first */
 } Outline;
 
 static OstStatus broadcast(OstContext *ctx, void *data, size_t bytes)
@@ -55,7 +55,7 @@ static void pack_names(const OstMeshChunk *chunk, char *text, int *kind)
     }
 }
 
-/* Every array is there, with no entries, so that it may be handed to MPI like a full one. */
+/* Arrays of no entries, since MPI gets their addresses like those of full ones. */
 static OstStatus allocate_nothing(OstContext *ctx, const Outline *outline, OstMeshChunk *chunk)
 {
     OST_TRY(OST_NEW(ctx, &chunk->coordinates, 0));
@@ -109,7 +109,7 @@ done:
     return status;
 }
 
-/* A rank's own share must name what rank 0's does, in its order, for these are known by their numbers from here on. */
+/* A rank must list the same names as rank 0, in the same order: from here on only their numbers are used. */
 static OstStatus compare_names(const OstMeshChunk *chunk, const Outline *outline, const char *text, const int *kind)
 {
     OstContext *ctx = chunk->ctx;

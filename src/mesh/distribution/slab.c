@@ -29,17 +29,9 @@ OstLocal ost_slab_local(const Slab *slab, OstGlobal node)
     return slab->node_count + ost_numbers_find(slab->ghost_count, slab->ghost_number, node);
 }
 
-/* Where the tets of the chunk have to visit: the other ranks that hold nodes of theirs. */
-static void list_visits(const OstMeshChunk *chunk, const Slab *slab, const OstGlobal *end, int *to)
-{
-    const size_t count = (size_t)chunk->tet_count * (size_t)chunk->nodes_per_tet;
-    for (size_t i = 0; i < count; i++)
-        to[i] =
-            is_mine(slab, chunk->tet_nodes[i]) ? -1 : ost_number_holder(end, ost_size(slab->ctx), chunk->tet_nodes[i]);
-}
-
-/* Receives the global node numbers of the tets that this rank's nodes touch and other ranks hold. */
-static OstStatus receive_visitors(const OstMeshChunk *chunk, const Slab *slab, OstLocal *count, OstGlobal **nodes)
+/* Sends each tet to the other ranks that have nodes of it; receives the global node numbers of this rank's ghost tets.
+ */
+static OstStatus exchange_ghost_tets(const OstMeshChunk *chunk, const Slab *slab, OstLocal *count, OstGlobal **nodes)
 {
     OstContext *ctx = chunk->ctx;
     const size_t width = (size_t)chunk->nodes_per_tet;
@@ -51,7 +43,8 @@ static OstStatus receive_visitors(const OstMeshChunk *chunk, const Slab *slab, O
         status = OST_NEW(ctx, &to, (size_t)chunk->tet_count * width);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_number_ends(ctx, chunk->first_node + chunk->node_count, end));
-    list_visits(chunk, slab, end, to);
+    for (size_t i = 0; i < (size_t)chunk->tet_count * width; i++)
+        to[i] = is_mine(slab, chunk->tet_nodes[i]) ? -1 : ost_number_holder(end, ost_size(ctx), chunk->tet_nodes[i]);
     OST_TRY_DONE(ost_route_create(ctx, chunk->tet_count, chunk->nodes_per_tet, to, &route));
     OST_TRY_DONE(ost_route_carry(route, width * sizeof(OstGlobal), chunk->tet_nodes, (void **)nodes));
     *count = route->receives;
@@ -70,13 +63,14 @@ static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nod
     return OST_SUCCESS;
 }
 
-static OstStatus find_ghosts(const OstMeshChunk *chunk, Slab *slab, OstLocal visitors, const OstGlobal *visitor_nodes)
+static OstStatus find_ghosts(const OstMeshChunk *chunk, Slab *slab, OstLocal ghost_tets,
+                             const OstGlobal *ghost_tet_nodes)
 {
     const size_t width = (size_t)chunk->nodes_per_tet;
     OstNumberSet ghosts = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(add_ghosts(slab, (size_t)chunk->tet_count * width, chunk->tet_nodes, &ghosts));
-    OST_TRY_DONE(add_ghosts(slab, (size_t)visitors * width, visitor_nodes, &ghosts));
+    OST_TRY_DONE(add_ghosts(slab, (size_t)ghost_tets * width, ghost_tet_nodes, &ghosts));
     for (int b = 0; b < chunk->boundary_count; b++) {
         const OstBoundary *boundary = &chunk->boundaries[b];
         OST_TRY_DONE(
@@ -91,29 +85,29 @@ done:
     return status;
 }
 
-static OstStatus number_locally(const OstMeshChunk *chunk, Slab *slab, OstLocal visitors,
-                                const OstGlobal *visitor_nodes)
+static OstStatus number_locally(const OstMeshChunk *chunk, Slab *slab, OstLocal ghost_tets,
+                                const OstGlobal *ghost_tet_nodes)
 {
     const size_t width = (size_t)chunk->nodes_per_tet;
-    const size_t held = (size_t)chunk->tet_count * width;
-    if ((OstGlobal)chunk->tet_count + visitors > INT32_MAX ||
+    const size_t own = (size_t)chunk->tet_count * width;
+    if ((OstGlobal)chunk->tet_count + ghost_tets > INT32_MAX ||
         (OstGlobal)chunk->node_count + slab->ghost_count > INT32_MAX)
         return OST_RAISE(slab->ctx, OST_LIMIT_EXCEEDED,
                          "a rank would hold more than %d tets or nodes before partition; use more ranks", INT32_MAX);
-    slab->tet_count = chunk->tet_count + visitors;
+    slab->tet_count = chunk->tet_count + ghost_tets;
     OST_TRY(OST_NEW(slab->ctx, &slab->tet_nodes, (size_t)slab->tet_count * width));
-    for (size_t i = 0; i < held; i++)
+    for (size_t i = 0; i < own; i++)
         slab->tet_nodes[i] = ost_slab_local(slab, chunk->tet_nodes[i]);
-    for (size_t i = 0; i < (size_t)visitors * width; i++)
-        slab->tet_nodes[held + i] = ost_slab_local(slab, visitor_nodes[i]);
+    for (size_t i = 0; i < (size_t)ghost_tets * width; i++)
+        slab->tet_nodes[own + i] = ost_slab_local(slab, ghost_tet_nodes[i]);
     return OST_SUCCESS;
 }
 
 OstStatus ost_slab_create(const OstMeshChunk *chunk, Slab **slab)
 {
     OstContext *ctx = chunk->ctx;
-    OstGlobal *visitor_nodes = NULL;
-    OstLocal visitors = 0;
+    OstGlobal *ghost_tet_nodes = NULL;
+    OstLocal ghost_tets = 0;
     Slab *made = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
@@ -122,15 +116,15 @@ OstStatus ost_slab_create(const OstMeshChunk *chunk, Slab **slab)
     made->first_node = chunk->first_node;
     made->node_count = chunk->node_count;
     made->nodes_per_tet = chunk->nodes_per_tet;
-    OST_TRY_DONE(receive_visitors(chunk, made, &visitors, &visitor_nodes));
-    status = find_ghosts(chunk, made, visitors, visitor_nodes);
+    OST_TRY_DONE(exchange_ghost_tets(chunk, made, &ghost_tets, &ghost_tet_nodes));
+    status = find_ghosts(chunk, made, ghost_tets, ghost_tet_nodes);
     if (status == OST_SUCCESS)
-        status = number_locally(chunk, made, visitors, visitor_nodes);
+        status = number_locally(chunk, made, ghost_tets, ghost_tet_nodes);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(
         ost_halo_create(ctx, made->node_count, made->first_node, made->ghost_count, made->ghost_number, &made->halo));
 done:
-    OST_FREE(visitor_nodes);
+    OST_FREE(ghost_tet_nodes);
     if (status != OST_SUCCESS)
         ost_slab_destroy(&made);
     *slab = made;

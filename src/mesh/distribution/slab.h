@@ -5,8 +5,8 @@
 #include "core/parallel/halo.h"
 #include "mesh/mesh_data.h"
 
-/* A chunk seen from its nodes: this rank's nodes of the chunk, all tets that touch one of them (wherever the chunk
- * holds them), and as ghosts all other nodes that those tets and this rank's items of the chunk mention. */
+/* A rank's piece of a chunk, before the partition: its nodes, all tets that touch one of them, its other tets and
+ * boundary items, and as ghosts all other nodes of these. */
 typedef struct Slab {
     OstContext *ctx;
     OstGlobal global_nodes;
@@ -15,7 +15,7 @@ typedef struct Slab {
     OstLocal ghost_count;
     OstGlobal *ghost_number; /* ascending */
     int nodes_per_tet;
-    OstLocal tet_count;  /* the chunk's tets of this rank, in their order, and then those that came to visit */
+    OstLocal tet_count;  /* this rank's tets of the chunk, in their order, then ghost tets */
     OstLocal *tet_nodes; /* tet_count × nodes_per_tet, local: nodes first, then ghosts */
     OstHalo *halo;
 } Slab;
@@ -24,7 +24,7 @@ typedef struct Slab {
 OstStatus ost_slab_create(const OstMeshChunk *chunk, Slab **slab);
 void ost_slab_destroy(Slab **slab);
 
-/* Local. The slab's number of a node that it holds. */
+/* Local. The slab's local number of one of its nodes or ghosts. */
 OstLocal ost_slab_local(const Slab *slab, OstGlobal node);
 
 #endif

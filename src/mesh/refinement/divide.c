@@ -12,7 +12,7 @@
 const int ost_tet_turn[3][10] = {
     {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {0, 3, 1, 2, 7, 8, 4, 6, 9, 5}, {0, 2, 3, 1, 6, 9, 7, 4, 5, 8}};
 
-/* A mesh in the making. */
+/* The division of a mesh, under way. */
 typedef struct Making {
     const MidNodes *mid;
     const Division *division;
@@ -22,7 +22,7 @@ typedef struct Making {
     OstLocal *local;  /* of the new nodes: 1 + the mesh's local number, or 0 where no tet here has them */
 } Making;
 
-/* Vertices and mid-edge nodes of a tet, in the order in which it is divided. */
+/* Vertices and mid-edge nodes of a tet, in its selected order. */
 static void gather_tet(const Making *making, OstLocal tet, OstLocal nodes[10])
 {
     const MidNodes *mid = making->mid;
@@ -36,7 +36,7 @@ static void gather_tet(const Making *making, OstLocal tet, OstLocal nodes[10])
         nodes[v] = own[turn[v]];
 }
 
-/* Likewise of a point, curve or face. */
+/* Vertices and mid-edge nodes of a point, curve or face. */
 static OstStatus gather_item(const Making *making, const OstBoundary *boundary, OstLocal item, OstLocal nodes[6])
 {
     const OstMesh *parent = making->mid->mesh;
@@ -49,7 +49,7 @@ static OstStatus gather_item(const Making *making, const OstBoundary *boundary, 
         const OstLocal edge = ost_edge_find(&making->mid->edges, parent, nodes[e], nodes[(e + 1) % vertices]);
         if (edge < 0)
             return OST_RAISE(parent->ctx, OST_INVALID_INPUT,
-                             "boundary '%s' has an item between vertices %lld and %lld, which are on no tet's edge",
+                             "boundary '%s' has an item between vertices %lld and %lld, which no tet's edge joins",
                              boundary->name, (long long)parent->node_label[nodes[e]],
                              (long long)parent->node_label[nodes[(e + 1) % vertices]]);
         nodes[vertices + e] = parent->node_count + edge;
@@ -57,7 +57,7 @@ static OstStatus gather_item(const Making *making, const OstBoundary *boundary, 
     return OST_SUCCESS;
 }
 
-/* Does the child touch a node owned here, and is it owned here itself, as its node with the lowest number is? */
+/* A child is kept where it touches an owned node; the owner of its node with the lowest number owns it. */
 typedef enum { ELSEWHERE, GHOST, OWNED } Place;
 
 static Place place_of(const MidNodes *mid, const Pattern *pattern, int child, const OstLocal *nodes)
@@ -73,7 +73,7 @@ static Place place_of(const MidNodes *mid, const Pattern *pattern, int child, co
     return !touches ? ELSEWHERE : ost_mid_nodes_owns(mid, lowest) ? OWNED : GHOST;
 }
 
-/* Lists the children of one kind of place; counts only while there is no list. */
+/* Appends the children of one kind of place to `origin`, which has `count` already; with origin NULL only counts. */
 static OstGlobal list_tets(const Making *making, Place place, OstGlobal count, OstLocal *origin)
 {
     const Pattern *pattern = &making->division->tet;
@@ -109,7 +109,7 @@ static OstStatus choose_tets(Making *making)
     return OST_SUCCESS;
 }
 
-/* What tet t of the mesh is made of; returns its parent. */
+/* The nodes of a tet of the new mesh; returns its parent. */
 static OstLocal child_nodes(const Making *making, OstLocal tet, OstLocal nodes[10])
 {
     const Pattern *pattern = &making->division->tet;
@@ -134,7 +134,7 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Lists the nodes of the tets here that others own, by ascending number, after marking all that the tets use. */
+/* Marks all nodes of this rank's tets, and lists those that other ranks own, by ascending number. */
 static OstStatus list_ghosts(const Making *making, Numbered **ghost, OstLocal *count)
 {
     const MidNodes *mid = making->mid;
@@ -222,7 +222,7 @@ static OstStatus fill_tets(Making *making)
     return OST_SUCCESS;
 }
 
-/* Children of items that touch an owned node stay: the tets behind them are here. */
+/* Keeps the children of items that touch an owned node: this rank has the tets behind them. */
 static OstStatus fill_boundary(const Making *making, const OstBoundary *from, OstBoundary *to)
 {
     const Pattern *pattern = &making->division->item[from->dimension];
@@ -263,7 +263,7 @@ static OstStatus make_piece(Making *making)
     return OST_SUCCESS;
 }
 
-/* Owners know best: ghosts take their coordinates and labels from them. */
+/* Ghosts take their coordinates and labels from their owners. */
 static OstStatus connect(OstMesh *mesh)
 {
     OST_TRY(ost_halo_create(mesh->ctx, mesh->owned_nodes, mesh->first_node, mesh->node_count - mesh->owned_nodes,

@@ -4,8 +4,8 @@
 
 #include "mesh/refinement/mid_nodes.h"
 
-/* What one tet, face, curve or point becomes: node j of child k is the parent's node[k × nodes + j], in the order of
- * quadratic items (vertices, then mid-edges). */
+/* The children of one tet, face, curve or point: node j of child k is the parent's node[k × nodes + j], with the
+ * parent's nodes in quadratic order (vertices, then mid-edge nodes). */
 typedef struct Pattern {
     int children, nodes;
     const int *node;
@@ -16,13 +16,13 @@ typedef struct Division {
     Pattern item[3]; /* by dimension */
 } Division;
 
-/* The three orders of a tet's ten nodes that keep its orientation and bring each of the pairs of opposite edges to the
- * places of 02 and 13: 02 and 13 themselves, 01 and 23, 03 and 12. */
+/* Three orders of a tet's ten nodes that keep its orientation. They bring each pair of opposite edges to the position
+ * of 02 and 13: 02 and 13 themselves, 01 and 23, 03 and 12. */
 extern const int ost_tet_turn[3][10];
 
-/* Collective. The mesh that a division makes, over the new nodes. `turn` (NULL: none) gives the order in which each tet
- * here is divided. Child k of the tet labelled p has label children (p - 1) + k + 1. `origin`, unless NULL, receives an
- * array of the caller's to free: where tet t comes from, as its parent's local number × children + k. */
+/* Collective. Divides every tet of mid->mesh. `turn` (NULL: all 0) selects each local tet's order in ost_tet_turn.
+ * Child k of the tet labelled p has label children (p - 1) + k + 1. `origin`, unless NULL, receives an array that the
+ * caller frees: tet t is child k of the local tet p with origin[t] = p × children + k. */
 OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const unsigned char *turn, OstMesh **mesh,
                           OstLocal **origin);
 

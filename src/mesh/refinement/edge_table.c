@@ -36,10 +36,10 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The other ends under each node, once for every tet that has the edge. */
-static OstStatus file_mentions(const OstMesh *mesh, OstGlobal *start, OstLocal **mention)
+/* Lists the high ends of the edges of each low end, once for every tet with the edge. */
+static OstStatus list_high_ends(const OstMesh *mesh, OstGlobal *start, OstLocal **high_end)
 {
-    OstGlobal *next = start + 1; /* one behind, so that filing moves each start to its place */
+    OstGlobal *next = start + 1; /* offset by one: filling the lists moves each start to its place */
     OstLocal low = 0;
     OstLocal high = 0;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -50,26 +50,26 @@ static OstStatus file_mentions(const OstMesh *mesh, OstGlobal *start, OstLocal *
     }
     for (OstLocal n = 0; n < mesh->node_count; n++)
         next[n + 1] += next[n];
-    OST_TRY(OST_NEW(mesh->ctx, mention, next[mesh->node_count]));
+    OST_TRY(OST_NEW(mesh->ctx, high_end, next[mesh->node_count]));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         for (int e = 0; e < 6; e++) {
             edge_ends(mesh, t, e, &low, &high);
-            (*mention)[next[low]++] = high;
+            (*high_end)[next[low]++] = high;
         }
     }
     return OST_SUCCESS;
 }
 
-/* Sorts each node's other ends and moves them together without repetition. */
-static OstStatus remove_repetitions(const OstMesh *mesh, const OstGlobal *start, OstLocal *mention, EdgeTable *table)
+/* Sorts each node's high ends and removes repetitions, in place. */
+static OstStatus remove_repetitions(const OstMesh *mesh, const OstGlobal *start, OstLocal *high_end, EdgeTable *table)
 {
     OstGlobal kept = 0;
     for (OstLocal n = 0; n < mesh->node_count; n++) {
         const OstGlobal first = kept;
-        qsort(mention + start[n], (size_t)(start[n + 1] - start[n]), sizeof *mention, compare);
+        qsort(high_end + start[n], (size_t)(start[n + 1] - start[n]), sizeof *high_end, compare);
         for (OstGlobal i = start[n]; i < start[n + 1]; i++)
-            if (kept == first || mention[i] != mention[kept - 1])
-                mention[kept++] = mention[i];
+            if (kept == first || high_end[i] != high_end[kept - 1])
+                high_end[kept++] = high_end[i];
         if (kept > INT32_MAX)
             return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
                              "a rank would hold more than the %d mid-edge nodes it can number; use more ranks",
@@ -86,7 +86,7 @@ static OstStatus file_edges(const OstMesh *mesh, EdgeTable *table)
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(mesh->ctx, &start, (size_t)mesh->node_count + 2));
     OST_TRY_DONE(OST_NEW(mesh->ctx, &table->start, (size_t)mesh->node_count + 1));
-    OST_TRY_DONE(file_mentions(mesh, start, &table->high));
+    OST_TRY_DONE(list_high_ends(mesh, start, &table->high));
     OST_TRY_DONE(remove_repetitions(mesh, start, table->high, table));
     OST_TRY_DONE(OST_RESIZE(mesh->ctx, &table->high, table->count));
 done:

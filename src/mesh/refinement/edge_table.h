@@ -4,13 +4,14 @@
 
 #include "mesh/mesh_data.h"
 
-/* The edges of the tets held here, between vertices. An edge is filed under its end with the lowest global number, and
- * owned where that end is: there, all tets around it are held. Owned edges come first, as their ends do. */
+/* The edges between vertices of this rank's tets, ghosts included. An edge is listed at its low end, the vertex with
+ * the lower global number; the owner of that vertex owns the edge, and has all tets around it. Owned edges come first.
+ */
 typedef struct EdgeTable {
     OstLocal count;
-    OstLocal *start;  /* node_count + 1: edges filed under a node */
-    OstLocal *low;    /* count: the end it is filed under */
-    OstLocal *high;   /* count: the other end, ascending within a node's edges */
+    OstLocal *start;  /* node_count + 1: the edges of low end n start at start[n] */
+    OstLocal *low;    /* count: low end */
+    OstLocal *high;   /* count: high end, ascending among the edges of a low end */
     OstLocal *of_tet; /* tet_count × 6, in the order of ost_tet_edge */
 } EdgeTable;
 
@@ -18,7 +19,7 @@ typedef struct EdgeTable {
 OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table);
 void ost_edge_table_clear(EdgeTable *table);
 
-/* Local. The edge between two nodes held here, or -1. */
+/* Local. The edge between two local nodes, or -1. */
 OstLocal ost_edge_find(const EdgeTable *table, const OstMesh *mesh, OstLocal a, OstLocal b);
 
 #endif

@@ -11,7 +11,7 @@
 
 enum { IS_VERTEX = 1, IS_MIDDLE = 2 };
 
-/* Numbers the nodes that are vertices in their order; the others get -1. */
+/* Numbers the vertices among the nodes, in their order; mid-edge nodes get -1. */
 static OstStatus number_vertices(const OstMesh *quadratic, OstLocal *vertex, OstMesh *linear)
 {
     for (OstLocal n = 0; n < quadratic->node_count; n++)
@@ -71,7 +71,7 @@ static OstStatus fill_tets(const OstMesh *quadratic, const OstLocal *vertex, Ost
     return OST_SUCCESS;
 }
 
-/* Items that touch an owned node by its vertices; points where they are vertices. */
+/* Keeps the items with an owned vertex; drops points at mid-edge nodes. */
 static OstStatus fill_boundary(const OstBoundary *from, const OstLocal *vertex, const OstMesh *linear, OstBoundary *to)
 {
     const size_t width = (size_t)to->nodes_per_item;

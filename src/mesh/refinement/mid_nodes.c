@@ -37,7 +37,7 @@ static OstStatus allocate(MidNodes *mid)
     return OST_NEW(mid->mesh->ctx, &mid->coordinates, 3 * (size_t)count);
 }
 
-/* Each owned vertex and then its edges. */
+/* Numbers each owned vertex, and after it the edges of which it is the low end. */
 static OstStatus number_owned(MidNodes *mid)
 {
     const OstMesh *mesh = mid->mesh;
@@ -52,12 +52,12 @@ static OstStatus number_owned(MidNodes *mid)
     return ost_agree(mesh->ctx, ost_halo_import(mesh->halo, sizeof *mid->number, mid->number));
 }
 
-/* An edge by the old global numbers of its ends, the lowest first. */
+/* An edge, by the old global numbers of its ends. */
 typedef struct Ends {
     OstGlobal low, high;
 } Ends;
 
-/* The edges whose numbers other ranks give, in the order of those ranks. */
+/* Lists the edges that other ranks own, and these ranks. */
 static void list_questions(const MidNodes *mid, Ends *ends, int *to)
 {
     const OstMesh *mesh = mid->mesh;
@@ -81,16 +81,17 @@ static OstStatus look_up(const MidNodes *mid, OstLocal count, const Ends *ends, 
         const OstLocal high = ost_mesh_local(mesh, ends[i].high);
         const OstLocal edge = low < 0 || high < 0 ? -1 : ost_edge_find(&mid->edges, mesh, low, high);
         if (edge < 0)
-            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
-                             "nodes %lld and %lld share a tet on another rank, but not on rank %d that owns them; give "
-                             "every rank all tets that touch its nodes",
-                             (long long)ends[i].low, (long long)ends[i].high, ost_rank(mesh->ctx));
+            return OST_RAISE(
+                mesh->ctx, OST_INVALID_INPUT,
+                "nodes %lld and %lld share a tet on another rank, but not on rank %d, which owns them; give "
+                "every rank all tets that touch its nodes",
+                (long long)ends[i].low, (long long)ends[i].high, ost_rank(mesh->ctx));
         answer[i] = mid->number[mesh->node_count + edge];
     }
     return OST_SUCCESS;
 }
 
-/* Takes questions to the owners and brings their answers back. */
+/* Asks the edges' owners for their new global numbers. */
 static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *ends, const int *to, OstGlobal *number)
 {
     OstContext *ctx = mid->mesh->ctx;
@@ -131,10 +132,10 @@ done:
     return status;
 }
 
-/* The highest label of a vertex; raises if six labels for each tet's do not fit behind it. */
+/* The highest label of a vertex. Raises an error if six labels for each tet do not fit in 64 bits after it. */
 static OstStatus find_highest_label(const OstMesh *mesh, OstGlobal *highest)
 {
-    OstGlobal most[3] = {0, 0, -1}; /* vertex label, tet label, minus the lowest tet label */
+    OstGlobal most[3] = {0, 0, -1}; /* vertex label, tet label, and 0 if a tet label is not positive */
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         most[0] = mesh->node_label[n] > most[0] ? mesh->node_label[n] : most[0];
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
@@ -160,7 +161,7 @@ OstGlobal ost_mid_nodes_label(const MidNodes *mid, OstLocal tet, int e)
     return mid->highest_label + 6 * (mid->mesh->tet_label[tet] - 1) + e + 1;
 }
 
-/* An edge is named after the tet with the lowest label around it, all of which its owner holds. */
+/* An edge gets its label from the tet with the lowest label around it. Its owner has all of these. */
 static OstStatus label_nodes(MidNodes *mid)
 {
     const OstMesh *mesh = mid->mesh;

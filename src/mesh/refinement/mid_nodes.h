@@ -5,8 +5,9 @@
 #include "mesh/refinement/edge_table.h"
 #include "orthostat/refine.h"
 
-/* The nodes that raising and refining have in common: the vertices held here, then the middles of the edges (index
- * node_count + edge). A vertex and the middles of the edges filed under it have neighbouring global numbers. */
+/* The new nodes, when linear tets are made quadratic or refined: this rank's vertices, then the mid-edge nodes (index
+ * node_count + edge). A vertex and the mid-edge nodes of the edges of which it is the low end have consecutive global
+ * numbers. */
 typedef struct MidNodes {
     const OstMesh *mesh;
     EdgeTable edges;
@@ -15,7 +16,7 @@ typedef struct MidNodes {
     OstGlobal first_node, global_nodes;
     OstGlobal highest_label; /* of a vertex */
     OstGlobal *number;       /* count: new global numbers, contiguous over ranks */
-    OstGlobal *label;        /* count: right for those owned, of use for no others */
+    OstGlobal *label;        /* count: valid for owned nodes only */
     double *coordinates;
 } MidNodes;
 
@@ -24,7 +25,7 @@ typedef struct MidNodes {
 OstStatus ost_mid_nodes_create(const OstMesh *mesh, const OstShapeSurface *shape, MidNodes *mid);
 void ost_mid_nodes_clear(MidNodes *mid);
 
-/* Local. The label of edge e (0-5) of a tet if no other tet around it has a lower label. */
+/* Local. The label of edge e (0-5) of a tet, provided that no other tet with that edge has a lower label. */
 OstGlobal ost_mid_nodes_label(const MidNodes *mid, OstLocal tet, int e);
 
 /* Local. Is the new node owned here? */

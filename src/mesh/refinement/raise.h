@@ -4,7 +4,7 @@
 
 #include "mesh/refinement/mid_nodes.h"
 
-/* Collective. The quadratic mesh over new nodes that are already placed. */
+/* Collective. The quadratic mesh on mid-edge nodes whose positions are set. */
 OstStatus ost_mesh_raise_over(const MidNodes *mid, OstMesh **quadratic);
 
 #endif

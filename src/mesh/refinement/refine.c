@@ -8,9 +8,10 @@
 #include "mesh/tet.h"
 
 /* Bey's red refinement (J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378): four tets at the vertices,
- * and four around the diagonal of the inner octahedron between the middles of edges 02 and 13. His order of the
- * children's vertices, with which any tet has children of no more than three shapes however often it is refined, leaves
- * the sixth and the eighth inverted; their first and third vertices are swapped here, which the rule cannot tell. */
+ * and four around the inner octahedron's diagonal between the middles of edges 02 and 13. With his order of the
+ * children's vertices, repeated refinement makes tets of at most three shapes, but the sixth and the eighth child are
+ * inverted. Here their first and third vertices are swapped, which changes neither the edges 02 and 13 nor the shapes.
+ */
 static const int bey_tet[8][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3},
                                   {4, 6, 7, 8}, {5, 6, 4, 8}, {6, 7, 8, 9}, {8, 5, 6, 9}};
 static const int halves[2][2] = {{0, 2}, {2, 1}};
@@ -18,8 +19,8 @@ static const int quarters[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
 static const int point[1] = {0};
 static const Division refining = {{8, 4, bey_tet[0]}, {{1, 1, point}, {2, 2, halves[0]}, {4, 3, quarters[0]}}};
 
-/* Another diagonal is taken if it is shorter than Bey's by more than this: in meshes whose tets' vertices come in any
- * order. Tets of our own shapes come in the order that suits the rule. */
+/* The shortest diagonal is taken instead if Bey's is longer by more than this factor, as in meshes whose tets list
+ * their vertices in an arbitrary order. The built-in shapes list them in the order that Bey's rule needs. */
 static const double much_longer = 1.5;
 
 static unsigned char choose_turn(const MidNodes *mid, OstLocal tet)
@@ -41,7 +42,7 @@ static unsigned char choose_turn(const MidNodes *mid, OstLocal tet)
     return (unsigned char)(length[0] > much_longer * length[shortest] ? shortest : 0);
 }
 
-/* A refinement in the making: of a linear mesh, which may be the skeleton of a quadratic one. */
+/* A refinement, under way. A quadratic mesh is refined by way of its linear mesh. */
 typedef struct Refinement {
     const OstMesh *linear;
     const OstMesh *quadratic; /* or NULL */
@@ -56,7 +57,7 @@ static int has_shape(const Refinement *refinement)
     return refinement->shape && refinement->shape->kind != OST_SURFACE_NONE;
 }
 
-/* The middles of the edges are nodes of the quadratic mesh already. */
+/* Mid-edge nodes of the coarse quadratic mesh become vertices of the fine mesh, with their positions. */
 static void take_middles(const Refinement *refinement, MidNodes *mid)
 {
     const OstMesh *quadratic = refinement->quadratic;
@@ -115,7 +116,7 @@ static void map_point(const OstMesh *quadratic, OstLocal tet, const double b[4],
     }
 }
 
-/* The middles of the fine edges lie where the coarse tets put them; each is placed by the tet that labelled it. */
+/* Puts the fine mid-edge nodes on the curved coarse tets; each is computed from the tet that gave it its label. */
 static void map_middles(const Refinement *refinement, MidNodes *mid)
 {
     double *middle = mid->coordinates + 3 * (size_t)mid->mesh->node_count;

@@ -13,7 +13,7 @@ static OstGlobal nodes_along(const Grid *grid, int direction)
     return (OstGlobal)grid->cells[direction] + (grid->round[direction] ? 0 : 1);
 }
 
-/* Index triple of a node or cell from its number. */
+/* Index triple of a node or cell from its number; `second` and `third` are the counts in these directions. */
 static void unfold(OstGlobal number, OstGlobal second, OstGlobal third, OstGlobal index[3])
 {
     index[2] = number % third;
@@ -52,7 +52,7 @@ static const char *name_side(const void *shape, int side)
     return ((const Sided *)shape)->side[side].name;
 }
 
-/* Which ends of the side's direction does the cell lie at? */
+/* The ends of the side's direction at which the cell lies. */
 static int find_ends(const void *shape, int number, OstGlobal cell, int *direction)
 {
     const Grid *grid = ((const Sided *)shape)->grid;
@@ -65,7 +65,7 @@ static int find_ends(const void *shape, int number, OstGlobal cell, int *directi
     return side->ends & (low | high);
 }
 
-/* The product of three counts below 2^32 fits 64 bits only if it is checked first. */
+/* In floating point: the product of three 32-bit counts may overflow 64 bits. */
 static OstStatus check_size(OstContext *ctx, const Grid *grid)
 {
     double nodes = 1.0;

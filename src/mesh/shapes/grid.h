@@ -4,12 +4,12 @@
 
 #include "mesh/hexes.h"
 
-/* A box of hexes in index space (mesh/hexes.h), nodes numbered with the last index fastest. The three index directions
- * form a right-handed system. */
+/* A box of hexes in index space (mesh/hexes.h), with nodes numbered last index fastest. The index directions form a
+ * right-handed system. */
 typedef struct Grid {
-    const char *name; /* for messages, and of the one region */
+    const char *name; /* of the shape, in messages, and of its only region */
     OstLocal cells[3];
-    int round[3]; /* does the index go round? then the last node is the first again */
+    int round[3]; /* is the direction closed to a ring? Then its last node is its first */
     const void *shape;
     void (*place)(const void *shape, const OstGlobal index[3], double x[3]);
 } Grid;

@@ -4,12 +4,12 @@
 
 #include <math.h>
 
-/* The octant's sphere is three faces of a cube of n × n × n blown up: its points (i, j, k), 0 to n, have a coordinate
- * equal to n. Face f has those with that coordinate in direction f; its cells step in directions f + 1 and f + 2
- * (cyclically), which with the radius outward is a right-handed system. */
+/* A sphere's octant is the image of three faces of a cube of n × n × n: the points (i, j, k), 0 to n, with at least one
+ * coordinate equal to n. On face f coordinate f is n; its cells step in directions f + 1 and f + 2 (cyclically), which
+ * form a right-handed system with the outward radius. */
 enum { FACES = 3 };
 
-/* A hex: a square of a face, and a layer of the wall. */
+/* A hex: a square of a face, in a layer of the shell. */
 typedef struct Cell {
     int face;
     OstGlobal first, second; /* steps in directions f + 1 and f + 2 */
@@ -23,7 +23,8 @@ static Cell cell_at(const OstOctantShape *octant, OstGlobal number)
     return (Cell){(int)(square / (n * n)), square / n % n, square % n, number % octant->radial};
 }
 
-/* Points in lexicographic order: slices of i < n are the sides of a square, 2 n + 1 points; that of i = n is full. */
+/* Points are numbered in lexicographic order. A slice i < n has 2 n + 1 points, on two sides of a square; slice n is a
+ * full square. */
 static OstGlobal sphere_point(OstGlobal n, const OstGlobal index[3])
 {
     if (index[0] == n)
@@ -60,7 +61,7 @@ static void find_corners(const void *shape, OstGlobal number, OstGlobal corner[H
     }
 }
 
-/* Equal angles along the edges of a cube's face make squares of nearly equal size on the sphere. */
+/* Equal angles along the edges of the cube's faces give squares of nearly equal size on the sphere. */
 static void place(const void *shape, OstGlobal node, double x[3])
 {
     const OstOctantShape *octant = shape;
@@ -87,7 +88,9 @@ static const char *name_side(const void *shape, int side)
     return side_names[side];
 }
 
-/* The direction of a cell in which the side lies at an end of it: 0 and 1 are the steps of its face, 2 goes outward. */
+/* The ends of `direction` at which the cell lies on the side: directions 0 and 1 are the steps on its face, 2 is
+ * outward.
+ */
 static int find_ends(const void *shape, int side, OstGlobal number, int *direction)
 {
     const OstOctantShape *octant = shape;
@@ -97,7 +100,7 @@ static int find_ends(const void *shape, int side, OstGlobal number, int *directi
         return cell.layer == 0 ? HEX_LOW : 0;
     if (side == OUTER)
         return cell.layer == octant->radial - 1 ? HEX_HIGH : 0;
-    *direction = (side - XMIN - cell.face + 2) % 3; /* of the steps in x, y or z; 2 for the face's own */
+    *direction = (side - XMIN - cell.face + 2) % 3; /* the step in x, y or z; 2 for the direction of the face itself */
     return *direction != 2 && (*direction == 0 ? cell.first : cell.second) == 0 ? HEX_LOW : 0;
 }
 

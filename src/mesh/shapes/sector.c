@@ -4,15 +4,16 @@
 
 #include <math.h>
 
-/* Cosine and sine of degrees, without rounding at right angles: planes of symmetry are met exactly. */
+/* Cosine and sine of an angle in degrees, without rounding errors at multiples of 90, so that the nodes there lie in
+ * the plane of symmetry. */
 static void turn(double degrees, double *cosine, double *sine)
 {
-    static const double exact[4][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
+    static const double quarter[4][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
     *cosine = cos(degrees * M_PI / 180.0);
     *sine = sin(degrees * M_PI / 180.0);
     if (fmod(degrees, 90.0) == 0.0) {
-        *cosine = exact[(int)(degrees / 90.0) % 4][0];
-        *sine = exact[(int)(degrees / 90.0) % 4][1];
+        *cosine = quarter[(int)(degrees / 90.0) % 4][0];
+        *sine = quarter[(int)(degrees / 90.0) % 4][1];
     }
 }
 

@@ -2,7 +2,7 @@
 #include "core/small.h"
 #include "orthostat/refine.h"
 
-/* Below this length, the sum of two directions is what rounding left of none. */
+/* The sum of two unit vectors counts as 0 if it is shorter than this. */
 static const double no_direction = 1e-8;
 
 OstShapeSurface ost_shape_surface_tube(const OstTubeShape *shape)
@@ -17,7 +17,8 @@ OstShapeSurface ost_shape_surface_sphere(const double centre[3])
     return (OstShapeSurface){OST_SURFACE_SPHERE, {centre[0], centre[1], centre[2]}, {0.0}};
 }
 
-/* Splits a vector into its part along the axis (none for a sphere), a length across it, and the direction of that. */
+/* Splits the vector from the origin to x into its part along the axis (0 for a sphere) and a unit vector across it;
+ * returns the length across. */
 static double split(const OstShapeSurface *shape, const double x[3], double along[3], double direction[3])
 {
     const double length = shape->kind == OST_SURFACE_TUBE ? ost_dot3(shape->axis, shape->axis) : 0.0;
@@ -35,7 +36,7 @@ static double split(const OstShapeSurface *shape, const double x[3], double alon
     return radius;
 }
 
-/* The mean of two angles is the direction of the sum of their unit vectors. */
+/* Averages height, radius and angle: the direction between two unit vectors is that of their sum. */
 void ost_shape_surface_middle(const OstShapeSurface *shape, const double a[3], const double b[3], double middle[3])
 {
     for (int d = 0; d < 3; d++)

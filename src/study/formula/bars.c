@@ -16,11 +16,7 @@ static OstStatus prepare_bar(const OstCase *c, double load, OstFormulaData *data
     const OstBlockShape *block = &c->block;
     const OstOrthotropic *o = &c->materials[0].material.constants;
     double *k = data->constant;
-    const int centred = fabs(block->origin[1] + 0.5 * block->size[1]) <= 1e-12 * block->size[1] &&
-                        fabs(block->origin[2] + 0.5 * block->size[2]) <= 1e-12 * block->size[2];
-    OST_TRY(ost_formula_wants(c, c->mesh_kind == OST_MESH_BLOCK && block->origin[0] == 0.0 && centred,
-                              "a block with its origin at [0, -b/2, -h/2]"));
-    OST_TRY(ost_formula_wants(c, ost_formula_is_aligned(c), "a material without axes of its own"));
+    OST_TRY(ost_formula_wants_bar(c, 0, "a block with its origin at [0, -b/2, -h/2]"));
     k[E] = o->youngs_modulus[0];
     k[E3] = o->youngs_modulus[2];
     k[NU12] = o->poissons_ratio[0];

@@ -7,15 +7,7 @@
 #include <string.h>
 
 /* Bars along z with the section |x| <= a/2, |y| <= b/2, of a material whose axes are the world's. */
-static OstStatus want_column(const OstCase *c)
-{
-    const OstBlockShape *block = &c->block;
-    const int centred = fabs(block->origin[0] + 0.5 * block->size[0]) <= 1e-12 * block->size[0] &&
-                        fabs(block->origin[1] + 0.5 * block->size[1]) <= 1e-12 * block->size[1];
-    OST_TRY(ost_formula_wants(c, c->mesh_kind == OST_MESH_BLOCK && block->origin[2] == 0.0 && centred,
-                              "a block with its origin at [-a/2, -b/2, 0]"));
-    return ost_formula_wants(c, ost_formula_is_aligned(c), "a material without axes of its own");
-}
+static const char column[] = "a block with its origin at [-a/2, -b/2, 0]";
 
 /* --- torsion --- */
 
@@ -40,7 +32,7 @@ static double torsional_stiffness(const double *k)
 static OstStatus prepare_torsion(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
     double *k = data->constant;
-    OST_TRY(want_column(c));
+    OST_TRY(ost_formula_wants_bar(c, 2, column));
     k[GYZ] = c->materials[0].material.constants.shear_modulus[1];
     k[GXZ] = c->materials[0].material.constants.shear_modulus[2];
     k[A] = c->block.size[0];
@@ -109,7 +101,7 @@ static OstStatus prepare_hanging_bar(const OstCase *c, const double *parameter, 
     const OstOrthotropic *o = &c->materials[0].material.constants;
     const double *e = o->youngs_modulus;
     double *k = data->constant;
-    OST_TRY(want_column(c));
+    OST_TRY(ost_formula_wants_bar(c, 2, column));
     k[PER_LENGTH] = c->materials[0].material.density * parameter[0] / e[2];
     k[NU31] = o->poissons_ratio[2];
     k[NU32] = o->poissons_ratio[1] * e[2] / e[1];

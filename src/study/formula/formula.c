@@ -2,6 +2,7 @@
 #include "study/formula/formula.h"
 
 #include "core/error.h"
+#include "core/small.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,28 +14,12 @@ static const OstFormula *const formulas[] = {
 };
 enum { FORMULA_COUNT = sizeof formulas / sizeof *formulas };
 
-const OstFormula *ost_formula_find(const char *name)
-{
-    for (int f = 0; f < FORMULA_COUNT; f++)
-        if (strcmp(formulas[f]->name, name) == 0)
-            return formulas[f];
-    return NULL;
-}
-
 static void list_names(const char *const *names, int count, char *text, size_t size)
 {
     size_t length = 0;
     text[0] = 0;
     for (int i = 0; i < count && names[i] && length < size; i++)
         length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", names[i]);
-}
-
-void ost_formula_list(char *text, size_t size)
-{
-    const char *names[FORMULA_COUNT];
-    for (int f = 0; f < FORMULA_COUNT; f++)
-        names[f] = formulas[f]->name;
-    list_names(names, FORMULA_COUNT, text, size);
 }
 
 int ost_formula_find_value(const OstFormula *formula, const char *name)
@@ -53,9 +38,14 @@ OstStatus ost_formula_wants(const OstCase *c, int holds, const char *wanted)
                      c->verify->formula, wanted);
 }
 
-int ost_formula_is_aligned(const OstCase *c)
+OstStatus ost_formula_wants_bar(const OstCase *c, int along, const char *wanted)
 {
-    return c->materials[0].axes.kind == OST_AXES_NONE;
+    const OstBlockShape *block = &c->block;
+    int placed = c->mesh_kind == OST_MESH_BLOCK && block->origin[along] == 0.0;
+    for (int i = 0; i < 3; i++)
+        placed &= i == along || fabs(block->origin[i] + 0.5 * block->size[i]) <= 1e-12 * block->size[i];
+    OST_TRY(ost_formula_wants(c, placed, wanted));
+    return ost_formula_wants(c, c->materials[0].axes.kind == OST_AXES_NONE, "a material without axes of its own");
 }
 
 /* --- the closed-form field --- */
@@ -117,11 +107,7 @@ static OstStatus exact_stress(const void *data, const double point[3], double st
     OST_TRY(exact_gradient(data, point, g));
     OST_TRY(exact_stiffness(data, point, c));
     const double strain[6] = {g[0], g[4], g[8], g[1] + g[3], g[5] + g[7], g[6] + g[2]};
-    for (int i = 0; i < 6; i++) {
-        stress[i] = 0.0;
-        for (int j = 0; j < 6; j++)
-            stress[i] += c[6 * i + j] * strain[j];
-    }
+    ost_apply6(c, strain, stress);
     return OST_SUCCESS;
 }
 
@@ -171,16 +157,20 @@ static OstStatus take_parameters(const OstCase *c, const OstFormula *formula, do
 
 static OstStatus find_formula(const OstCase *c, const OstFormula **formula)
 {
-    char names[512];
+    const char *names[FORMULA_COUNT];
+    char list[512];
     if (!c->verify)
         return OST_RAISE(c->ctx, OST_INVALID_INPUT,
                          "%s: the case has no verify section, so there is no formula to compare it with", c->path);
-    *formula = ost_formula_find(c->verify->formula);
-    if (*formula)
-        return OST_SUCCESS;
-    ost_formula_list(names, sizeof names);
+    for (int f = 0; f < FORMULA_COUNT; f++) {
+        *formula = formulas[f];
+        names[f] = formulas[f]->name;
+        if (strcmp(names[f], c->verify->formula) == 0)
+            return OST_SUCCESS;
+    }
+    list_names(names, FORMULA_COUNT, list, sizeof list);
     return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s:%d: there is no formula '%s'; there are: %s", c->path,
-                     c->verify->line, c->verify->formula, names);
+                     c->verify->line, c->verify->formula, list);
 }
 
 OstStatus ost_exact_create(const OstCase *c, OstExact *exact)
@@ -198,6 +188,6 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact)
     exact->ctx = c->ctx;
     exact->axes = stated->axes;
     exact->field =
-        (OstExactField){exact, exact_displacement, exact_gradient, exact_stiffness, exact_stress, exact_body_force};
+        (OstClosedForm){exact, exact_displacement, exact_gradient, exact_stiffness, exact_stress, exact_body_force};
     return exact->formula->prepare(c, parameter, &exact->data);
 }

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 #define ORTHOSTAT_STUDY_FORMULA_FORMULA_H
 
-#include "assembly/exact.h"
+#include "assembly/closed_form.h"
 #include "case/verify.h"
 
 /* Closed-form solutions with which answers are compared. A formula takes shape and material from the case, and gives a
@@ -34,17 +34,13 @@ extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_un
     ost_formula_hanging_bar, ost_formula_strip, ost_formula_cylinder, ost_formula_sphere, ost_formula_uniform_stress,
     ost_formula_waves, ost_formula_polynomial;
 
-/* Local. The formula of this name, or NULL; and the names of all, for messages. */
-const OstFormula *ost_formula_find(const char *name);
-void ost_formula_list(char *text, size_t size);
-
 /* Local. Number of a value by name, or -1. */
 int ost_formula_find_value(const OstFormula *formula, const char *name);
 
 /* The closed-form solution of a case: strain from the formula's displacement, stress by the material in its axes at the
  * point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
 typedef struct OstExact {
-    OstExactField field; /* field.data is this object */
+    OstClosedForm field; /* field.data is this object */
     OstContext *ctx;
     const OstFormula *formula;
     OstFormulaData data;
@@ -60,7 +56,8 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact);
 /* Local. For formulas: raises OST_INVALID_INPUT unless the condition `holds`; `wanted` names it. */
 OstStatus ost_formula_wants(const OstCase *c, int holds, const char *wanted);
 
-/* Local. Are the axes of the case's (first) material the world's? */
-int ost_formula_is_aligned(const OstCase *c);
+/* Local. For formulas of bars: raises OST_INVALID_INPUT unless the body is a block from 0 along one axis and centred on
+ * the others (`wanted` says so), of a material whose axes are the world's. */
+OstStatus ost_formula_wants_bar(const OstCase *c, int along, const char *wanted);
 
 #endif

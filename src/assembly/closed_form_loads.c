@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/field_loads.h"
+#include "assembly/closed_form_loads.h"
 
 #include "core/error.h"
 #include "core/small.h"
@@ -7,14 +7,7 @@
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
 
-static void gather(const OstMesh *mesh, int count, const OstLocal *nodes, double *x)
-{
-    for (int a = 0; a < count; a++)
-        for (int i = 0; i < 3; i++)
-            x[3 * a + i] = mesh->coordinates[3 * (size_t)nodes[a] + (size_t)i];
-}
-
-/* Adds each node's share of a force at a point to the owned nodes. */
+/* Adds a force at a point to the element's owned nodes, weighted by their shape functions. */
 static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const double *values, const double at_point[3],
                   double *force)
 {
@@ -23,17 +16,18 @@ static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const d
             force[3 * (size_t)nodes[a] + (size_t)i] += values[a] * at_point[i];
 }
 
-static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstExactField *exact, double *force)
+static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstClosedForm *solution,
+                           double *force)
 {
     double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    gather(mesh, n, nodes, x);
+    ost_gather3(n, nodes, mesh->coordinates, x);
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
         double place[3], area[3], s[6];
         ost_shape_values(n, point->at, values);
         ost_shape_place(n, values, x, place);
         ost_shape_area_vector(n, point->at, x, area);
-        OST_TRY(exact->stress(exact->data, place, s));
+        OST_TRY(solution->stress(solution->data, place, s));
         const double weight = 0.5 * point->weight;
         const double traction[3] = {weight * (s[0] * area[0] + s[3] * area[1] + s[5] * area[2]),
                                     weight * (s[3] * area[0] + s[1] * area[1] + s[4] * area[2]),
@@ -43,30 +37,30 @@ static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, co
     return OST_SUCCESS;
 }
 
-OstStatus ost_load_exact_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
-                                  const OstExactField *exact, double *force)
+OstStatus ost_load_closed_form_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces,
+                                        int nodes_per_face, const OstClosedForm *solution, double *force)
 {
     OstStatus status = OST_SUCCESS;
     ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
     for (OstLocal f = 0; f < face_count && status == OST_SUCCESS; f++)
-        status = load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, exact, force);
+        status = load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, solution, force);
     ost_ledger_leave(mesh->ctx);
     return status;
 }
 
-static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField *exact, double *force)
+static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstClosedForm *solution, double *force)
 {
     const int n = mesh->nodes_per_tet;
     const OstLocal *nodes = mesh->tet_nodes + (size_t)n * (size_t)tet;
     double x[3 * OST_MAX_TET_NODES], values[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
-    gather(mesh, n, nodes, x);
+    ost_gather3(n, nodes, mesh->coordinates, x);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
         double place[3], density[3];
         ost_shape_values(n, point->at, values);
         ost_shape_place(n, values, x, place);
         const double volume = ost_shape_gradients(n, point->at, x, gradients) / 6.0;
-        OST_TRY(exact->body_force(exact->data, place, density));
+        OST_TRY(solution->body_force(solution->data, place, density));
         for (int i = 0; i < 3; i++)
             density[i] *= point->weight * volume;
         share(mesh, n, nodes, values, density, force);
@@ -74,13 +68,13 @@ static OstStatus load_tet(const OstMesh *mesh, OstLocal tet, const OstExactField
     return OST_SUCCESS;
 }
 
-OstStatus ost_load_exact_body_force(const OstMesh *mesh, int region, const OstExactField *exact, double *force)
+OstStatus ost_load_closed_form_body_force(const OstMesh *mesh, int region, const OstClosedForm *solution, double *force)
 {
     OstStatus status = OST_SUCCESS;
     ost_ledger_enter(mesh->ctx, OST_EFFECT_BODY_FORCE);
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         if (region < 0 || mesh->tet_region[tet] == region)
-            status = load_tet(mesh, tet, exact, force);
+            status = load_tet(mesh, tet, solution, force);
     ost_ledger_leave(mesh->ctx);
     return status;
 }

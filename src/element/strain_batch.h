@@ -1,35 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ELEMENT_STRAIN_LANES_H
-#define ORTHOSTAT_ELEMENT_STRAIN_LANES_H
+#ifndef ORTHOSTAT_ELEMENT_STRAIN_BATCH_H
+#define ORTHOSTAT_ELEMENT_STRAIN_BATCH_H
 
-#include "element/lanes.h"
+#include "element/simd.h"
 
 #include <math.h>
 
-/* Strain and stress at a point of the tets in the lanes: what every kind of tet does with the gradients of its shape
- * functions there. C is an upper triangle. (Lanes go by pointer: by value, their passing would depend on the
- * processor.) */
+/* Strain and stress at one point of each tet of a batch, from the gradients of the shape functions there: the same for
+ * every kind of tet. C is an upper triangle. (Vectors are passed by pointer: by value, the calling convention would
+ * depend on the processor's flags.) */
 
-/* Where C_pq is in the upper triangle. */
+/* Index of C_pq in the upper triangle. */
 static const int ost_upper[6][6] = {{0, 1, 2, 3, 4, 5},     {1, 6, 7, 8, 9, 10},    {2, 7, 11, 12, 13, 14},
                                     {3, 8, 12, 15, 16, 17}, {4, 9, 13, 16, 18, 19}, {5, 10, 14, 17, 19, 20}};
 
-static inline void ost_lanes_cross(const OstLanes a[3], const OstLanes b[3], OstLanes c[3])
+static inline void ost_simd_cross(const OstSimd a[3], const OstSimd b[3], OstSimd c[3])
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* a = |a| */
-static inline void ost_lanes_absolute(OstLanes *a)
+static inline void ost_simd_absolute(OstSimd *a)
 {
-    for (int lane = 0; lane < OST_LANES; lane++)
-        (*a)[lane] = fabs((*a)[lane]);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        (*a)[slot] = fabs((*a)[slot]);
 }
 
-/* Stress (6) for each displacement component (3) of a node with gradient g: C times the node's columns of B. */
-static inline void ost_stress_columns(const OstLanes *c, const OstLanes g[3], OstLanes stress[6][3])
+/* stress = C B_a: the six stresses of a unit displacement of the node in each direction. g is its gradient. */
+static inline void ost_stress_columns(const OstSimd *c, const OstSimd g[3], OstSimd stress[6][3])
 {
     for (int p = 0; p < 6; p++) {
         const int *row = ost_upper[p];
@@ -39,8 +38,8 @@ static inline void ost_stress_columns(const OstLanes *c, const OstLanes g[3], Os
     }
 }
 
-/* Stress of a strain. */
-static inline void ost_lanes_stress(const OstLanes *c, const OstLanes strain[6], OstLanes stress[6])
+/* stress = C strain */
+static inline void ost_simd_stress(const OstSimd *c, const OstSimd strain[6], OstSimd stress[6])
 {
     for (int p = 0; p < 6; p++) {
         stress[p] = c[ost_upper[p][0]] * strain[0];
@@ -49,16 +48,16 @@ static inline void ost_lanes_stress(const OstLanes *c, const OstLanes strain[6],
     }
 }
 
-/* A node's columns of B, transposed, times a stress. */
-static inline void ost_force_of_stress(const OstLanes g[3], const OstLanes stress[6], OstLanes force[3])
+/* force = B_a' stress, with B_a the node's three columns of B. */
+static inline void ost_force_of_stress(const OstSimd g[3], const OstSimd stress[6], OstSimd force[3])
 {
     force[0] = g[0] * stress[0] + g[1] * stress[3] + g[2] * stress[5];
     force[1] = g[0] * stress[3] + g[1] * stress[1] + g[2] * stress[4];
     force[2] = g[0] * stress[5] + g[1] * stress[4] + g[2] * stress[2];
 }
 
-/* A node's columns of B, transposed, times three stresses: a 3×3 block. */
-static inline void ost_block_of_stress(const OstLanes g[3], OstLanes stress[6][3], OstLanes *block)
+/* block = B_a' stress for three stresses: 3×3, row-major. */
+static inline void ost_block_of_stress(const OstSimd g[3], OstSimd stress[6][3], OstSimd *block)
 {
     for (int j = 0; j < 3; j++) {
         block[j] = g[0] * stress[0][j] + g[1] * stress[3][j] + g[2] * stress[5][j];
@@ -67,8 +66,8 @@ static inline void ost_block_of_stress(const OstLanes g[3], OstLanes stress[6][3
     }
 }
 
-/* Strain of a displacement gradient, du_i / dx_j. */
-static inline void ost_strain_of_slope(OstLanes slope[3][3], OstLanes strain[6])
+/* Strain from the displacement gradient du_i / dx_j. */
+static inline void ost_strain_of_slope(OstSimd slope[3][3], OstSimd strain[6])
 {
     for (int i = 0; i < 3; i++) {
         const int next = (i + 1) % 3;
@@ -77,12 +76,12 @@ static inline void ost_strain_of_slope(OstLanes slope[3][3], OstLanes strain[6])
     }
 }
 
-/* strain += |B| |u| of one node; the gradient has been made absolute. */
-static inline void ost_add_strain_size(const OstLanes g[3], const OstLanes *u, OstLanes strain[6])
+/* strain += |B_a| |u_a| of one node; g is its gradient's absolute value. */
+static inline void ost_add_strain_size(const OstSimd g[3], const OstSimd *u, OstSimd strain[6])
 {
-    OstLanes size[3] = {u[0], u[1], u[2]};
+    OstSimd size[3] = {u[0], u[1], u[2]};
     for (int i = 0; i < 3; i++)
-        ost_lanes_absolute(&size[i]);
+        ost_simd_absolute(&size[i]);
     for (int i = 0; i < 3; i++) {
         const int next = (i + 1) % 3;
         strain[i] += g[i] * size[i];
@@ -91,13 +90,13 @@ static inline void ost_add_strain_size(const OstLanes g[3], const OstLanes *u, O
 }
 
 /* stress = |C| strain */
-static inline void ost_lanes_stress_size(const OstLanes *c, const OstLanes strain[6], OstLanes stress[6])
+static inline void ost_simd_stress_size(const OstSimd *c, const OstSimd strain[6], OstSimd stress[6])
 {
     for (int p = 0; p < 6; p++) {
-        stress[p] = (OstLanes){0};
+        stress[p] = (OstSimd){0};
         for (int q = 0; q < 6; q++) {
-            OstLanes size = c[ost_upper[p][q]];
-            ost_lanes_absolute(&size);
+            OstSimd size = c[ost_upper[p][q]];
+            ost_simd_absolute(&size);
             stress[p] += size * strain[q];
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "mesh/distribution/cut_metric.h"
+#include "mesh/distribution/edge_weights.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -25,9 +25,9 @@ static void find_centroids(const OstMeshChunk *chunk, const Slab *slab, const do
         }
 }
 
-enum { SUMS = 7 }; /* of a node: six of the metric, and the number of tets */
+enum { SUMS = 7 }; /* of a node: six numbers of the metric, and the number of tets */
 
-/* Each tet of the chunk is here and nowhere else: sums over them are whole once the owners of the nodes have them. */
+/* Each tet of the chunk is on one rank only, so the sums are complete once the nodes' owners have added all ranks'. */
 static OstStatus sum_metrics(const OstMeshChunk *chunk, const Slab *slab, const double *of_tet, double *sums)
 {
     const size_t width = (size_t)chunk->nodes_per_tet;
@@ -42,8 +42,8 @@ static OstStatus sum_metrics(const OstMeshChunk *chunk, const Slab *slab, const 
     return ost_halo_import(slab->halo, SUMS * sizeof *sums, sums);
 }
 
-OstStatus ost_cut_metric_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
-                                NodeMetric **nodes)
+OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets,
+                                  NodeMetric **nodes)
 {
     OstContext *ctx = chunk->ctx;
     const size_t n = (size_t)slab->node_count + (size_t)slab->ghost_count;
@@ -65,7 +65,8 @@ OstStatus ost_cut_metric_create(const OstMeshChunk *chunk, const Slab *slab, con
     for (size_t i = 0; i < n; i++) {
         memcpy((*nodes)[i].position, position + 3 * i, sizeof(*nodes)[i].position);
         for (size_t c = 0; c < 6; c++)
-            (*nodes)[i].metric[c] = sums[SUMS * i + c] / fmax(sums[SUMS * i + 6], 1.0); /* nodes without tets: later */
+            (*nodes)[i].metric[c] =
+                sums[SUMS * i + c] / fmax(sums[SUMS * i + 6], 1.0); /* ost_check_mesh: without tets */
     }
 done:
     OST_FREE(position);
@@ -85,11 +86,11 @@ static idx_t edge_weight(const NodeMetric *a, const NodeMetric *b)
     const double plain = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     const double square = w[0] * d[0] * d[0] + w[1] * d[1] * d[1] + w[2] * d[2] * d[2] +
                           2.0 * (w[3] * d[0] * d[1] + w[4] * d[1] * d[2] + w[5] * d[2] * d[0]);
-    const double ratio = plain / square; /* not finite for nodes at one place */
+    const double ratio = plain / square; /* not finite if the nodes coincide */
     return ratio > 1.0 ? (idx_t)lround(fmin(ratio, HEAVIEST_EDGE)) : 1;
 }
 
-OstStatus ost_cut_metric_weigh(const Slab *slab, const NodeMetric *nodes, Graph *graph)
+OstStatus ost_graph_weigh_edges(const Slab *slab, const NodeMetric *nodes, Graph *graph)
 {
     OST_TRY(OST_NEW(slab->ctx, &graph->edge_weight, graph->start[graph->rows]));
     for (OstLocal i = 0; i < graph->rows; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/held.h"
+#include "assembly/apply_supports.h"
 
 #include "core/small.h"
 
@@ -10,23 +10,23 @@ static int is_coordinate(const double direction[3])
     return (direction[0] != 0.0) + (direction[1] != 0.0) + (direction[2] != 0.0) == 1;
 }
 
-static int is_partly_held(const OstSupport *support)
+static int is_partly_constrained(const OstSupport *support)
 {
-    return support->held > 0 && support->held < 3;
+    return support->constrained > 0 && support->constrained < 3;
 }
 
-/* The account that partly held nodes are booked to, or OST_LEDGER_ACCOUNTS if there are none. */
+/* The account to book partly constrained nodes to, or OST_LEDGER_ACCOUNTS if there are none. */
 static OstAccount account_of(const OstSupports *supports)
 {
     const int slides = ost_effect_on(supports->effects, OST_EFFECT_SLIDING);
     OstAccount account = OST_LEDGER_ACCOUNTS;
     for (OstLocal s = 0; s < supports->count; s++) {
         const OstSupport *support = &supports->support[s];
-        if (!is_partly_held(support))
+        if (!is_partly_constrained(support))
             continue;
         if (account == OST_LEDGER_ACCOUNTS)
             account = OST_LEDGER_SUPPORTS;
-        for (int k = 0; k < support->held; k++)
+        for (int k = 0; k < support->constrained; k++)
             if (slides && !is_coordinate(support->direction + 3 * k))
                 account = OST_EFFECT_SLIDING;
     }
@@ -39,29 +39,29 @@ static void project_block(const OstSystem *system, OstLocal row, OstLocal column
     double left[9];
     double right[9];
     double product[9];
-    double given[3];
-    ost_supports_get(system->supports, system->node_of_row[row], left, given);
-    ost_supports_get(system->supports, system->node_of_row[column], right, given);
+    double prescribed[3];
+    ost_supports_get(system->supports, system->node_of_row[row], left, prescribed);
+    ost_supports_get(system->supports, system->node_of_row[column], right, prescribed);
     ost_multiply3(left, block, product);
     ost_multiply3(product, right, block);
 }
 
 /* Adds s(I - P) to a projected diagonal block. */
-static void stiffen_held_directions(const OstSystem *system, OstLocal row, double *block)
+static void stiffen_constrained_directions(const OstSystem *system, OstLocal row, double *block)
 {
     double projector[9];
-    double given[3];
-    const int held = ost_supports_get(system->supports, system->node_of_row[row], projector, given);
-    const double scale = (block[0] + block[4] + block[8]) / (3 - held);
+    double prescribed[3];
+    const int constrained = ost_supports_get(system->supports, system->node_of_row[row], projector, prescribed);
+    const double scale = (block[0] + block[4] + block[8]) / (3 - constrained);
     for (int i = 0; i < 9; i++)
         block[i] += scale * ((i % 4 == 0 ? 1.0 : 0.0) - projector[i]);
 }
 
-/* Rows have no fully held nodes, so a support makes a row or column a partly held one. */
+/* Fully constrained nodes have no row. */
 static int is_supported(const OstSystem *system, OstLocal row)
 {
     const OstLocal index = system->supports->index[system->node_of_row[row]];
-    return index >= 0 && is_partly_held(&system->supports->support[index]);
+    return index >= 0 && is_partly_constrained(&system->supports->support[index]);
 }
 
 void ost_system_apply_supports(OstSystem *system)
@@ -77,7 +77,7 @@ void ost_system_apply_supports(OstSystem *system)
             if (row_is_supported || is_supported(system, matrix->column[block]))
                 project_block(system, row, matrix->column[block], matrix->value + 9 * (size_t)block);
         if (row_is_supported)
-            stiffen_held_directions(system, row, matrix->value + 9 * (size_t)matrix->diagonal[row]);
+            stiffen_constrained_directions(system, row, matrix->value + 9 * (size_t)matrix->diagonal[row]);
     }
     ost_ledger_leave(system->ctx);
 }

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ELEMENT_SIMD_H
+#define ORTHOSTAT_ELEMENT_SIMD_H
+
+/* One number of each tet of a batch. A kernel reads as if it were written for one tet, and computes the whole batch at
+ * once in SIMD registers. On a processor without registers this wide the compiler splits the vectors. */
+enum { OST_SIMD_WIDTH = 4 };
+typedef double OstSimd __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double))));
+
+/* The same at any address of doubles. (With memcpy, GCC may copy it through the stack in two halves, which stalls.) */
+typedef double OstSimdUnaligned
+    __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/* Transposes 4 × 4 numbers: out[t] has tet t's number of each of the four vectors. */
+static inline void ost_simd_transpose(const OstSimd in[OST_SIMD_WIDTH], OstSimd out[OST_SIMD_WIDTH])
+{
+    const OstSimd low01 = __builtin_shufflevector(in[0], in[1], 0, 4, 2, 6);
+    const OstSimd high01 = __builtin_shufflevector(in[0], in[1], 1, 5, 3, 7);
+    const OstSimd low23 = __builtin_shufflevector(in[2], in[3], 0, 4, 2, 6);
+    const OstSimd high23 = __builtin_shufflevector(in[2], in[3], 1, 5, 3, 7);
+    out[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+    out[1] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+    out[2] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+    out[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+}
+
+#endif
