@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_data.h"
 
-#include "case/file_bytes.h"
 #include "case/sections.h"
 #include "case/verify.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/serial/formats.h"
 
-#include <stdlib.h>
+#include <errno.h>
+#include <stdio.h>
 #include <string.h>
 
 int ost_has_ending(const char *path, const char *ending)
@@ -69,17 +69,10 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
     enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, ACCURACY, SOLVER, OUTPUT, WATCH, VERIFY, SECTIONS };
     OstYamlKey keys[SECTIONS] = {
-        [TITLE] = {"title", OST_OPTIONAL, NULL},
-        [MESH] = {"mesh", OST_NEEDED, NULL},
-        [ELEMENT] = {"element", OST_OPTIONAL, NULL},
-        [MATERIALS] = {"materials", OST_OPTIONAL, NULL},
-        [CONSTRAINTS] = {"constraints", OST_OPTIONAL, NULL},
-        [LOADS] = {"loads", OST_OPTIONAL, NULL},
-        [ACCURACY] = {"accuracy", OST_OPTIONAL, NULL},
-        [SOLVER] = {"solver", OST_OPTIONAL, NULL},
-        [OUTPUT] = {"output", OST_OPTIONAL, NULL},
-        [WATCH] = {"watch", OST_OPTIONAL, NULL},
-        [VERIFY] = {"verify", OST_OPTIONAL, NULL},
+        [TITLE] = {.name = "title"},         [MESH] = {.name = "mesh", .needed = 1},  [ELEMENT] = {.name = "element"},
+        [MATERIALS] = {.name = "materials"}, [CONSTRAINTS] = {.name = "constraints"}, [LOADS] = {.name = "loads"},
+        [ACCURACY] = {.name = "accuracy"},   [SOLVER] = {.name = "solver"},           [OUTPUT] = {.name = "output"},
+        [WATCH] = {.name = "watch"},         [VERIFY] = {.name = "verify"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
         [MESH] = ost_read_mesh,     [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
@@ -99,13 +92,17 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
     return check_gravity(yaml, c);
 }
 
-static OstStatus read_bytes(OstCase *c, const char *bytes, size_t size)
+int ost_is_every_region(const char *name)
 {
-    OstYaml *yaml = NULL;
-    OST_TRY(ost_yaml_parse(c->ctx, c->path, bytes, size, &yaml));
-    const OstStatus status = read_sections(yaml, c);
-    ost_yaml_destroy(&yaml);
-    return status;
+    return strcmp(name, "all") == 0;
+}
+
+const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region)
+{
+    for (int i = c->material_count - 1; i >= 0; i--)
+        if (ost_is_every_region(c->materials[i].region) || strcmp(c->materials[i].region, region) == 0)
+            return &c->materials[i];
+    return NULL;
 }
 
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status)
@@ -141,53 +138,100 @@ static OstStatus read_vertex_files(OstCase *c)
     return OST_SUCCESS;
 }
 
-static OstStatus create_empty(OstContext *ctx, const char *path, OstCase **c)
+static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstCase **c)
 {
+    OstYaml *yaml = NULL;
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
-    return ost_copy_string(ctx, path, &(*c)->path);
+    OST_TRY(ost_copy_string(ctx, path, &(*c)->path));
+    OST_TRY(ost_yaml_parse(ctx, (*c)->path, bytes, size, &yaml));
+    const OstStatus status = read_sections(yaml, *c);
+    ost_yaml_destroy(&yaml);
+    return status;
 }
 
-static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstCase **c)
+static OstStatus read_stream(OstContext *ctx, const char *path, FILE *file, char **bytes, size_t *size)
 {
-    OST_TRY(create_empty(ctx, path, c));
-    return read_bytes(*c, bytes, size);
+    size_t room = 16384;
+    OST_TRY(OST_NEW(ctx, bytes, room));
+    for (;;) {
+        *size += fread(*bytes + *size, 1, room - *size, file);
+        if (ferror(file))
+            return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be read: %s", path, strerror(errno));
+        if (*size < room)
+            return OST_RESIZE(ctx, bytes, *size);
+        if (*size > OST_YAML_MAX_BYTES)
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: more than %d bytes; a case file is a page or two", path,
+                             OST_YAML_MAX_BYTES);
+        room *= 2;
+        OST_TRY(OST_RESIZE(ctx, bytes, room));
+    }
+}
+
+static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
+    OstStatus status = read_stream(ctx, path, file, bytes, size);
+    fclose(file);
+    return status;
+}
+
+/* Collective. The bytes of a file, read by rank 0 and broadcast; memory from the context. */
+static OstStatus read_and_share(OstContext *ctx, const char *path, char **bytes, size_t *size)
+{
+    OstStatus status = OST_SUCCESS;
+    OstGlobal length = 0;
+    *bytes = NULL;
+    *size = 0;
+    if (ost_rank(ctx) == 0)
+        status = read_file(ctx, path, bytes, size);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    length = (OstGlobal)*size;
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&length, 1, MPI_INT64_T, 0, ost_comm(ctx))));
+    if (ost_rank(ctx) != 0)
+        status = OST_NEW(ctx, bytes, length);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    *size = (size_t)length;
+    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(*bytes, (int)length, MPI_BYTE, 0, ost_comm(ctx))));
+done:
+    if (status != OST_SUCCESS)
+        OST_FREE(*bytes);
+    return status;
+}
+
+/* `text` is NULL if it must be read from the file. */
+static OstStatus create(OstContext *ctx, const char *path, const char *text, OstCase **c)
+{
+    char *bytes = NULL;
+    size_t size = text ? strlen(text) : 0;
+    OstStatus status = OST_SUCCESS;
+    *c = NULL;
+    ost_ledger_enter(ctx, OST_LEDGER_CASE);
+    if (!text)
+        OST_TRY_DONE(read_and_share(ctx, path, &bytes, &size));
+    OST_TRY_DONE(ost_agree(ctx, parse(ctx, path, text ? text : bytes, size, c)));
+    OST_TRY_DONE(read_vertex_files(*c));
+done:
+    OST_FREE(bytes);
+    if (status != OST_SUCCESS)
+        ost_case_destroy(c);
+    ost_ledger_leave(ctx);
+    return status;
 }
 
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **c)
 {
-    OstStatus status = OST_SUCCESS;
-    *c = NULL;
-    ost_ledger_enter(ctx, OST_LEDGER_CASE);
-    OST_TRY_DONE(ost_agree(ctx, parse(ctx, path, text, strlen(text), c)));
-    OST_TRY_DONE(read_vertex_files(*c));
-done:
-    if (status != OST_SUCCESS)
-        ost_case_destroy(c);
-    ost_ledger_leave(ctx);
-    return status;
+    return create(ctx, path, text, c);
 }
 
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
 {
-    char *bytes = NULL;
-    size_t size = 0;
-    OstStatus status = OST_SUCCESS;
-    *c = NULL;
-    ost_ledger_enter(ctx, OST_LEDGER_CASE);
-    OST_TRY_DONE(ost_read_file_bytes(ctx, path, OST_YAML_MAX_BYTES, &bytes, &size));
-    status = ost_agree(ctx, parse(ctx, path, bytes, size, c));
-    OST_FREE(bytes);
-    if (status == OST_SUCCESS)
-        status = read_vertex_files(*c);
-done:
-    if (status != OST_SUCCESS)
-        ost_case_destroy(c);
-    ost_ledger_leave(ctx);
-    return status;
+    return create(ctx, path, NULL, c);
 }
 
 void ost_case_destroy(OstCase **c)

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CASE_CASE_DATA_H
 #define ORTHOSTAT_CASE_CASE_DATA_H
 
-#include "case/yaml/place.h"
+#include "case/yaml/tree.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -138,6 +138,11 @@ struct OstCase {
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
+
+/* Local. Materials by region: "all" stands for every region, and later entries override earlier ones. The entry that
+ * counts for a region of the mesh; NULL if there is none. */
+int ost_is_every_region(const char *name);
+const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
 
 /* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from
  * the context, the caller's to free. Raises OST_INVALID_INPUT with the case's line if a name does not exist (naming

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "case/plan_parts.h"
+#include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 

@@ -2,7 +2,6 @@
 #include "case/plan.h"
 
 #include "algebra/solver_plan.h"
-#include "case/plan_parts.h"
 #include "core/error.h"
 
 #include <string.h>
@@ -33,13 +32,6 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
     }
 }
 
-static void count_output(const OstCase *c, OstEffectFacts *facts)
-{
-    facts->cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
-                         ost_plan_writes(c, OST_FIELD_ENERGY);
-    facts->node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
-}
-
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
     OstEffectFacts facts = {.quadratic = mesh->quadratic,
@@ -56,7 +48,9 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
-    count_output(c, &facts);
+    facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
+                        ost_plan_writes(c, OST_FIELD_ENERGY);
+    facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, mesh->quadratic, ranks, plan);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "case/plan_parts.h"
+#include "case/plan.h"
 
-#include "case/regions.h"
+#include "case/case_data.h"
 #include "material/field_data.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver_plan.h"
-#include "case/plan_parts.h"
+#include "case/plan.h"
 
 #include <math.h>
 

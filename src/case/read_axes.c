@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     int count;
     OST_TRY(ost_yaml_list(yaml, node, "three rows e1, e2, e3 of three numbers", &count));
@@ -15,31 +15,25 @@ static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, const 
     const OstYamlNode *row = ost_yaml_first(yaml, node);
     for (int i = 0; i < 3; i++, row = ost_yaml_next(yaml, row))
         OST_TRY(ost_yaml_numbers(yaml, row, 3, axes->fixed + 3 * (size_t)i));
-    return ost_yaml_located(yaml, node, ost_axes_check(yaml->ctx, what, axes->fixed));
+    return OST_SUCCESS;
 }
 
-static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_euler(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    enum { DEGREES, SEQUENCE };
-    OstYamlKey keys[] = {
-        [DEGREES] = {"degrees", OST_NEEDED, NULL},
-        [SEQUENCE] = {"sequence", OST_OPTIONAL, NULL},
-    };
     const char *sequence = "zxz";
     double degrees[3];
-    (void)what;
+    OstYamlKey keys[] = {{.name = "degrees", .needed = 1, .read = ost_yaml_vector, .into = degrees},
+                         {.name = "sequence"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[DEGREES].value, 3, degrees));
-    if (keys[SEQUENCE].value)
-        OST_TRY(ost_yaml_text(yaml, keys[SEQUENCE].value, &sequence));
-    const OstYamlNode *at = keys[SEQUENCE].value ? keys[SEQUENCE].value : node;
+    const OstYamlNode *at = keys[1].value ? keys[1].value : node;
+    if (keys[1].value)
+        OST_TRY(ost_yaml_text(yaml, at, &sequence));
     return ost_yaml_located(yaml, at, ost_axes_from_euler(yaml->ctx, sequence, degrees, axes->fixed));
 }
 
-static OstStatus read_quaternion(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_quaternion(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
     double quaternion[4];
-    (void)what;
     OST_TRY(ost_yaml_numbers(yaml, node, 4, quaternion));
     return ost_yaml_located(yaml, node, ost_axes_from_quaternion(yaml->ctx, quaternion, axes->fixed));
 }
@@ -73,19 +67,15 @@ static OstStatus read_order(const OstYaml *yaml, const OstYamlNode *node, OstCyl
     return OST_SUCCESS;
 }
 
-static OstStatus read_cylindrical(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_cylindrical(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    enum { ORIGIN, AXIS, ORDER };
     OstYamlKey keys[] = {
-        [ORIGIN] = {"origin", OST_NEEDED, NULL},
-        [AXIS] = {"axis", OST_NEEDED, NULL},
-        [ORDER] = {"order", OST_NEEDED, NULL},
+        {.name = "origin", .needed = 1, .read = ost_yaml_vector, .into = axes->origin},
+        {.name = "axis", .needed = 1, .read = ost_yaml_direction, .into = axes->axis},
+        {.name = "order", .needed = 1},
     };
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, axes->origin));
-    OST_TRY(ost_yaml_direction(yaml, keys[AXIS].value, axes->axis));
-    return read_order(yaml, keys[ORDER].value, axes->order);
+    return read_order(yaml, keys[2].value, axes->order);
 }
 
 static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
@@ -107,37 +97,29 @@ static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstAx
     return OST_SUCCESS;
 }
 
-static OstStatus read_curve(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_curve(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    enum { POINTS, UP, ORDER };
     OstYamlKey keys[] = {
-        [POINTS] = {"points", OST_NEEDED, NULL},
-        [UP] = {"up", OST_OPTIONAL, NULL},
-        [ORDER] = {"order", OST_OPTIONAL, NULL},
+        {.name = "points", .needed = 1},
+        {.name = "up", .read = ost_yaml_direction, .into = axes->up},
+        {.name = "order"},
     };
-    (void)what;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(read_points(yaml, keys[POINTS].value, axes));
-    if (keys[UP].value)
-        OST_TRY(ost_yaml_direction(yaml, keys[UP].value, axes->up));
-    return keys[ORDER].value ? read_order(yaml, keys[ORDER].value, axes->order) : OST_SUCCESS;
+    OST_TRY(read_points(yaml, keys[0].value, axes));
+    return keys[2].value ? read_order(yaml, keys[2].value, axes->order) : OST_SUCCESS;
 }
 
-static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    const char *text;
-    (void)what;
-    OST_TRY(ost_yaml_text(yaml, node, &text));
-    return strcmp(text, "mesh") == 0 ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
+    return ost_yaml_says(yaml, node, "mesh") ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
 }
 
-static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, const char *what, OstAxesSpec *axes)
+static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, OstAxesSpec *axes)
 {
-    OstYamlKey keys[] = {{"e1", OST_NEEDED, NULL}, {"e2", OST_NEEDED, NULL}};
-    (void)what;
+    OstYamlKey keys[] = {{.name = "e1", .needed = 1}, {.name = "e2", .needed = 1}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     for (int i = 0; i < 2; i++) {
-        OstYamlKey ends[] = {{"from", OST_NEEDED, NULL}, {"to", OST_NEEDED, NULL}};
+        OstYamlKey ends[] = {{.name = "from", .needed = 1}, {.name = "to", .needed = 1}};
         OST_TRY(ost_yaml_mapping(yaml, keys[i].value, ends, OST_COUNT_OF(ends)));
         OST_TRY(ost_read_string(yaml, ends[0].value, &axes->from[i]));
         OST_TRY(ost_read_string(yaml, ends[1].value, &axes->to[i]));
@@ -153,7 +135,7 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
     static const struct {
         OstAxesKind kind;
         const char *word;
-        OstStatus (*read)(const OstYaml *, const OstYamlNode *, const char *, OstAxesSpec *);
+        OstStatus (*read)(const OstYaml *, const OstYamlNode *, OstAxesSpec *);
     } forms[] = {
         {OST_AXES_FIXED, "fixed", read_fixed},
         {OST_AXES_CYLINDRICAL, "cylindrical", read_cylindrical},
@@ -164,16 +146,19 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
         {OST_AXES_GRADIENT, "gradient", read_gradient},
     };
     enum { FORMS = sizeof forms / sizeof *forms };
-    OstYamlKey keys[FORMS] = {{NULL, OST_OPTIONAL, NULL}};
+    OstYamlKey keys[FORMS] = {{.name = NULL}};
     char what[128];
     int form;
     for (int f = 0; f < FORMS; f++)
         keys[f].name = forms[f].word;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, FORMS));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
-    snprintf(what, sizeof what, "axes of region '%.80s'", region);
     axes->kind = forms[form].kind;
-    return forms[form].read(yaml, keys[form].value, what, axes);
+    OST_TRY(forms[form].read(yaml, keys[form].value, axes));
+    if (axes->kind != OST_AXES_FIXED)
+        return OST_SUCCESS;
+    snprintf(what, sizeof what, "axes of region '%.80s'", region);
+    return ost_yaml_located(yaml, keys[form].value, ost_axes_check(yaml->ctx, what, axes->fixed));
 }
 
 void ost_axes_spec_release(OstAxesSpec *axes)

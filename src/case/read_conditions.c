@@ -1,26 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "case/regions.h"
 #include "case/sections.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <string.h>
-
-/* The word `exact`, which stands for the closed-form solution of the case (assembly/closed_form.h). */
-static int is_closed_form(const OstYaml *yaml, const OstYamlNode *node)
-{
-    const char *text = "";
-    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
-           strcmp(text, "exact") == 0;
-}
-
-/* Three components, each a number or the word free or exact; or the one word exact. */
+/* Three components, each a number or the word free or exact; or the one word exact, which stands for the closed-form
+ * solution of the case (assembly/closed_form.h). */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
 {
     static const char expected[] = "a list of three, each a number or the word free";
     int count;
-    if (is_closed_form(yaml, node)) {
+    if (ost_yaml_says(yaml, node, "exact")) {
         for (int i = 0; i < 3; i++)
             constraint->constrained[i] = constraint->exact[i] = 1;
         return OST_SUCCESS;
@@ -30,11 +20,8 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
         return ost_yaml_raise_type(yaml, node, expected, "");
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item)) {
-        const char *text = "";
-        if (ost_yaml_is(yaml, item, OST_YAML_SCALAR))
-            OST_TRY(ost_yaml_text(yaml, item, &text));
-        constraint->constrained[i] = strcmp(text, "free") != 0;
-        constraint->exact[i] = is_closed_form(yaml, item);
+        constraint->constrained[i] = !ost_yaml_says(yaml, item, "free");
+        constraint->exact[i] = ost_yaml_says(yaml, item, "exact");
         if (constraint->constrained[i] && !constraint->exact[i])
             OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
     }
@@ -48,9 +35,9 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
 {
     enum { KINDS = 2, ON = KINDS };
     OstYamlKey keys[] = {
-        [OST_CONSTRAIN_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
-        [OST_CONSTRAIN_SLIDE] = {"slide", OST_OPTIONAL, NULL},
-        [ON] = {"on", OST_NEEDED, NULL},
+        [OST_CONSTRAIN_DISPLACEMENT] = {.name = "displacement"},
+        [OST_CONSTRAIN_SLIDE] = {.name = "slide"},
+        [ON] = {.name = "on", .needed = 1},
     };
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
@@ -62,18 +49,10 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
                                                    : read_displacement(yaml, keys[kind].value, constraint);
 }
 
-/* The word free_body in place of a list. */
-static int is_free_body(const OstYaml *yaml, const OstYamlNode *node)
-{
-    const char *text = "";
-    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
-           strcmp(text, "free_body") == 0;
-}
-
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     int count;
-    c->free_body = is_free_body(yaml, node);
+    c->free_body = ost_yaml_says(yaml, node, "free_body"); /* in place of a list */
     if (c->free_body)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of constraints (- {on: ..., displacement: ...})", &count));
@@ -118,15 +97,15 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
 static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
     OstYamlKey keys[LOAD_KEYS] = {
-        [OST_LOAD_TOTAL_FORCE] = {"total_force", OST_OPTIONAL, NULL},
-        [OST_LOAD_POINT_FORCE] = {"point_force", OST_OPTIONAL, NULL},
-        [OST_LOAD_TRACTION] = {"traction", OST_OPTIONAL, NULL},
-        [OST_LOAD_PRESSURE] = {"pressure", OST_OPTIONAL, NULL},
-        [OST_LOAD_GRAVITY] = {"gravity", OST_OPTIONAL, NULL},
-        [OST_LOAD_BODY_FORCE] = {"body_force", OST_OPTIONAL, NULL},
-        [ON] = {"on", OST_OPTIONAL, NULL},
-        [SHARE] = {"share", OST_OPTIONAL, NULL},
-        [REGION] = {"region", OST_OPTIONAL, NULL},
+        [OST_LOAD_TOTAL_FORCE] = {.name = "total_force"},
+        [OST_LOAD_POINT_FORCE] = {.name = "point_force"},
+        [OST_LOAD_TRACTION] = {.name = "traction"},
+        [OST_LOAD_PRESSURE] = {.name = "pressure"},
+        [OST_LOAD_GRAVITY] = {.name = "gravity"},
+        [OST_LOAD_BODY_FORCE] = {.name = "body_force"},
+        [ON] = {.name = "on"},
+        [SHARE] = {.name = "share"},
+        [REGION] = {.name = "region"},
     };
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, LOAD_KEYS));
@@ -148,7 +127,8 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         OST_FREE(load->region);
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
-    load->exact = (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && is_closed_form(yaml, keys[kind].value);
+    load->exact =
+        (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && ost_yaml_says(yaml, keys[kind].value, "exact");
     return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
 }
 

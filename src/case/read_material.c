@@ -34,7 +34,7 @@ static OstStatus read_youngs(const OstYaml *yaml, const OstYamlNode *node, State
         return ost_yaml_positives(yaml, node, 3, stated->youngs);
     }
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
-        OstYamlKey keys[] = {{"plane", OST_NEEDED, NULL}, {"axis", OST_NEEDED, NULL}};
+        OstYamlKey keys[] = {{.name = "plane", .needed = 1}, {.name = "axis", .needed = 1}};
         stated->youngs_form = YOUNGS_PLANE;
         OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
         OST_TRY(ost_yaml_positive(yaml, keys[0].value, &stated->youngs[0]));
@@ -51,14 +51,14 @@ static OstStatus read_poissons(const OstYaml *yaml, const OstYamlNode *node, Sta
 {
     enum { NAMED = 6, PLANE = 6, PLANE_AXIS = 7 };
     OstYamlKey keys[] = {
-        {"nu12", OST_OPTIONAL, NULL},
-        {"nu21", OST_OPTIONAL, NULL},
-        {"nu23", OST_OPTIONAL, NULL},
-        {"nu32", OST_OPTIONAL, NULL},
-        {"nu31", OST_OPTIONAL, NULL},
-        {"nu13", OST_OPTIONAL, NULL},
-        [PLANE] = {"plane", OST_OPTIONAL, NULL},
-        [PLANE_AXIS] = {"plane_axis", OST_OPTIONAL, NULL},
+        {.name = "nu12"},
+        {.name = "nu21"},
+        {.name = "nu23"},
+        {.name = "nu32"},
+        {.name = "nu31"},
+        {.name = "nu13"},
+        [PLANE] = {.name = "plane"},
+        [PLANE_AXIS] = {.name = "plane_axis"},
     };
     stated->poissons_form = POISSONS_NUMBER;
     if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
@@ -93,9 +93,8 @@ static OstStatus read_shear(const OstYaml *yaml, const OstYamlNode *node, Stated
     };
     enum { NAMED = 6, AXIS = 6 };
     OstYamlKey keys[] = {
-        {"G12", OST_OPTIONAL, NULL},           {"G21", OST_OPTIONAL, NULL}, {"G23", OST_OPTIONAL, NULL},
-        {"G32", OST_OPTIONAL, NULL},           {"G31", OST_OPTIONAL, NULL}, {"G13", OST_OPTIONAL, NULL},
-        [AXIS] = {"axis", OST_OPTIONAL, NULL},
+        {.name = "G12"}, {.name = "G21"}, {.name = "G23"},           {.name = "G32"},
+        {.name = "G31"}, {.name = "G13"}, [AXIS] = {.name = "axis"},
     };
     if (ost_yaml_is(yaml, node, OST_YAML_SCALAR)) {
         int rule;
@@ -168,19 +167,16 @@ static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node,
     return OST_SUCCESS;
 }
 
-static OstStatus read_density(const OstYaml *yaml, const OstYamlNode *node, double *density)
-{
-    OST_TRY(ost_yaml_number(yaml, node, density));
-    return *density >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a density, 0 or above", "");
-}
-
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
 {
     enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES };
     OstYamlKey keys[] = {
-        [REGION] = {"region", OST_NEEDED, NULL},           [YOUNGS] = {"youngs_modulus", OST_NEEDED, NULL},
-        [POISSONS] = {"poissons_ratio", OST_NEEDED, NULL}, [SHEAR] = {"shear_modulus", OST_OPTIONAL, NULL},
-        [DENSITY] = {"density", OST_OPTIONAL, NULL},       [AXES] = {"axes", OST_OPTIONAL, NULL},
+        [REGION] = {.name = "region", .needed = 1},
+        [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
+        [POISSONS] = {.name = "poissons_ratio", .needed = 1},
+        [SHEAR] = {.name = "shear_modulus"},
+        [DENSITY] = {.name = "density"},
+        [AXES] = {.name = "axes"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -197,7 +193,9 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     if (keys[SHEAR].value)
         OST_TRY(read_shear(yaml, keys[SHEAR].value, &stated));
     if (keys[DENSITY].value)
-        OST_TRY(read_density(yaml, keys[DENSITY].value, &density));
+        OST_TRY(ost_yaml_number(yaml, keys[DENSITY].value, &density));
+    if (!(density >= 0.0))
+        return ost_yaml_raise_type(yaml, keys[DENSITY].value, "a density, 0 or above", "");
     OST_TRY(resolve_constants(yaml, keys[POISSONS].value, what, &stated, &constants));
     OST_TRY(
         ost_yaml_located(yaml, keys[POISSONS].value,

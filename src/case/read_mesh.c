@@ -18,21 +18,6 @@ static OstStatus read_divisions(const OstYaml *yaml, const OstYamlNode *node, in
     return OST_SUCCESS;
 }
 
-static OstStatus read_tube_divisions(const OstYaml *yaml, const OstYamlNode *node, int64_t least_around,
-                                     OstLocal *around, OstLocal *radial, OstLocal *axial)
-{
-    enum { AROUND, RADIAL, AXIAL };
-    OstYamlKey keys[] = {
-        [AROUND] = {"around", OST_NEEDED, NULL},
-        [RADIAL] = {"radial", OST_NEEDED, NULL},
-        [AXIAL] = {"axial", OST_NEEDED, NULL},
-    };
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(read_divisions(yaml, keys[AROUND].value, least_around, around));
-    OST_TRY(read_divisions(yaml, keys[RADIAL].value, 1, radial));
-    return read_divisions(yaml, keys[AXIAL].value, 1, axial);
-}
-
 static OstStatus read_radii(const OstYaml *yaml, const OstYamlNode *node, double radii[2])
 {
     OST_TRY(ost_yaml_positives(yaml, node, 2, radii));
@@ -42,86 +27,90 @@ static OstStatus read_radii(const OstYaml *yaml, const OstYamlNode *node, double
                                 radii[1]);
 }
 
-static OstStatus read_tube(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+static OstStatus read_angle(const OstYaml *yaml, const OstYamlNode *node, double *angle)
+{
+    OST_TRY(ost_yaml_positive(yaml, node, angle));
+    return *angle < 360.0 ? OST_SUCCESS
+                          : ost_yaml_raise(yaml, node,
+                                           "found an angle of %g degrees, expected one below 360; all the way round is "
+                                           "a tube",
+                                           *angle);
+}
+
+/* A tube, or a sector of one, which has an angle too. */
+static OstStatus read_round(const OstYaml *yaml, const OstYamlNode *node, int is_sector, OstSectorShape *shape)
 {
     static const char *const axis_words[] = {"x", "y", "z"};
-    enum { AXIS, LENGTH, RADII, DIVISIONS, ORIGIN };
     OstYamlKey keys[] = {
-        [AXIS] = {"axis", OST_NEEDED, NULL},       [LENGTH] = {"length", OST_NEEDED, NULL},
-        [RADII] = {"radii", OST_NEEDED, NULL},     [DIVISIONS] = {"divisions", OST_NEEDED, NULL},
-        [ORIGIN] = {"origin", OST_OPTIONAL, NULL},
+        {.name = "axis", .needed = 1},
+        {.name = "length", .needed = 1, .read = ost_yaml_positive, .into = &shape->length},
+        {.name = "radii", .needed = 1, .read = read_radii, .into = shape->radii},
+        {.name = "divisions", .needed = 1},
+        {.name = "origin", .read = ost_yaml_vector, .into = shape->origin},
+        {.name = "angle", .needed = 1, .read = read_angle, .into = &shape->angle},
     };
-    OstTubeShape *tube = &c->tube;
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_word(yaml, keys[AXIS].value, "axis", axis_words, 3, &tube->axis));
-    OST_TRY(ost_yaml_positive(yaml, keys[LENGTH].value, &tube->length));
-    OST_TRY(read_radii(yaml, keys[RADII].value, tube->radii));
-    if (keys[ORIGIN].value)
-        OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, tube->origin));
-    return read_tube_divisions(yaml, keys[DIVISIONS].value, 3, &tube->around, &tube->radial, &tube->axial);
+    OstYamlKey counts[] = {
+        {.name = "around", .needed = 1}, {.name = "radial", .needed = 1}, {.name = "axial", .needed = 1}};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys) - !is_sector));
+    OST_TRY(ost_yaml_word(yaml, keys[0].value, "axis", axis_words, 3, &shape->axis));
+    OST_TRY(ost_yaml_mapping(yaml, keys[3].value, counts, OST_COUNT_OF(counts)));
+    OST_TRY(read_divisions(yaml, counts[0].value, is_sector ? 1 : 3, &shape->around));
+    OST_TRY(read_divisions(yaml, counts[1].value, 1, &shape->radial));
+    return read_divisions(yaml, counts[2].value, 1, &shape->axial);
+}
+
+static OstStatus read_tube(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    OstSectorShape whole = {0};
+    OST_TRY(read_round(yaml, node, 0, &whole));
+    c->tube = (OstTubeShape){.axis = whole.axis,
+                             .length = whole.length,
+                             .around = whole.around,
+                             .radial = whole.radial,
+                             .axial = whole.axial};
+    memcpy(c->tube.radii, whole.radii, sizeof whole.radii);
+    memcpy(c->tube.origin, whole.origin, sizeof whole.origin);
+    return OST_SUCCESS;
 }
 
 static OstStatus read_sector(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    static const char *const axis_words[] = {"x", "y", "z"};
-    enum { AXIS, LENGTH, RADII, ANGLE, DIVISIONS, ORIGIN };
-    OstYamlKey keys[] = {
-        [AXIS] = {"axis", OST_NEEDED, NULL},           [LENGTH] = {"length", OST_NEEDED, NULL},
-        [RADII] = {"radii", OST_NEEDED, NULL},         [ANGLE] = {"angle", OST_NEEDED, NULL},
-        [DIVISIONS] = {"divisions", OST_NEEDED, NULL}, [ORIGIN] = {"origin", OST_OPTIONAL, NULL},
-    };
-    OstSectorShape *sector = &c->sector;
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_word(yaml, keys[AXIS].value, "axis", axis_words, 3, &sector->axis));
-    OST_TRY(ost_yaml_positive(yaml, keys[LENGTH].value, &sector->length));
-    OST_TRY(read_radii(yaml, keys[RADII].value, sector->radii));
-    OST_TRY(ost_yaml_positive(yaml, keys[ANGLE].value, &sector->angle));
-    if (!(sector->angle < 360.0))
-        return ost_yaml_raise(yaml, keys[ANGLE].value,
-                              "found an angle of %g degrees, expected one below 360; all "
-                              "the way round is a tube",
-                              sector->angle);
-    if (keys[ORIGIN].value)
-        OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, sector->origin));
-    return read_tube_divisions(yaml, keys[DIVISIONS].value, 1, &sector->around, &sector->radial, &sector->axial);
+    return read_round(yaml, node, 1, &c->sector);
 }
 
 static OstStatus read_octant(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { RADII, DIVISIONS, CENTRE };
     OstYamlKey keys[] = {
-        [RADII] = {"radii", OST_NEEDED, NULL},
-        [DIVISIONS] = {"divisions", OST_NEEDED, NULL},
-        [CENTRE] = {"centre", OST_OPTIONAL, NULL},
+        {.name = "radii", .needed = 1, .read = read_radii, .into = c->octant.radii},
+        {.name = "divisions", .needed = 1},
+        {.name = "centre", .read = ost_yaml_vector, .into = c->octant.centre},
     };
-    OstYamlKey divisions[] = {{"around", OST_NEEDED, NULL}, {"radial", OST_NEEDED, NULL}};
+    OstYamlKey divisions[] = {{.name = "around", .needed = 1}, {.name = "radial", .needed = 1}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(read_radii(yaml, keys[RADII].value, c->octant.radii));
-    if (keys[CENTRE].value)
-        OST_TRY(ost_yaml_numbers(yaml, keys[CENTRE].value, 3, c->octant.centre));
-    OST_TRY(ost_yaml_mapping(yaml, keys[DIVISIONS].value, divisions, 2));
+    OST_TRY(ost_yaml_mapping(yaml, keys[1].value, divisions, 2));
     OST_TRY(read_divisions(yaml, divisions[0].value, 1, &c->octant.around));
     return read_divisions(yaml, divisions[1].value, 1, &c->octant.radial);
 }
 
+static OstStatus read_sides(const OstYaml *yaml, const OstYamlNode *node, double sides[3])
+{
+    return ost_yaml_positives(yaml, node, 3, sides);
+}
+
 static OstStatus read_block(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { SIZE, DIVISIONS, ORIGIN };
-    OstYamlKey keys[] = {
-        [SIZE] = {"size", OST_NEEDED, NULL},
-        [DIVISIONS] = {"divisions", OST_NEEDED, NULL},
-        [ORIGIN] = {"origin", OST_OPTIONAL, NULL},
-    };
     OstBlockShape *block = &c->block;
+    OstYamlKey keys[] = {
+        {.name = "size", .needed = 1, .read = read_sides, .into = block->size},
+        {.name = "divisions", .needed = 1},
+        {.name = "origin", .read = ost_yaml_vector, .into = block->origin},
+    };
     int count;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_positives(yaml, keys[SIZE].value, 3, block->size));
-    if (keys[ORIGIN].value)
-        OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, block->origin));
-    OST_TRY(ost_yaml_list(yaml, keys[DIVISIONS].value, "a list of 3 whole numbers", &count));
+    OST_TRY(ost_yaml_list(yaml, keys[1].value, "a list of 3 whole numbers", &count));
     if (count != 3)
-        return ost_yaml_raise(yaml, keys[DIVISIONS].value, "found %d divisions, expected 3: along x, y and z", count);
-    const OstYamlNode *item = ost_yaml_first(yaml, keys[DIVISIONS].value);
+        return ost_yaml_raise(yaml, keys[1].value, "found %d divisions, expected 3: along x, y and z", count);
+    const OstYamlNode *item = ost_yaml_first(yaml, keys[1].value);
     for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item))
         OST_TRY(read_divisions(yaml, item, 1, &block->divisions[i]));
     return OST_SUCCESS;
@@ -140,13 +129,6 @@ static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase
                           c->mesh_file);
 }
 
-static int is_from_program(const OstYaml *yaml, const OstYamlNode *node)
-{
-    const char *text;
-    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && ost_yaml_text(yaml, node, &text) == OST_SUCCESS &&
-           strcmp(text, "from_program") == 0;
-}
-
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstStatus (*const read[])(const OstYaml *, const OstYamlNode *, OstCase *) = {
@@ -155,18 +137,18 @@ OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c
     };
     enum { REFINE = OST_MESH_FILE + 1, KIND_COUNT = REFINE, MERGE };
     OstYamlKey keys[] = {
-        [OST_MESH_TUBE] = {"tube", OST_OPTIONAL, NULL},
-        [OST_MESH_BLOCK] = {"block", OST_OPTIONAL, NULL},
-        [OST_MESH_SECTOR] = {"sector", OST_OPTIONAL, NULL},
-        [OST_MESH_OCTANT] = {"octant", OST_OPTIONAL, NULL},
-        [OST_MESH_FILE] = {"file", OST_OPTIONAL, NULL},
-        [REFINE] = {"refine", OST_OPTIONAL, NULL},
-        [MERGE] = {"merge", OST_OPTIONAL, NULL},
+        [OST_MESH_TUBE] = {.name = "tube"},
+        [OST_MESH_BLOCK] = {.name = "block"},
+        [OST_MESH_SECTOR] = {.name = "sector"},
+        [OST_MESH_OCTANT] = {.name = "octant"},
+        [OST_MESH_FILE] = {.name = "file"},
+        [REFINE] = {.name = "refine"},
+        [MERGE] = {.name = "merge", .read = ost_yaml_positive, .into = &c->merge},
     };
     int kind;
     c->mesh_place = ost_yaml_at(node);
     c->mesh_kind = OST_MESH_FROM_PROGRAM;
-    if (is_from_program(yaml, node))
+    if (ost_yaml_says(yaml, node, "from_program"))
         return OST_SUCCESS;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, KIND_COUNT, &kind));
@@ -178,8 +160,6 @@ OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c
     if (keys[MERGE].value && kind != OST_MESH_FILE)
         return ost_yaml_raise(yaml, keys[MERGE].value,
                               "merge joins coincident vertices of a mesh file; shapes have none");
-    if (keys[MERGE].value)
-        OST_TRY(ost_yaml_positive(yaml, keys[MERGE].value, &c->merge));
     c->mesh_kind = (OstMeshKind)kind;
     return read[kind](yaml, keys[kind].value, c);
 }

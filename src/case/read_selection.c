@@ -32,75 +32,60 @@ static OstStatus read_boundary(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlKey *key, OstSelection *selection)
+static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance)
 {
-    if (!key->value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, key->value, &selection->tolerance));
-    return selection->tolerance >= 0.0 ? OST_SUCCESS
-                                       : ost_yaml_raise_type(yaml, key->value, "a distance, 0 or above", "");
+    OST_TRY(ost_yaml_number(yaml, node, tolerance));
+    return *tolerance >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a distance, 0 or above", "");
 }
 
 static OstStatus read_plane(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
 {
-    enum { POINT, NORMAL, TOLERANCE };
     OstYamlKey keys[] = {
-        [POINT] = {"point", OST_NEEDED, NULL},
-        [NORMAL] = {"normal", OST_NEEDED, NULL},
-        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+        {.name = "point", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
+        {.name = "normal", .needed = 1, .read = ost_yaml_direction, .into = selection->direction},
+        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
     };
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[POINT].value, 3, selection->point));
-    OST_TRY(ost_yaml_direction(yaml, keys[NORMAL].value, selection->direction));
-    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+    return ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys));
 }
 
 static OstStatus read_box(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
 {
-    enum { MIN, MAX, TOLERANCE };
     OstYamlKey keys[] = {
-        [MIN] = {"min", OST_NEEDED, NULL},
-        [MAX] = {"max", OST_NEEDED, NULL},
-        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+        {.name = "min", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
+        {.name = "max", .needed = 1, .read = ost_yaml_vector, .into = selection->direction},
+        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[MIN].value, 3, selection->point));
-    OST_TRY(ost_yaml_numbers(yaml, keys[MAX].value, 3, selection->direction));
     for (int i = 0; i < 3; i++)
         if (selection->point[i] > selection->direction[i])
-            return ost_yaml_raise(yaml, keys[MIN].value, "min is above max along %c (%g > %g); exchange them", "xyz"[i],
+            return ost_yaml_raise(yaml, keys[0].value, "min is above max along %c (%g > %g); exchange them", "xyz"[i],
                                   selection -> point[i], selection -> direction[i]);
-    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+    return OST_SUCCESS;
 }
 
 static OstStatus read_sphere(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
 {
-    enum { CENTER, RADIUS, TOLERANCE };
     OstYamlKey keys[] = {
-        [CENTER] = {"center", OST_NEEDED, NULL},
-        [RADIUS] = {"radius", OST_NEEDED, NULL},
-        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+        {.name = "center", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
+        {.name = "radius", .needed = 1, .read = ost_yaml_positive, .into = &selection->radii[1]},
+        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
     };
-    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_numbers(yaml, keys[CENTER].value, 3, selection->point));
-    OST_TRY(ost_yaml_positive(yaml, keys[RADIUS].value, &selection->radii[1]));
-    return read_tolerance(yaml, &keys[TOLERANCE], selection);
+    return ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys));
 }
 
 static OstStatus read_cylinder(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection)
 {
-    enum { RADIUS, RADII, ORIGIN, AXIS, TOLERANCE };
+    enum { RADIUS, RADII };
     OstYamlKey keys[] = {
-        [RADIUS] = {"radius", OST_OPTIONAL, NULL},       [RADII] = {"radii", OST_OPTIONAL, NULL},
-        [ORIGIN] = {"origin", OST_NEEDED, NULL},         [AXIS] = {"axis", OST_NEEDED, NULL},
-        [TOLERANCE] = {"tolerance", OST_OPTIONAL, NULL},
+        [RADIUS] = {.name = "radius"},
+        [RADII] = {.name = "radii"},
+        {.name = "origin", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
+        {.name = "axis", .needed = 1, .read = ost_yaml_direction, .into = selection->direction},
+        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
     };
     int which;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, 2, &which));
-    OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, selection->point));
-    OST_TRY(ost_yaml_direction(yaml, keys[AXIS].value, selection->direction));
-    OST_TRY(read_tolerance(yaml, &keys[TOLERANCE], selection));
     if (which == RADIUS)
         return ost_yaml_positive(yaml, keys[RADIUS].value, &selection->radii[1]);
     OST_TRY(ost_yaml_numbers(yaml, keys[RADII].value, 2, selection->radii));
@@ -160,7 +145,7 @@ OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSe
         {OST_SELECT_ALL, "all", read_all},
     };
     enum { FORMS = sizeof forms / sizeof *forms };
-    OstYamlKey keys[FORMS] = {{NULL, OST_OPTIONAL, NULL}};
+    OstYamlKey keys[FORMS] = {{.name = NULL}};
     int form;
     for (int f = 0; f < FORMS; f++)
         keys[f].name = forms[f].word;

@@ -4,11 +4,12 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <float.h>
 #include <string.h>
 
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    OstYamlKey keys[] = {{"order", OST_OPTIONAL, NULL}};
+    OstYamlKey keys[] = {{.name = "order"}};
     int64_t order = 0;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, 1));
     if (keys[0].value)
@@ -21,8 +22,7 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
 {
     static const char *const words[] = {"refuse", "accept"};
     enum { RESIDUAL, OUT_OF_REACH };
-    OstYamlKey keys[] = {
-        [RESIDUAL] = {"relative_residual", OST_OPTIONAL, NULL}, [OUT_OF_REACH] = {"out_of_reach", OST_OPTIONAL, NULL}};
+    OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"}, [OUT_OF_REACH] = {.name = "out_of_reach"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[RESIDUAL].value)
         c->solver.accept_attainable = 0;
@@ -34,29 +34,6 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
     if (!(c->solver.relative_residual >= 1e-15 && c->solver.relative_residual <= 0.5))
         return ost_yaml_raise_type(yaml, keys[RESIDUAL].value, "a number from 1e-15 to 0.5", "");
     return OST_SUCCESS;
-}
-
-/* The bounds of ost_solver_check_options, tested here to name the line. */
-static const double most_aggregate = 1e6, most_block = 1e3, most_ratio = 1e6, most_mebibytes = 1e12;
-
-static OstStatus read_aggregate(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
-{
-    if (!key->value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, key->value, nodes));
-    return *nodes > 1.0 && *nodes <= most_aggregate
-               ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, key->value, "a number of nodes above 1, at most 1e6", "");
-}
-
-static OstStatus read_block(const OstYaml *yaml, const OstYamlKey *key, double *nodes)
-{
-    if (!key->value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, key->value, nodes));
-    return *nodes >= 1.0 && *nodes <= most_block
-               ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, key->value, "a number of nodes from 1 to 1000", "");
 }
 
 static OstStatus read_count(const OstYaml *yaml, const OstYamlKey *key, int64_t high, int *count)
@@ -85,28 +62,6 @@ static OstStatus read_method(const OstYaml *yaml, const OstYamlKey *key, OstMeth
 
 enum { METHOD, ITERATIONS, PATIENCE, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST, LEVELS, MEMORY, SOLVER_KEYS };
 
-static OstStatus read_ratio(const OstYaml *yaml, const OstYamlKey *key, double *ratio)
-{
-    if (!key->value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, key->value, ratio));
-    return *ratio > 1.0 && *ratio <= most_ratio
-               ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, key->value, "a number above 1, at most 1e6", "");
-}
-
-static OstStatus read_memory(const OstYaml *yaml, const OstYamlKey *key, double *bytes)
-{
-    double mebibytes = 0.0;
-    if (!key->value)
-        return OST_SUCCESS;
-    OST_TRY(ost_yaml_number(yaml, key->value, &mebibytes));
-    *bytes = 1048576.0 * mebibytes;
-    return mebibytes > 0.0 && mebibytes <= most_mebibytes
-               ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, key->value, "a number of MiB above 0, at most 1e12", "");
-}
-
 /* Which settings the case fixes, so that plan and strategies keep them. */
 static unsigned fixed_settings(const OstYamlKey *keys)
 {
@@ -118,31 +73,51 @@ static unsigned fixed_settings(const OstYamlKey *keys)
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     OstYamlKey keys[SOLVER_KEYS] = {
-        [METHOD] = {"method", OST_OPTIONAL, NULL},
-        [ITERATIONS] = {"max_iterations", OST_OPTIONAL, NULL},
-        [PATIENCE] = {"patience", OST_OPTIONAL, NULL},
-        [AGGREGATE] = {"aggregate_nodes", OST_OPTIONAL, NULL},
-        [COARSE] = {"coarse_aggregate_nodes", OST_OPTIONAL, NULL},
-        [BLOCK] = {"smoother_block_nodes", OST_OPTIONAL, NULL},
-        [DEGREE] = {"smoother_degree", OST_OPTIONAL, NULL},
-        [RATIO] = {"smoother_ratio", OST_OPTIONAL, NULL},
-        [COARSEST] = {"coarsest_unknowns", OST_OPTIONAL, NULL},
-        [LEVELS] = {"most_levels", OST_OPTIONAL, NULL},
-        [MEMORY] = {"factor_memory", OST_OPTIONAL, NULL},
+        [METHOD] = {.name = "method"},
+        [ITERATIONS] = {.name = "max_iterations"},
+        [PATIENCE] = {.name = "patience"},
+        [AGGREGATE] = {.name = "aggregate_nodes"},
+        [COARSE] = {.name = "coarse_aggregate_nodes"},
+        [BLOCK] = {.name = "smoother_block_nodes"},
+        [DEGREE] = {.name = "smoother_degree"},
+        [RATIO] = {.name = "smoother_ratio"},
+        [COARSEST] = {.name = "coarsest_unknowns"},
+        [LEVELS] = {.name = "most_levels"},
+        [MEMORY] = {.name = "factor_memory"},
     };
     OstSolverOptions *solver = &c->solver;
+    double mebibytes = 0.0;
+    /* The bounds of ost_solver_check_options, tested here to name the line. */
+    const double above_1 = 1.0 + DBL_EPSILON;
+    const struct {
+        int key;
+        double least, most;
+        const char *expected;
+        double *number;
+    } numbers[] = {
+        {AGGREGATE, above_1, 1e6, "a number of nodes above 1, at most 1e6", &solver->aggregate_nodes},
+        {COARSE, above_1, 1e6, "a number of nodes above 1, at most 1e6", &solver->coarse_aggregate_nodes},
+        {BLOCK, 1.0, 1e3, "a number of nodes from 1 to 1000", &solver->smoother_block_nodes},
+        {RATIO, above_1, 1e6, "a number above 1, at most 1e6", &solver->smoother_ratio},
+        {MEMORY, DBL_TRUE_MIN, 1e12, "a number of MiB above 0, at most 1e12", &mebibytes},
+    };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, SOLVER_KEYS));
+    for (int n = 0; n < OST_COUNT_OF(numbers); n++) {
+        const OstYamlNode *value = keys[numbers[n].key].value;
+        if (!value)
+            continue;
+        OST_TRY(ost_yaml_number(yaml, value, numbers[n].number));
+        if (!(*numbers[n].number >= numbers[n].least && *numbers[n].number <= numbers[n].most))
+            return ost_yaml_raise_type(yaml, value, numbers[n].expected, "");
+    }
+    if (keys[MEMORY].value)
+        solver->factor_memory = 1048576.0 * mebibytes;
     OST_TRY(read_method(yaml, &keys[METHOD], &solver->method));
     OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
     OST_TRY(read_count(yaml, &keys[PATIENCE], 1000000, &solver->patience));
-    OST_TRY(read_aggregate(yaml, &keys[AGGREGATE], &solver->aggregate_nodes));
-    OST_TRY(read_aggregate(yaml, &keys[COARSE], &solver->coarse_aggregate_nodes));
-    OST_TRY(read_block(yaml, &keys[BLOCK], &solver->smoother_block_nodes));
     OST_TRY(read_count(yaml, &keys[DEGREE], 20, &solver->smoother_degree));
-    OST_TRY(read_ratio(yaml, &keys[RATIO], &solver->smoother_ratio));
     OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));
     OST_TRY(read_count(yaml, &keys[LEVELS], OST_MAX_LEVELS, &solver->most_levels));
-    OST_TRY(read_memory(yaml, &keys[MEMORY], &solver->factor_memory));
     solver->given = fixed_settings(keys);
     return OST_SUCCESS;
 }
@@ -168,8 +143,8 @@ OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase 
 {
     enum { FILE_NAME, FIELDS };
     OstYamlKey keys[] = {
-        [FILE_NAME] = {"file", OST_OPTIONAL, NULL},
-        [FIELDS] = {"fields", OST_OPTIONAL, NULL},
+        [FILE_NAME] = {.name = "file"},
+        [FIELDS] = {.name = "fields"},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[FIELDS].value)

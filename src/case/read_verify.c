@@ -56,9 +56,9 @@ static OstStatus read_step(const OstYaml *yaml, const OstYamlNode *node, OstVeri
 {
     enum { ORDER, REFINEMENTS, QUICK };
     OstYamlKey keys[] = {
-        [ORDER] = {"order", OST_NEEDED, NULL},
-        [REFINEMENTS] = {"refinements", OST_NEEDED, NULL},
-        [QUICK] = {"quick", OST_OPTIONAL, NULL},
+        [ORDER] = {.name = "order", .needed = 1},
+        [REFINEMENTS] = {.name = "refinements", .needed = 1},
+        [QUICK] = {.name = "quick"},
     };
     int64_t number;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
@@ -183,16 +183,16 @@ static OstStatus read_quantity(const OstYaml *yaml, const OstYamlNode *node, con
                                OstVerifyQuantity *quantity)
 {
     OstYamlKey keys[QUANTITY_KEYS] = {
-        [OST_MEASURE_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
-        [OST_MEASURE_STRESS] = {"stress", OST_OPTIONAL, NULL},
-        [OST_MEASURE_REACTION] = {"reaction", OST_OPTIONAL, NULL},
-        [OST_MEASURE_ENERGY] = {"energy", OST_OPTIONAL, NULL},
-        [OST_MEASURE_FIELD] = {"field", OST_OPTIONAL, NULL},
-        [ON] = {"on", OST_OPTIONAL, NULL},
-        [EXPECTED] = {"expected", OST_OPTIONAL, NULL},
-        [SCALE] = {"scale", OST_OPTIONAL, NULL},
-        [ERROR] = {"error", OST_NEEDED, NULL},
-        [RATE] = {"rate", OST_NEEDED, NULL},
+        [OST_MEASURE_DISPLACEMENT] = {.name = "displacement"},
+        [OST_MEASURE_STRESS] = {.name = "stress"},
+        [OST_MEASURE_REACTION] = {.name = "reaction"},
+        [OST_MEASURE_ENERGY] = {.name = "energy"},
+        [OST_MEASURE_FIELD] = {.name = "field"},
+        [ON] = {.name = "on"},
+        [EXPECTED] = {.name = "expected"},
+        [SCALE] = {.name = "scale"},
+        [ERROR] = {.name = "error", .needed = 1},
+        [RATE] = {.name = "rate", .needed = 1},
     };
     OstStatus (*const read[MEASURES])(const OstYaml *, const OstYamlNode *, OstVerifyQuantity *) = {
         read_along, read_component, read_along, read_energy, read_norm};
@@ -236,9 +236,11 @@ OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase 
 {
     enum { FORMULA, SOURCE, PARAMETERS, LADDER, QUANTITIES };
     OstYamlKey keys[] = {
-        [FORMULA] = {"formula", OST_NEEDED, NULL},         [SOURCE] = {"source", OST_NEEDED, NULL},
-        [PARAMETERS] = {"parameters", OST_OPTIONAL, NULL}, [LADDER] = {"ladder", OST_NEEDED, NULL},
-        [QUANTITIES] = {"quantities", OST_NEEDED, NULL},
+        [FORMULA] = {.name = "formula", .needed = 1},
+        [SOURCE] = {.name = "source", .needed = 1},
+        [PARAMETERS] = {.name = "parameters"},
+        [LADDER] = {.name = "ladder", .needed = 1},
+        [QUANTITIES] = {.name = "quantities", .needed = 1},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(OST_NEW(yaml->ctx, &c->verify, 1));

@@ -61,12 +61,12 @@ static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWat
 {
     enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
-        [OST_WATCH_DISPLACEMENT] = {"displacement", OST_OPTIONAL, NULL},
-        [OST_WATCH_REACTION] = {"reaction", OST_OPTIONAL, NULL},
-        [OST_WATCH_STRAIN_ENERGY] = {"strain_energy", OST_OPTIONAL, NULL},
-        [COMPONENT] = {"component", OST_OPTIONAL, NULL},
-        [EXPECTED] = {"expected", OST_OPTIONAL, NULL},
-        [SOURCE] = {"source", OST_OPTIONAL, NULL},
+        [OST_WATCH_DISPLACEMENT] = {.name = "displacement"},
+        [OST_WATCH_REACTION] = {.name = "reaction"},
+        [OST_WATCH_STRAIN_ENERGY] = {.name = "strain_energy"},
+        [COMPONENT] = {.name = "component"},
+        [EXPECTED] = {.name = "expected"},
+        [SOURCE] = {.name = "source"},
     };
     int form;
     watch->line = ost_yaml_line(node);

@@ -99,46 +99,33 @@ static OstStatus flag_boundaries(const OstCase *c, const OstMesh *mesh, const Os
     return OST_SUCCESS;
 }
 
-static int in_plane(const OstSelection *selection, const double d[3], double tolerance)
+/* Is a point in the shape? `d` is its position relative to the shape's point. */
+static int is_inside(const OstSelection *selection, const double d[3], double tolerance)
 {
-    return fabs(ost_dot3(d, selection->direction)) <= tolerance;
+    const double *direction = selection->direction;
+    const double along = ost_dot3(d, direction);
+    double distance = 0.0;
+    switch (selection->kind) {
+    case OST_SELECT_PLANE:
+        return fabs(along) <= tolerance;
+    case OST_SELECT_BOX:
+        for (int i = 0; i < 3; i++)
+            if (d[i] < -tolerance || d[i] > direction[i] - selection->point[i] + tolerance)
+                return 0;
+        return 1;
+    case OST_SELECT_SPHERE:
+        return ost_norm3(d) <= selection->radii[1] + tolerance;
+    case OST_SELECT_CYLINDER:
+        distance = ost_norm3(
+            (double[]){d[0] - along * direction[0], d[1] - along * direction[1], d[2] - along * direction[2]});
+        return distance >= selection->radii[0] - tolerance && distance <= selection->radii[1] + tolerance;
+    default:
+        return 1;
+    }
 }
 
-static int in_box(const OstSelection *selection, const double d[3], double tolerance)
-{
-    for (int i = 0; i < 3; i++)
-        if (d[i] < -tolerance || d[i] > selection->direction[i] - selection->point[i] + tolerance)
-            return 0;
-    return 1;
-}
-
-static int in_sphere(const OstSelection *selection, const double d[3], double tolerance)
-{
-    return ost_norm3(d) <= selection->radii[1] + tolerance;
-}
-
-static int in_cylinder(const OstSelection *selection, const double d[3], double tolerance)
-{
-    double across[3];
-    const double along = ost_dot3(d, selection->direction);
-    for (int i = 0; i < 3; i++)
-        across[i] = d[i] - along * selection->direction[i];
-    const double distance = ost_norm3(across);
-    return distance >= selection->radii[0] - tolerance && distance <= selection->radii[1] + tolerance;
-}
-
-static int everywhere(const OstSelection *selection, const double d[3], double tolerance)
-{
-    (void)selection;
-    (void)d;
-    (void)tolerance;
-    return 1;
-}
-
-/* Flags the nodes in a shape; d is a node's position relative to the shape's point. */
 static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
 {
-    int (*inside)(const OstSelection *, const double[3], double) = everywhere;
     double tolerance = selection->tolerance;
     if (tolerance < 0.0) {
         double low[3], high[3];
@@ -146,29 +133,12 @@ static OstStatus flag_shape(const OstMesh *mesh, const OstSelection *selection, 
         const double diagonal[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
         tolerance = relative_tolerance * ost_norm3(diagonal);
     }
-    if (selection->kind == OST_SELECT_PLANE)
-        inside = in_plane;
-    else if (selection->kind == OST_SELECT_BOX)
-        inside = in_box;
-    else if (selection->kind == OST_SELECT_SPHERE)
-        inside = in_sphere;
-    else if (selection->kind == OST_SELECT_CYLINDER)
-        inside = in_cylinder;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
         double d[3];
         for (int i = 0; i < 3; i++)
             d[i] = mesh->coordinates[3 * (size_t)n + (size_t)i] - selection->point[i];
-        flags[n] = (unsigned char)inside(selection, d, tolerance);
+        flags[n] = (unsigned char)is_inside(selection, d, tolerance);
     }
-    return OST_SUCCESS;
-}
-
-static OstStatus flag_nearest(const OstMesh *mesh, const OstSelection *selection, unsigned char *flags)
-{
-    OstNearest vertex;
-    OST_TRY(ost_mesh_nearest(mesh, selection->point, &vertex));
-    if (vertex.node >= 0)
-        flags[vertex.node] = 1;
     return OST_SUCCESS;
 }
 
@@ -255,6 +225,7 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
 {
     OstContext *ctx = mesh->ctx;
     OstStatus status = OST_SUCCESS;
+    OstNearest vertex;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, flags, mesh->node_count)));
     switch (selection->kind) {
     case OST_SELECT_BOUNDARY:
@@ -264,7 +235,9 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
         status = flag_labels(c, mesh, selection, *flags);
         break;
     case OST_SELECT_NEAREST:
-        status = flag_nearest(mesh, selection, *flags);
+        status = ost_mesh_nearest(mesh, selection->point, &vertex);
+        if (status == OST_SUCCESS && vertex.node >= 0)
+            (*flags)[vertex.node] = 1;
         break;
     default:
         status = flag_shape(mesh, selection, *flags);

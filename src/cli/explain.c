@@ -7,7 +7,7 @@
 #include "core/parallel/free_memory.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
-#include "problem/scene_mesh.h"
+#include "problem/scene_parts.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -27,6 +27,13 @@ OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int
             goto done;             \
     } while (0)
 
+/* Goes on with a local step unless an earlier one failed: `status` is agreed on once, after all of them. */
+#define OST_THEN(call)             \
+    do {                           \
+        if (status == OST_SUCCESS) \
+            status = (call);       \
+    } while (0)
+
 /* Turns MPI's return value into a status. */
 OstStatus ost_mpi_check(OstContext *ctx, int mpi_result, const char *call, const char *file, int line);
 #define OST_MPI(ctx, call) ost_mpi_check((ctx), (call), #call, __FILE__, __LINE__)

@@ -3,14 +3,56 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/file_materials.h"
-#include "formats/serial/serial.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
+#include <limits.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+void ost_file_materials_destroy(OstFileMaterials **materials)
+{
+    if (!*materials)
+        return;
+    OST_FREE((*materials)->material);
+    OST_FREE((*materials)->axes);
+    OST_FREE(*materials);
+}
+
+static OstStatus broadcast(OstContext *ctx, void *data, size_t bytes)
+{
+    return OST_MPI(ctx, MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, ost_comm(ctx)));
+}
+
+static OstStatus create_materials(OstContext *ctx, int count, OstFileMaterials **materials)
+{
+    OST_TRY(OST_NEW(ctx, materials, 1));
+    OST_TRY(OST_NEW(ctx, &(*materials)->material, count));
+    OST_TRY(OST_NEW(ctx, &(*materials)->axes, 9 * (size_t)count));
+    (*materials)->count = count;
+    return OST_SUCCESS;
+}
+
+/* Collective. Broadcasts rank 0's materials. */
+static OstStatus share_materials(OstContext *ctx, OstFileMaterials **materials)
+{
+    OstStatus status = OST_SUCCESS;
+    int count = *materials ? (*materials)->count : 0;
+    OST_TRY_DONE(broadcast(ctx, &count, sizeof count));
+    if ((size_t)count > INT_MAX / sizeof(OstMaterial))
+        status = OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%d materials in a mesh file, at most %zu can be sent", count,
+                           INT_MAX / sizeof(OstMaterial));
+    else if (!*materials)
+        status = create_materials(ctx, count, materials);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(broadcast(ctx, (*materials)->material, (size_t)count * sizeof(OstMaterial)));
+    OST_TRY_DONE(broadcast(ctx, (*materials)->axes, 9 * (size_t)count * sizeof(double)));
+done:
+    if (status != OST_SUCCESS)
+        ost_file_materials_destroy(materials);
+    return status;
+}
 
 static OstStatus read_msh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
@@ -48,13 +90,7 @@ static OstStatus read_serial(OstContext *ctx, int format, const char *path, OstM
         status = serial_format[format].read(ctx, path, chunk, materials);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_chunk_share(ctx, chunk));
-    return ost_file_materials_share(ctx, materials);
-}
-
-static OstStatus read_parallel(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
-{
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, materials, 1)));
-    return ost_vtkhdf_read(ctx, path, chunk);
+    return share_materials(ctx, materials);
 }
 
 static const char *ending_of(const char *path)
@@ -80,9 +116,10 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     const int format = find_format(path);
     if (format < SERIAL_FORMATS)
         status = read_serial(ctx, format, path, chunk, materials);
-    else if (ends_with(path, ".vtkhdf"))
-        status = read_parallel(ctx, path, chunk, materials);
-    else
+    else if (ends_with(path, ".vtkhdf")) {
+        status = ost_agree(ctx, OST_NEW(ctx, materials, 1));
+        OST_THEN(ost_vtkhdf_read(ctx, path, chunk));
+    } else
         status = OST_RAISE(ctx, OST_INVALID_INPUT,
                            "%s: the ending '%s' is not that of a mesh file; known are .msh and .msh.gz "
                            "(Gmsh), .veg (Vega FEM) and .vtkhdf",

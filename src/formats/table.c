@@ -130,10 +130,8 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
     if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
         const size_t room = ost_size(ctx) > 1 ? PIECE_ROWS : 0; /* a single rank gets no requests */
         status = OST_NEW(ctx, &table.wanted, room);
-        if (status == OST_SUCCESS)
-            status = OST_NEW(ctx, &table.piece, room * (size_t)width);
-        if (status == OST_SUCCESS)
-            status = read_table(ctx, path, &table);
+        OST_THEN(OST_NEW(ctx, &table.piece, room * (size_t)width));
+        OST_THEN(read_table(ctx, path, &table));
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(hand_out(ctx, &table, count, labels, values));

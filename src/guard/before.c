@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "guard/freedom.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "effect/effect.h"
 #include "guard/guard.h"
-#include "guard/load_balance.h"
-#include "guard/number_range.h"
 #include "guard/rigid_motion.h"
 
 #include <math.h>
@@ -15,6 +15,122 @@ static OstStatus take_objection(OstContext *ctx, OstStatus status, OstVerdict *b
         return status;
     ost_object(before, status, "%s", ost_error_text(ctx));
     return OST_SUCCESS;
+}
+
+/* Do stiffness and right-hand side (3 × rows) keep all computed numbers within double precision? Norms and energies are
+ * sums of squares, which can hold 1e-308 to 1e308: displacements must stay within 1e-150 to 1e150, and so their
+ * factors, loads and stiffness, within 1e-75 to 1e75. Beyond, a norm underflows to zero and a displacement of zero
+ * would pass for an answer. Both tests are collective and raise OST_INVALID_INPUT with the number and what to do. A
+ * right-hand side of zeros is fine. */
+static const double least = 1e-75;
+static const double most = 1e75;
+
+static OstStatus check_size(OstContext *ctx, const char *where, const char *what, double size)
+{
+    if (size >= least && size <= most)
+        return OST_SUCCESS;
+    if (!isfinite(size))
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "%s: the %s are not finite everywhere; look for a value that is infinite or no number", where,
+                         what);
+    return OST_RAISE(ctx, OST_INVALID_INPUT,
+                     "%s: the %s are of size %.2g in the case's units; beyond %g to %g, squares leave the range of "
+                     "double precision: choose units of length and force that bring them nearer to 1",
+                     where, what, size, least, most);
+}
+
+/* Largest absolute value; infinite if a value is NaN. */
+static double largest_of(size_t count, const double *values)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(values[i]) <= largest))
+            largest = isfinite(values[i]) ? fabs(values[i]) : HUGE_VAL;
+    return largest;
+}
+
+/* The softest node counts too: its displacement is the largest. */
+static void diagonal_range(const OstBlockMatrix *matrix, double *low, double *high)
+{
+    *low = HUGE_VAL;
+    *high = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        const double size = largest_of(9, matrix->value + 9 * (size_t)matrix->diagonal[row]);
+        *low = fmin(*low, size);
+        *high = fmax(*high, size);
+    }
+}
+
+static OstStatus number_range_of_stiffness(const OstBlockMatrix *matrix, const char *where)
+{
+    OstContext *ctx = matrix->ctx;
+    double low, largest[2]; /* the stiffest node, and 1 over the softest */
+    diagonal_range(matrix, &low, &largest[0]);
+    largest[1] = 1.0 / low;
+    OST_TRY(ost_max(ctx, 2, largest));
+    OST_TRY(check_size(ctx, where, "stiffest nodes", largest[0]));
+    return check_size(ctx, where, "softest nodes", 1.0 / largest[1]);
+}
+
+static OstStatus number_range_of_load(const OstBlockMatrix *matrix, const double *rhs, const char *where)
+{
+    OstContext *ctx = matrix->ctx;
+    double largest = largest_of(3 * (size_t)matrix->rows, rhs);
+    OST_TRY(ost_max(ctx, 1, &largest));
+    return largest > 0.0 ? check_size(ctx, where, "loads", largest) : OST_SUCCESS;
+}
+
+/* Loads may be out of balance by this share of their sizes: they are typed, and summed, with rounding. */
+static const double balance = 1e-8;
+
+/* Sets components to 0 that are rounding errors of sums of this size. */
+static void drop_rounding(double size, double vector[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (fabs(vector[i]) <= 1e-14 * size)
+            vector[i] = 0.0;
+}
+
+/* Sums of the loads: force, its size, moment about a centre, its size. */
+enum { SUM_FORCE, SUM_FORCE_SIZE = 3, SUM_MOMENT, SUM_MOMENT_SIZE = 7, SUM_COUNT };
+
+static void add_load(const double *x, const double *f, const double centre[3], double sums[SUM_COUNT])
+{
+    double arm[3], moment[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = x[i] - centre[i];
+    ost_cross3(arm, f, moment);
+    for (int i = 0; i < 3; i++) {
+        sums[SUM_FORCE + i] += f[i];
+        sums[SUM_MOMENT + i] += moment[i];
+    }
+    sums[SUM_FORCE_SIZE] += ost_norm3(f);
+    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(f);
+}
+
+/* Do the loads (3 × owned nodes) balance each other in force and moment, as they must on an unconstrained body? */
+static OstStatus check_balance(const OstMesh *mesh, const double *force, const char *where)
+{
+    OstContext *ctx = mesh->ctx;
+    double low[3], high[3], centre[3], sums[SUM_COUNT] = {0.0};
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5 * (low[i] + high[i]);
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        add_load(mesh->coordinates + 3 * (size_t)n, force + 3 * (size_t)n, centre, sums);
+    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, ost_comm(ctx))));
+    double *f = sums + SUM_FORCE;
+    double *m = sums + SUM_MOMENT;
+    if (ost_norm3(f) <= balance * sums[SUM_FORCE_SIZE] && ost_norm3(m) <= balance * sums[SUM_MOMENT_SIZE])
+        return OST_SUCCESS;
+    drop_rounding(sums[SUM_FORCE_SIZE], f);
+    drop_rounding(sums[SUM_MOMENT_SIZE], m);
+    return OST_RAISE(
+        ctx, OST_INVALID_INPUT,
+        "%s: free_body needs loads that balance each other, but these leave a force (%g, %g, %g) of loads of "
+        "size %g, and a moment (%g, %g, %g) of size %g about (%g, %g, %g); balance them, or constrain the body",
+        where, f[0], f[1], f[2], sums[SUM_FORCE_SIZE], m[0], m[1], m[2], sums[SUM_MOMENT_SIZE], centre[0], centre[1],
+        centre[2]);
 }
 
 OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before)
@@ -29,8 +145,7 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     OstContext *ctx = problem->ctx;
     const int others = before->count;
     double of_tets = 0.0, of_rows = 0.0;
-    OST_TRY(
-        take_objection(ctx, ost_number_range_of_stiffness(problem->system->matrix, ost_problem_name(problem)), before));
+    OST_TRY(take_objection(ctx, number_range_of_stiffness(problem->system->matrix, ost_problem_name(problem)), before));
     if (before->count > others)
         return OST_SUCCESS;
     OST_TRY(take_objection(ctx, ost_rigid_motion_of_tets(problem->mesh, problem->field, &of_tets), before));
@@ -43,7 +158,11 @@ OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdic
 {
     OstContext *ctx = problem->ctx;
     const char *name = ost_problem_name(problem);
-    if (problem->free_body)
-        OST_TRY(take_objection(ctx, ost_load_balance_check(problem->mesh, problem->force, name), before));
-    return take_objection(ctx, ost_number_range_of_load(problem->system->matrix, rhs, name), before);
+    if (problem->free_body) {
+        ost_ledger_enter(ctx, OST_EFFECT_FREE_BODY);
+        const OstStatus status = check_balance(problem->mesh, problem->force, name);
+        ost_ledger_leave(ctx);
+        OST_TRY(take_objection(ctx, status, before));
+    }
+    return take_objection(ctx, number_range_of_load(problem->system->matrix, rhs, name), before);
 }

@@ -342,14 +342,6 @@ static OstStatus look_at_body(const OstResult *result, Body *body)
     return OST_SUCCESS;
 }
 
-/* The residual that is allowed: the one asked for, or, where the user accepts that, the one that double precision
- * attained. */
-static double allowed_residual(const OstResult *result, double requested)
-{
-    const OstSolveReport *report = &result->solve;
-    return report->rounding_limited ? fmax(requested, report->relative_residual) : requested;
-}
-
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result)
 {
@@ -360,14 +352,13 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     double sums[SUM_COUNT] = {0.0};
     Body body = {.supports = problem->supports};
     TetSums tets = {0.0, {0.0, 0.0}};
-    requested = allowed_residual(result, requested);
+    if (result->solve.rounding_limited) /* then the user accepts what double precision attained */
+        requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude);
+    OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(look_at_body(result, &body));
     ost_visit_means(mesh, problem->field, result->displacement, add_tets, &tets);

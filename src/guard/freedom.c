@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "guard/freedom.h"
+#include "guard/guard.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -28,13 +28,6 @@ typedef struct Freedom {
     OstGlobal coincident;
     double merge_tolerance;
 } Freedom;
-
-static void release(Freedom *freedom)
-{
-    ost_components_destroy(&freedom->components);
-    OST_FREE(freedom->frames);
-    ost_ties_release(&freedom->ties);
-}
 
 static OstStatus make_frames(Freedom *freedom)
 {
@@ -132,7 +125,9 @@ OstStatus ost_freedom_check(const OstMesh *mesh, const OstSupports *supports, co
     Freedom freedom = {.ctx = mesh->ctx, .mesh = mesh, .where = where, .free_body = free_body};
     ost_ledger_enter(mesh->ctx, OST_LEDGER_SUPPORTS);
     const OstStatus status = check(&freedom, supports);
-    release(&freedom);
+    ost_components_destroy(&freedom.components);
+    OST_FREE(freedom.frames);
+    ost_ties_release(&freedom.ties);
     ost_ledger_leave(mesh->ctx);
     return status;
 }

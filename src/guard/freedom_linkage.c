@@ -26,9 +26,8 @@ void ost_free_motions_release(OstFreeMotions *free)
     free->members = free->count = 0;
 }
 
-OstLocal ost_linkage_neighbour(const OstLinkage *linkage, const OstTie *tie, OstLocal component)
+OstLocal ost_linkage_neighbour(const OstTie *tie, OstLocal component)
 {
-    (void)linkage;
     return tie->body[0] == component ? tie->body[1] : tie->body[0];
 }
 
@@ -85,7 +84,7 @@ static OstStatus fix_components(OstLinkage *linkage)
         const OstLocal component = stack[--height];
         for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            const OstLocal other = ost_linkage_neighbour(linkage, tie, component);
+            const OstLocal other = ost_linkage_neighbour(tie, component);
             if (linkage->fixed[other])
                 continue;
             ost_linkage_add_conditions(linkage, tie, other, linkage->conditions + OST_ROWS * (size_t)other);
@@ -143,10 +142,10 @@ OstStatus ost_linkage_create(OstContext *ctx, const OstComponents *components, c
     return status;
 }
 
-static int place_of(const OstFreeMotions *free, OstLocal component)
+int ost_place_of(int members, const OstLocal *member, OstLocal component)
 {
-    for (int i = 0; i < free->members; i++)
-        if (free->member[i] == component)
+    for (int i = 0; i < members; i++)
+        if (member[i] == component)
             return i;
     return -1;
 }
@@ -156,7 +155,7 @@ static void fill_joint(const OstLinkage *linkage, const OstFreeMotions *free, co
 {
     const size_t columns = 6 * (size_t)free->members;
     for (int end = 0; end < 2; end++) {
-        const int place = place_of(free, tie->body[end]);
+        const int place = ost_place_of(free->members, free->member, tie->body[end]);
         double change[OST_ROWS], block[OST_ROWS];
         ost_rows_change_frame(&linkage->frames[tie->body[end]], ost_tie_frame(linkage->frames, tie), change);
         ost_rows_multiply(tie->triangle, change, block);

@@ -36,7 +36,10 @@ OstStatus ost_linkage_create(OstContext *ctx, const OstComponents *components, c
 void ost_linkage_destroy(OstLinkage **linkage);
 
 /* Local. The other end of a component's joint. */
-OstLocal ost_linkage_neighbour(const OstLinkage *linkage, const OstTie *tie, OstLocal component);
+OstLocal ost_linkage_neighbour(const OstTie *tie, OstLocal component);
+
+/* Local. The place of a component among some, or -1. */
+int ost_place_of(int members, const OstLocal *member, OstLocal component);
 
 /* Local. Adds a tie's conditions on a component, as if its other end were fixed, to a triangle in the component's
  * frame. */

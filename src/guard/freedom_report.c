@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "guard/freedom_words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,14 +50,6 @@ static void describe_place(const OstLinkage *linkage, int members, const OstLoca
     snprintf(text, size, "%lld tet%s around %s", (long long)whole.tets, whole.tets == 1 ? "" : "s", middle);
 }
 
-static int is_among(int members, const OstLocal *member, OstLocal component)
-{
-    for (int i = 0; i < members; i++)
-        if (member[i] == component)
-            return 1;
-    return 0;
-}
-
 /* The only joint of these components with others, or NULL if there are none or several. */
 static const OstTie *only_joint(const OstLinkage *linkage, int members, const OstLocal *member, OstLocal *outside)
 {
@@ -66,8 +57,8 @@ static const OstTie *only_joint(const OstLinkage *linkage, int members, const Os
     for (int i = 0; i < members; i++)
         for (OstLocal j = linkage->joint_start[member[i]]; j < linkage->joint_start[member[i] + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            const OstLocal other = ost_linkage_neighbour(linkage, tie, member[i]);
-            if (is_among(members, member, other))
+            const OstLocal other = ost_linkage_neighbour(tie, member[i]);
+            if (ost_place_of(members, member, other) >= 0)
                 continue;
             if (found)
                 return NULL;
@@ -140,7 +131,7 @@ static OstStatus report_alone(const OstLinkage *linkage, OstLocal component, Ost
     memcpy(triangle, linkage->conditions + OST_ROWS * (size_t)component, sizeof triangle);
     for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
         const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-        if (!linkage->fixed[ost_linkage_neighbour(linkage, tie, component)])
+        if (!linkage->fixed[ost_linkage_neighbour(tie, component)])
             ost_linkage_add_conditions(linkage, tie, component, triangle);
     }
     OST_TRY(ost_null_space(linkage->ctx, 6, 6, triangle, linkage->tolerance, &count, basis));

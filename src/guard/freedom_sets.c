@@ -91,14 +91,6 @@ static void find_groups(Sets *sets)
     }
 }
 
-static int place_of(const Sets *sets, OstLocal component)
-{
-    int i = 0;
-    while (i < sets->free->members && sets->free->member[i] != component)
-        i++;
-    return i < sets->free->members ? i : -1;
-}
-
 /* The groups still connected to group `from` when its edge to group `without` is removed. */
 static void reach(Sets *sets, int from, int without)
 {
@@ -114,7 +106,8 @@ static void reach(Sets *sets, int from, int without)
             for (OstLocal j = linkage->joint_start[component];
                  sets->group[i] == g && j < linkage->joint_start[component + 1]; j++) {
                 const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-                const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, component));
+                const int other =
+                    ost_place_of(sets->free->members, sets->free->member, ost_linkage_neighbour(tie, component));
                 const int h = other < 0 ? g : sets->group[other];
                 if (sets->in[h] || (g == from && h == without))
                     continue;
@@ -247,7 +240,8 @@ static OstStatus examine_sides(Sets *sets, OstFreedomReport *report)
         const OstLocal component = sets->free->member[i];
         for (OstLocal j = linkage->joint_start[component]; j < linkage->joint_start[component + 1]; j++) {
             const OstTie *tie = &linkage->ties->tie[linkage->joint[j]];
-            const int other = place_of(sets, ost_linkage_neighbour(linkage, tie, component));
+            const int other =
+                ost_place_of(sets->free->members, sets->free->member, ost_linkage_neighbour(tie, component));
             if (sets->found_rank == sets->free->count)
                 return OST_SUCCESS;
             if (other > i && sets->group[i] != sets->group[other])

@@ -263,10 +263,9 @@ OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, cons
     OstTies mine = {0};
     *ties = (OstTies){0};
     OstStatus status = ost_agree(mesh->ctx, list_mine(mesh, supports, components, frames, &mine));
-    if (status == OST_SUCCESS)
-        status = ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
-                                  "the mesh falls into too many components to check their constraints",
-                                  (void **)&ties->tie, &ties->count);
+    OST_THEN(ost_gather_items(mesh->ctx, sizeof *mine.tie, mine.tie, mine.count,
+                              "the mesh falls into too many components to check their constraints", (void **)&ties->tie,
+                              &ties->count));
     if (status == OST_SUCCESS)
         unite(ties);
     else

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "guard/freedom_words.h"
+#include "guard/freedom_report.h"
 
 #include "core/error.h"
 #include "core/small.h"
@@ -156,11 +156,6 @@ static OstStatus sort_motions(OstContext *ctx, int count, const double *motions,
     return OST_SUCCESS;
 }
 
-static void normal_of(const double *a, const double *b, double normal[3])
-{
-    ost_cross3(a, b, normal);
-}
-
 static void say_moves(Words *words, const Sorted *sorted)
 {
     char text[POINT_TEXT];
@@ -171,7 +166,7 @@ static void say_moves(Words *words, const Sorted *sorted)
     if (sorted->moves == 3) {
         say(words, "move in any direction");
     } else if (sorted->moves == 2) {
-        normal_of(sorted->move, sorted->move + 3, normal);
+        ost_cross3(sorted->move, sorted->move + 3, normal);
         direction_words(normal, text);
         say(words, "move in any direction normal to %s", text);
     } else {
@@ -241,7 +236,7 @@ static int slides_across(const Sorted *sorted, const double w[3])
     if (sorted->moves < 2)
         return 0;
     double normal[3], cross[3];
-    normal_of(sorted->move, sorted->move + 3, normal);
+    ost_cross3(sorted->move, sorted->move + 3, normal);
     ost_cross3(normal, w, cross);
     return ost_norm3(cross) <= same;
 }
@@ -279,7 +274,7 @@ static void say_turns(Words *words, const OstRigidFrame *frame, const Sorted *so
         next_clause(words);
         say(words, "turn about any line through %s", place);
         if (sorted->turns == 2) {
-            normal_of(sorted->turn, sorted->turn + 3, normal);
+            ost_cross3(sorted->turn, sorted->turn + 3, normal);
             direction_words(normal, axis);
             say(words, " normal to %s", axis);
         }

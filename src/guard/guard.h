@@ -14,15 +14,15 @@ void ost_object(OstVerdict *verdict, OstStatus status, const char *format, ...) 
 /* Local. The verdict as a failure, all objections in its message; OST_SUCCESS if there are none. */
 OstStatus ost_verdict_raise(OstContext *ctx, const OstVerdict *verdict);
 
-/* Collective, before anything is assembled. Objects to motions that nothing constrains (freedom.h). */
+/* Collective, before anything is assembled. Objects to motions that nothing constrains (ost_freedom_check). */
 OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before);
 
 /* Collective, once the stiffness is filled and before a solver is built on it. Objects to numbers whose squares leave
- * double precision (number_range.h) and to rigid motions that cost a force (rigid_motion.h); `modes` are those that
+ * double precision (before.c) and to rigid motions that cost a force (rigid_motion.h); `modes` are those that
  * multigrid is given. `resistance` becomes the largest such force, over |K| |motion|. */
 OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, double *resistance, OstVerdict *before);
 
-/* Collective, before each solve. Objects to loads of a free body that do not balance (load_balance.h), and to a
+/* Collective, before each solve. Objects to loads of a free body that do not balance, and to a
  * right-hand side (3 × rows) out of range. */
 OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdict *before);
 
@@ -40,5 +40,12 @@ typedef struct OstSolvedFor {
  * asked for. */
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result);
+
+/* Collective, before anything is assembled. Finds the connected components of the body (tets joined through faces) and
+ * the rigid motions that supports, and hinges between components, leave them. Raises OST_INVALID_INPUT that describes
+ * these motions if there are any, and for tets that occur twice. Warns of motions that are weakly constrained, and of
+ * vertices that coincide where the body has several components. Messages begin with `where` (the case file).
+ * `free_body`: the supports are those of a floating body, which changes the advice. */
+OstStatus ost_freedom_check(const OstMesh *mesh, const OstSupports *supports, const char *where, int free_body);
 
 #endif

@@ -254,11 +254,9 @@ OstStatus ost_rigid_motion_of_rows(const OstSystem *system, const double *modes,
     Rows rows = {.system = system, .modes = modes};
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &rows.supported, system->mesh->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &rows.motion, 3 * (size_t)system->matrix->columns);
+    OST_THEN(OST_NEW(ctx, &rows.motion, 3 * (size_t)system->matrix->columns));
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = examine_rows(&rows, worst);
+    OST_THEN(examine_rows(&rows, worst));
     OST_FREE(rows.supported);
     OST_FREE(rows.motion);
     ost_ledger_leave(ctx);

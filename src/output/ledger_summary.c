@@ -47,15 +47,6 @@ static void print_account(const OstLedgerSummary *summary, OstAccount account, c
     printf("  %-23s %8.3f s %9.2f MiB\n", label, summary->seconds[account], summary->peak_bytes[account] / mebibyte);
 }
 
-/* Prints what was counted even if the effect is off, so that a contradiction shows. */
-static void print_effect(const OstScene *scene, const OstLedgerSummary *summary, OstEffect effect)
-{
-    if (ost_effect_on(&scene->plan.effects, effect) || summary->entries[effect] > 0)
-        print_account(summary, effect, ost_effect_label(effect));
-    else
-        printf("  %-23s        off\n", ost_effect_label(effect));
-}
-
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary)
 {
     if (ost_rank(scene->ctx) != 0)
@@ -66,7 +57,11 @@ void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary)
             print_account(summary, a, ost_ledger_label(scene->ctx, a));
     printf(" effects\n");
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
-        print_effect(scene, summary, (OstEffect)e);
+        /* What was counted even if the effect is off, so that a contradiction shows. */
+        if (ost_effect_on(&scene->plan.effects, (OstEffect)e) || summary->entries[e] > 0)
+            print_account(summary, e, ost_effect_label((OstEffect)e));
+        else
+            printf("  %-23s        off\n", ost_effect_label((OstEffect)e));
     printf("  %-23s %8.3f s %9.2f MiB   (processes: %.0f MiB)\n", "total", summary->total_seconds,
            summary->peak_tracked_bytes / mebibyte, summary->peak_process_bytes / mebibyte);
 }

@@ -10,92 +10,6 @@ static const char *const field_word[OST_FIELD_COUNT] = {
 #undef OST_FIELD_WORD
 };
 
-/* Arrays computed for the file alone. */
-typedef struct Derived {
-    double *axes;
-    int32_t *rank;
-} Derived;
-
-static OstStatus make_axes(const OstResult *result, double **axes)
-{
-    OST_TRY(OST_NEW(result->ctx, axes, 9 * (size_t)result->mesh->owned_tets));
-    for (OstLocal t = 0; t < result->mesh->owned_tets; t++)
-        ost_field_axes(result->field, t, *axes + 9 * (size_t)t);
-    return OST_SUCCESS;
-}
-
-static OstStatus make_rank(const OstResult *result, int32_t **rank)
-{
-    OST_TRY(OST_NEW(result->ctx, rank, result->mesh->owned_tets));
-    for (OstLocal t = 0; t < result->mesh->owned_tets; t++)
-        (*rank)[t] = ost_rank(result->ctx);
-    return OST_SUCCESS;
-}
-
-static OstStatus describe_field(const OstResult *result, OstOutputFieldBit field, Derived *derived,
-                                OstOutputArray *array)
-{
-    *array = (OstOutputArray){field_word[field], OST_ON_TETS, OST_VALUES_DOUBLE, 6, NULL};
-    switch (field) {
-    case OST_FIELD_DISPLACEMENT:
-        *array = (OstOutputArray){field_word[field], OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->displacement};
-        return OST_SUCCESS;
-    case OST_FIELD_REACTION:
-        *array = (OstOutputArray){field_word[field], OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->reaction};
-        return OST_SUCCESS;
-    case OST_FIELD_STRESS:
-        array->values = result->stress;
-        return OST_SUCCESS;
-    case OST_FIELD_NODE_STRESS:
-        *array = (OstOutputArray){field_word[field], OST_ON_NODES, OST_VALUES_DOUBLE, 6, result->node_stress};
-        return OST_SUCCESS;
-    case OST_FIELD_STRAIN:
-        array->values = result->strain;
-        return OST_SUCCESS;
-    case OST_FIELD_ENERGY:
-        array->components = 1;
-        array->values = result->strain_energy_density;
-        return OST_SUCCESS;
-    case OST_FIELD_AXES:
-        array->components = 9;
-        OST_TRY(make_axes(result, &derived->axes));
-        array->values = derived->axes;
-        return OST_SUCCESS;
-    case OST_FIELD_REGION:
-        array->components = 1;
-        array->type = OST_VALUES_INT32;
-        array->values = result->mesh->tet_region;
-        return OST_SUCCESS;
-    default:
-        array->components = 1;
-        array->type = OST_VALUES_INT32;
-        OST_TRY(make_rank(result, &derived->rank));
-        array->values = derived->rank;
-        return OST_SUCCESS;
-    }
-}
-
-/* Is there such a field? Some are only recovered on request, and not every body has material axes. */
-static int has_field(const OstResult *result, OstOutputFieldBit field)
-{
-    switch (field) {
-    case OST_FIELD_REACTION:
-        return result->reaction != NULL;
-    case OST_FIELD_STRESS:
-        return result->stress != NULL;
-    case OST_FIELD_NODE_STRESS:
-        return result->node_stress != NULL;
-    case OST_FIELD_STRAIN:
-        return result->strain != NULL;
-    case OST_FIELD_ENERGY:
-        return result->strain_energy_density != NULL;
-    case OST_FIELD_AXES:
-        return result->field->region_axes != NULL || result->field->tet_axes != NULL;
-    default:
-        return 1;
-    }
-}
-
 const char *ost_result_status(const OstResult *result)
 {
     return result->verdict.count == 0 ? "accepted" : result->unfinished ? "unfinished" : "refused";
@@ -104,24 +18,53 @@ const char *ost_result_status(const OstResult *result)
 OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path)
 {
     OstContext *ctx = result->ctx;
-    OstOutputArray arrays[OST_FIELD_COUNT];
-    Derived derived = {NULL, NULL};
+    const OstMesh *mesh = result->mesh;
+    const OstMaterialField *field = result->field;
     const OstVerdict *objections = &result->verdict;
+    const int has_axes = fields >> OST_FIELD_AXES & 1U && (field->region_axes || field->tet_axes);
+    const int has_rank = fields >> OST_FIELD_RANK & 1U;
+    double *axes = NULL; /* these two are computed for the file alone */
+    int32_t *rank = NULL;
     char *reasons[OST_MOST_OBJECTIONS];
     const OstOutputMark mark = {ost_result_status(result), result->unfinished, objections->count, reasons};
+    OstOutputArray arrays[OST_FIELD_COUNT];
     int count = 0;
-    ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
     OstStatus status = OST_SUCCESS;
+    ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
     for (int i = 0; i < objections->count; i++)
         reasons[i] = (char *)objections->text[i];
-    for (int field = 0; field < OST_FIELD_COUNT && status == OST_SUCCESS; field++)
-        if ((fields >> field & 1U) != 0 && has_field(result, (OstOutputFieldBit)field))
-            status = describe_field(result, (OstOutputFieldBit)field, &derived, &arrays[count++]);
-    status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_vtkhdf_write(ctx, path, result->mesh, count, arrays, objections->count > 0 ? &mark : NULL);
-    OST_FREE(derived.axes);
-    OST_FREE(derived.rank);
+    if (has_axes)
+        status = OST_NEW(ctx, &axes, 9 * (size_t)mesh->owned_tets);
+    if (has_rank)
+        OST_THEN(OST_NEW(ctx, &rank, mesh->owned_tets));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
+        if (has_axes)
+            ost_field_axes(field, t, axes + 9 * (size_t)t);
+        if (has_rank)
+            rank[t] = ost_rank(ctx);
+    }
+    /* Fields without values were not recovered, or the body does not have them. */
+    const OstOutputArray all[OST_FIELD_COUNT] = {
+        [OST_FIELD_DISPLACEMENT] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->displacement},
+        [OST_FIELD_REACTION] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->reaction},
+        [OST_FIELD_STRESS] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 6, result->stress},
+        [OST_FIELD_NODE_STRESS] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 6, result->node_stress},
+        [OST_FIELD_STRAIN] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 6, result->strain},
+        [OST_FIELD_ENERGY] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 1, result->strain_energy_density},
+        [OST_FIELD_AXES] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 9, axes},
+        [OST_FIELD_REGION] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, mesh->tet_region},
+        [OST_FIELD_RANK] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, rank},
+    };
+    for (int f = 0; f < OST_FIELD_COUNT; f++)
+        if (fields >> f & 1U && all[f].values) {
+            arrays[count] = all[f];
+            arrays[count++].name = field_word[f];
+        }
+    status = ost_vtkhdf_write(ctx, path, mesh, count, arrays, objections->count > 0 ? &mark : NULL);
+done:
+    OST_FREE(axes);
+    OST_FREE(rank);
     ost_ledger_leave(ctx);
     return status;
 }

@@ -58,12 +58,6 @@ static void print_errors(const OstChecks *checks)
     printf("\n");
 }
 
-static void print_objections(const OstResult *result)
-{
-    for (int i = 0; i < result->verdict.count; i++)
-        printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
-}
-
 /* A larger error of linear theory is warned of: strains of 4 %, or rotations of 0.2 (11 degrees). The mesh rarely has a
  * smaller one. */
 static const double small_error = 0.02;
@@ -84,36 +78,28 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
     return 1;
 }
 
-static void print_warning(const OstChecks *checks)
-{
-    char text[OST_LONGEST_WARNING];
-    if (ost_linearity_warning(checks, text))
-        printf("  %-16s %s\n", "WARNING", text);
-}
-
-static void print_checks(const OstChecks *checks)
-{
-    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
-           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance, checks->energy_imbalance);
-}
-
 void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file)
 {
     if (ost_rank(scene->ctx) != 0)
         return;
     const OstMesh *mesh = result->mesh;
     const double *at = result->largest_at;
+    const OstChecks *checks = &result->checks;
+    char warning[OST_LONGEST_WARNING];
     printf("%s\n", scene->c->title ? scene->c->title : scene->c->path);
     printf("  mesh             %lld vertices, %lld tet%s, %d rank%s\n", (long long)mesh->global_nodes,
            (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
-    print_checks(&result->checks);
-    print_errors(&result->checks);
-    printf("  strain energy    %.10g\n", result->checks.strain_energy);
+    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
+           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance, checks->energy_imbalance);
+    print_errors(checks);
+    printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
-    print_warning(&result->checks);
-    print_objections(result);
+    if (ost_linearity_warning(checks, warning))
+        printf("  %-16s %s\n", "WARNING", warning);
+    for (int i = 0; i < result->verdict.count; i++)
+        printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
     if (file)
         printf("  written to       %s%s%s\n", file, result->verdict.count > 0 ? ", marked as " : "",
                result->verdict.count > 0 ? ost_result_status(result) : "");

@@ -88,8 +88,7 @@ OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
         status = add_constraint(scene, &scene->c->constraints[i], *supports);
-    if (status == OST_SUCCESS)
-        status = ost_supports_complete(*supports);
+    OST_THEN(ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
     return status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/coarse_parents.h"
+#include "problem/coarse_space.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -46,22 +46,15 @@ static int is_straight(const double *middle, const double *from, const double *t
     return ost_norm3(bend) <= straight * ost_norm3(edge);
 }
 
-static double sum_of_sizes(const double weights[VERTICES])
-{
-    double sum = 0.0;
-    for (int v = 0; v < VERTICES; v++)
-        sum += fabs(weights[v]);
-    return sum;
-}
-
 /* Interpolates a curved edge's row from this tet's vertices, unless another tet at the edge did so with a smaller sum
  * of weights, that is, with the node less far outside of it. */
 static void interpolate_in_tet(const double *const x[VERTICES], const double *point, const OstLocal columns[VERTICES],
                                OstLocal *parents, double *weights, double *weight_sum)
 {
-    double barycentric[VERTICES];
+    double barycentric[VERTICES], size = 0.0;
     barycentric_coordinates(x, point, barycentric);
-    const double size = sum_of_sizes(barycentric);
+    for (int v = 0; v < VERTICES; v++)
+        size += fabs(barycentric[v]);
     if (!(size < *weight_sum * (1.0 - 1e-9)))
         return;
     *weight_sum = size;

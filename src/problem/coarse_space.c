@@ -5,7 +5,6 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "orthostat/refine.h"
-#include "problem/coarse_parents.h"
 
 void ost_linear_space_destroy(OstLinearSpace **space)
 {
@@ -65,10 +64,8 @@ OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialF
     *space = NULL;
     ost_ledger_enter(ctx, OST_EFFECT_LINEAR_SPACE);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
-    if (status == OST_SUCCESS)
-        status = take_vertices(made, quadratic);
-    if (status == OST_SUCCESS)
-        status = has_free_vertex(made, &has_rows);
+    OST_THEN(take_vertices(made, quadratic));
+    OST_THEN(has_free_vertex(made, &has_rows));
     if (status == OST_SUCCESS && has_rows)
         status = assemble(made, quadratic, field, with_metric);
     if (status != OST_SUCCESS || !has_rows)

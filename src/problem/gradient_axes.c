@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/gradient_axes.h"
+#include "problem/scene_parts.h"
 
 #include "algebra/solver.h"
 #include "assembly/laplacian.h"
 #include "assembly/supports.h"
 #include "assembly/system.h"
-#include "case/regions.h"
+#include "case/case_data.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -106,10 +106,8 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
     OstSolverOptions options = scene->c->solver;
     options.relative_residual = potential_residual;
     OstStatus status = OST_NEW(ctx, &rhs, unknowns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &v, unknowns);
-    if (status == OST_SUCCESS)
-        status = ost_system_fill_laplacian(system, rhs);
+    OST_THEN(OST_NEW(ctx, &v, unknowns));
+    OST_THEN(ost_system_fill_laplacian(system, rhs));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_row_geometry_create(system, NULL, 0, &rows));
     OST_TRY_DONE(ost_solver_create(ctx, system->matrix, &rows.geometry, &options, &solver));

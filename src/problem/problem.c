@@ -2,7 +2,7 @@
 #include "problem/problem.h"
 
 #include "assembly/batch.h"
-#include "case/plan_parts.h"
+#include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
@@ -42,13 +42,6 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **sup
     return ost_supports_complete(*supports);
 }
 
-static void find_material_facts(const OstMaterialField *field, OstSolverFacts *facts)
-{
-    double softest = 0.0, stiffest = 0.0;
-    for (int r = 0; r < field->region_count; r++)
-        ost_plan_add_facts(field->ctx, &field->material[r].constants, &softest, &stiffest, facts);
-}
-
 /* Without supports and facts, with room for loads on `nodes` nodes. */
 static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstLocal nodes, OstProblem **problem)
 {
@@ -68,11 +61,13 @@ static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstL
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
 {
     OstProblem *made = NULL;
+    double softest = 0.0, stiffest = 0.0;
     OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
         made->free_body = parts->free_body;
         made->with_metric = parts->field->region_axes != NULL;
-        find_material_facts(parts->field, &made->facts);
+        for (int r = 0; r < parts->field->region_count; r++)
+            ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
         status = constrain_nodes(parts, &made->supports);

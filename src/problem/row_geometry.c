@@ -10,8 +10,7 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
     OstContext *ctx = system->ctx;
     const size_t count = (size_t)system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &rows->coordinates, 3 * count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &rows->modes, 18 * count);
+    OST_THEN(OST_NEW(ctx, &rows->modes, 18 * count));
     if (status == OST_SUCCESS && with_metric) {
         ost_ledger_enter(ctx, OST_EFFECT_ORTHOTROPY);
         status = OST_NEW(ctx, &rows->metric, 6 * count);

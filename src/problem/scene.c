@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/scene_data.h"
 
-#include "case/regions.h"
+#include "case/case_data.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
-#include "problem/gradient_axes.h"
-#include "problem/scene_materials.h"
-#include "problem/scene_mesh.h"
+#include "problem/scene_parts.h"
 
 #include <string.h>
 
@@ -19,27 +17,22 @@ static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kin
     return !materials->material[region].isotropic && materials->axes[region].kind == kind;
 }
 
-static OstStatus refuse_mesh_axes(const OstCase *c, const char *region)
+static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const OstSceneMaterials *materials)
 {
     const char *reason = c->mesh_kind == OST_MESH_FILE
                              ? "the mesh file has no cell field 'axes' of nine components"
                              : "built-in shapes have no axes; a mesh file may have them as a cell field 'axes'";
+    int r = 0;
+    while (r < mesh->regions.count && !wants(materials, r, OST_AXES_CELLS))
+        r++;
+    if (mesh->tet_axes || mesh->tet_count == 0 || r == mesh->regions.count)
+        return OST_SUCCESS;
     return ost_case_located(
-        c, ost_case_material_of(c, region)->axes_place,
+        c, ost_case_material_of(c, mesh->regions.name[r])->axes_place,
         OST_RAISE(c->ctx, OST_INVALID_INPUT,
                   "region '%.80s' takes its axes from the mesh, but %s; give a table instead (axes: "
                   "{cells: file.txt}), or a formula",
-                  region, reason));
-}
-
-static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const OstSceneMaterials *materials)
-{
-    if (mesh->tet_axes || mesh->tet_count == 0)
-        return OST_SUCCESS;
-    for (int r = 0; r < mesh->regions.count; r++)
-        if (wants(materials, r, OST_AXES_CELLS))
-            return refuse_mesh_axes(c, mesh->regions.name[r]);
-    return OST_SUCCESS;
+                  mesh->regions.name[r], reason));
 }
 
 static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
@@ -65,8 +58,7 @@ static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMateri
         status = ost_mesh_linear(scene->mesh, &linear, NULL);
         on_vertices.mesh = linear;
     }
-    if (status == OST_SUCCESS)
-        status = fill_gradient_axes(&on_vertices, materials, *axes);
+    OST_THEN(fill_gradient_axes(&on_vertices, materials, *axes));
     ost_mesh_destroy(&linear);
     ost_ledger_leave(scene->ctx);
     return status;
@@ -89,13 +81,11 @@ static OstStatus create_field(const OstMesh *mesh, const OstEffects *effects, co
     if (ost_effect_on(effects, OST_EFFECT_VARYING_AXES) && needs_centroids(mesh, materials, axes)) {
         ost_ledger_enter(ctx, OST_EFFECT_VARYING_AXES);
         status = OST_NEW(ctx, &centroids, (size_t)mesh->tet_count * 3);
-        if (status == OST_SUCCESS)
-            status = ost_mesh_tet_centroids(mesh, centroids);
+        OST_THEN(ost_mesh_tet_centroids(mesh, centroids));
         ost_ledger_leave(ctx);
     }
-    if (status == OST_SUCCESS)
-        status = ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
-                                  mesh->tet_label, centroids, tet_axes, field);
+    OST_THEN(ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
+                              mesh->tet_label, centroids, tet_axes, field));
     OST_FREE(centroids);
     return ost_agree(ctx, status);
 }
@@ -115,14 +105,15 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_GRADIENT_AXES))
         status = solve_gradient_axes(scene, materials, &gradient_axes);
-    if (status == OST_SUCCESS)
-        status = create_field(mesh, effects, materials->material, materials->axes,
-                              gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field);
+    OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
+                          gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
     return status;
 }
 
-static int count_nearly_incompressible(const OstScene *scene)
+/* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
+ * use the mean dilatation of each tet, which prevents it. */
+static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
     int regions = 0;
     for (int r = 0; r < scene->field->region_count; r++) {
@@ -130,14 +121,6 @@ static int count_nearly_incompressible(const OstScene *scene)
         if (ost_orthotropic_eigenvalues(scene->ctx, &scene->field->material[r].constants, eigenvalues) == OST_SUCCESS)
             regions += ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE);
     }
-    return regions;
-}
-
-/* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
- * use the mean dilatation of each tet, which prevents it. */
-static OstStatus treat_nearly_incompressible(OstScene *scene)
-{
-    int regions = count_nearly_incompressible(scene);
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MEAN_DILATATION)) {
         ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): each tet uses its mean dilatation",
                 OST_NEARLY_INCOMPRESSIBLE);
@@ -153,15 +136,6 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
         "them through its wall by 5 %% at nu = 0.49, by 10 to 25 %% at 0.499, by 10 to 50 %% at 0.4999. Quadratic "
         "ones are right to 0.1 %%: set element: {order: 2}; `orthostat cost` says how much they differ here",
         OST_NEARLY_INCOMPRESSIBLE, regions, regions == 1 ? "" : "s");
-    return OST_SUCCESS;
-}
-
-static OstStatus check_places(const OstCase *c, const OstMesh *mesh)
-{
-    for (int i = 0; i < c->constraint_count; i++)
-        OST_TRY(ost_select_check_place(c, mesh, &c->constraints[i].on));
-    for (int i = 0; i < c->load_count; i++)
-        OST_TRY(ost_select_check_place(c, mesh, &c->loads[i].on));
     return OST_SUCCESS;
 }
 
@@ -199,7 +173,10 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
     OST_TRY_DONE(make_plan(made, from_file));
-    OST_TRY_DONE(check_places(c, made->mesh));
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->loads[i].on));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:

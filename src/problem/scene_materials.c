@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/scene_materials.h"
+#include "problem/scene_parts.h"
 
-#include "case/regions.h"
+#include "case/case_data.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -23,8 +23,7 @@ OstStatus ost_scene_materials(const OstCase *c, const OstNames *regions, const O
 {
     OstContext *ctx = c->ctx;
     OstStatus status = OST_NEW(ctx, &materials->material, regions->count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &materials->axes, regions->count);
+    OST_THEN(OST_NEW(ctx, &materials->axes, regions->count));
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(check_regions_exist(c, regions));
     for (int r = 0; r < regions->count; r++) {
@@ -59,8 +58,7 @@ static OstStatus read_cell_axes(const OstCase *c, const OstCaseMaterial *stated,
     double *table = NULL;
     int region = -1, counts = 0;
     OstStatus status = OST_NEW(ctx, &line, tets);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &table, 9 * tets);
+    OST_THEN(OST_NEW(ctx, &table, 9 * tets));
     if (status == OST_SUCCESS && !chunk->tet_axes)
         status = OST_NEW(ctx, &chunk->tet_axes, 9 * tets);
     OST_TRY_DONE(ost_agree(ctx, status));

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/scene_mesh.h"
+#include "problem/scene_parts.h"
 
 #include "case/plan.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "material/field_data.h"
 #include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
-#include "problem/scene_partition.h"
 
 /* Refuses a mesh too large for the machines before it is made. Compares the least that a solve needs, so that nothing
  * is refused that would fit. */
@@ -61,6 +62,50 @@ static OstStatus merge_vertices(const OstCase *c, OstMeshChunk *chunk)
         ost_log(c->ctx, OST_LOG_NORMAL, "%s: merge: %g joined %lld vertices with others", c->path, c->merge,
                 (long long)merged);
     return OST_SUCCESS;
+}
+
+/* Is the region orthotropic, with axes that are known before the mesh is partitioned? */
+static int has_direction(const OstMeshChunk *chunk, const OstSceneMaterials *materials, int region)
+{
+    const OstAxesKind kind = materials->axes[region].kind;
+    return !materials->material[region].isotropic &&
+           (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT);
+}
+
+/* By a field on the chunk, in which regions without known axes are isotropic. */
+static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric)
+{
+    OstContext *ctx = chunk->ctx;
+    const OstSceneMaterials *materials = data;
+    const int regions = chunk->regions.count;
+    OstMaterialField *field = NULL;
+    OstMaterial *material = NULL;
+    OST_TRY(OST_NEW(ctx, &material, regions));
+    for (int r = 0; r < regions; r++) {
+        material[r] = materials->material[r];
+        if (!has_direction(chunk, materials, r))
+            material[r] = (OstMaterial){.isotropic = 1, .constants.youngs_modulus = {1.0, 1.0, 1.0}};
+    }
+    const OstStatus status = ost_field_create(ctx, NULL, regions, material, materials->axes, chunk->tet_count,
+                                              chunk->tet_region, chunk->tet_label, centroids, chunk->tet_axes, &field);
+    for (OstLocal t = 0; t < chunk->tet_count && status == OST_SUCCESS; t++)
+        ost_field_metric(field, t, metric + 6 * (size_t)t);
+    ost_field_destroy(&field);
+    OST_FREE(material);
+    return status;
+}
+
+/* Collective. Distributes the mesh (ost_mesh_distribute) so that borders of ranks run along the stiff directions of
+ * orthotropic materials rather than across them: aggregates and blocks of multigrid end at a border, and a strong
+ * coupling lost there costs iterations. Axes that are not known yet (of gradients) count as isotropic; a body of
+ * isotropic materials is partitioned without weights. */
+static OstStatus partition(const OstSceneMaterials *materials, OstMeshChunk **chunk, OstMesh **mesh)
+{
+    const OstTetMetric metric = {materials, tet_metrics};
+    int any = 0;
+    for (int r = 0; r < (*chunk)->regions.count; r++)
+        any |= has_direction(*chunk, materials, r);
+    return ost_mesh_distribute_by((*chunk)->ctx, chunk, any ? &metric : NULL, mesh);
 }
 
 /* The curved surface on which new nodes of the case's shape are placed. */
@@ -118,12 +163,9 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     const OstShapeSurface surface = true_surface(c);
     *mesh = NULL;
     OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
-    if (status == OST_SUCCESS)
-        status = ost_scene_partition(materials, chunk, mesh);
-    if (status == OST_SUCCESS)
-        status = refine(c, &surface, mesh);
-    if (status == OST_SUCCESS)
-        status = change_order(c, &surface, mesh);
+    OST_THEN(partition(materials, chunk, mesh));
+    OST_THEN(refine(c, &surface, mesh));
+    OST_THEN(change_order(c, &surface, mesh));
     if (status != OST_SUCCESS)
         ost_mesh_destroy(mesh);
     return status;
@@ -136,12 +178,9 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *mesh = NULL;
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
-    if (status == OST_SUCCESS)
-        status = ost_scene_read_cell_axes(c, chunk);
-    if (status == OST_SUCCESS)
-        status = merge_vertices(c, chunk);
-    if (status == OST_SUCCESS)
-        status = ost_scene_distribute(c, *from_file, &chunk, mesh, materials);
+    OST_THEN(ost_scene_read_cell_axes(c, chunk));
+    OST_THEN(merge_vertices(c, chunk));
+    OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);
     if (status != OST_SUCCESS)
         ost_file_materials_destroy(from_file);

@@ -4,18 +4,12 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "solve/recovery.h"
-#include "solve/result.h"
 #include "solve/strategy.h"
-
-static const OstStrategy *pick(const OstProblem *problem)
-{
-    return ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
-}
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
     OstContext *ctx = problem->ctx;
-    const OstStrategy *strategy = pick(problem);
+    const OstStrategy *strategy = ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
     *analysis = NULL;
     if (!strategy)
         return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and there is no strategy for that");
@@ -47,16 +41,6 @@ static OstStatus prepare(OstAnalysis *analysis)
     return status == OST_SUCCESS ? ost_verdict_raise(analysis->ctx, &before) : status;
 }
 
-/* Checks what the solver reached, finished or not, and adds the fields asked for. */
-static OstStatus examine(const OstAnalysis *analysis, const OstSolvedFor *solved_for, unsigned fields,
-                         OstResult *result)
-{
-    OST_TRY(ost_result_take_load(result, analysis->problem));
-    OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, solved_for, result));
-    OST_TRY(ost_result_find_largest(result));
-    return ost_agree(analysis->ctx, ost_result_recover(result, fields));
-}
-
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
     OstContext *ctx = analysis->ctx;
@@ -75,7 +59,10 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
         analysis->strategy->release(analysis);
         ost_problem_release_stiffness(analysis->problem);
     }
-    OST_TRY(examine(analysis, &solved_for, fields, result));
+    OST_TRY(ost_result_take_load(result, analysis->problem));
+    OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, &solved_for, result));
+    OST_TRY(ost_result_find_largest(result));
+    OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
     return result->unfinished ? OST_RAISE(ctx, solved, "%s", result->verdict.text[0])
                               : ost_verdict_raise(ctx, &result->verdict);
 }
@@ -91,8 +78,7 @@ OstStatus ost_problem_solve(OstProblem *problem, const OstSolverOptions *options
     OstAnalysis *analysis = NULL;
     OST_TRY(ost_result_create(problem, result));
     OstStatus status = ost_analysis_create(problem, options, &analysis);
-    if (status == OST_SUCCESS)
-        status = solve(analysis, 1, fields, *result);
+    OST_THEN(solve(analysis, 1, fields, *result));
     ost_analysis_destroy(&analysis);
     ost_problem_release_stiffness(problem);
     return status;
@@ -102,8 +88,7 @@ OstStatus ost_problem_dry_run(OstProblem *problem, const OstSolverOptions *optio
 {
     OstAnalysis *analysis = NULL;
     OstStatus status = ost_analysis_create(problem, options, &analysis);
-    if (status == OST_SUCCESS)
-        status = prepare(analysis);
+    OST_THEN(prepare(analysis));
     ost_analysis_destroy(&analysis);
     ost_problem_release_stiffness(problem);
     return status;
@@ -113,8 +98,7 @@ OstStatus ost_scene_dry_run(const OstScene *scene)
 {
     OstProblem *problem = NULL;
     OstStatus status = ost_scene_problem(scene, &problem);
-    if (status == OST_SUCCESS)
-        status = ost_problem_dry_run(problem, &scene->c->solver);
+    OST_THEN(ost_problem_dry_run(problem, &scene->c->solver));
     ost_problem_destroy(&problem);
     return status;
 }
@@ -125,8 +109,7 @@ OstStatus ost_scene_solve(const OstScene *scene, OstResult **result)
     OstProblem *problem = NULL;
     *result = NULL;
     OstStatus status = ost_scene_problem(scene, &problem);
-    if (status == OST_SUCCESS)
-        status = ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result);
+    OST_THEN(ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result));
     ost_problem_destroy(&problem);
     return status;
 }

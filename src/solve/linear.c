@@ -44,13 +44,11 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     analysis->work = linear;
     const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &linear->rhs, unknowns);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &linear->v, unknowns);
+    OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
     OST_TRY(ost_agree(ctx, status));
     ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
     status = ost_row_geometry_create(problem->system, problem->field, problem->with_metric, &linear->rows);
-    if (status == OST_SUCCESS)
-        status = ost_problem_facts(problem, &linear->facts);
+    OST_THEN(ost_problem_facts(problem, &linear->facts));
     ost_ledger_leave(ctx);
     OST_TRY(status);
     return ost_guard_stiffness(problem, linear->rows.modes, &linear->rigid_motion, before);

@@ -5,7 +5,10 @@
 #include "case/case_data.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "solve/node_stress.h"
+#include "core/parallel/halo.h"
+#include "element/strain_batch.h"
+
+#include <string.h>
 
 static int asks(unsigned fields, OstOutputFieldBit field)
 {
@@ -46,6 +49,107 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
     return OST_SUCCESS;
 }
 
+/* Sums over the tets around each owned node. */
+typedef struct Sums {
+    int32_t *region; /* the lowest of the tets around the node */
+    double *volume;  /* of that region's tets */
+    double *stress;  /* times volume, 6 × node_count */
+} Sums;
+
+static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
+{
+    return mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet;
+}
+
+static void find_regions(const OstMesh *mesh, int32_t *region)
+{
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        region[node] = INT32_MAX;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
+        for (int a = 0; a < mesh->nodes_per_tet; a++) {
+            const OstLocal node = nodes_of(mesh, tet)[a];
+            if (node < mesh->owned_nodes && mesh->tet_region[tet] < region[node])
+                region[node] = mesh->tet_region[tet];
+        }
+}
+
+/* Stress at the nodes of a batch's tets, 6 numbers a node. */
+static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
+                            OstElasticity *at_nodes, OstSimd *stress)
+{
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd strain[6 * OST_MAX_TET_NODES];
+    OstMeans means;
+    ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
+    element->nodal_strain(batch->x, u, strain);
+    element->means(batch->x, &batch->elasticity, u, &means);
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
+    for (int a = 0; a < element->nodes; a++) {
+        const int at = ost_elasticity_at(at_nodes, a);
+        ost_simd_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);
+        for (int p = 0; p < 6 && at_nodes->by_mean; p++) /* where C is split, the stiff mode's part is its mean */
+            stress[6 * a + p] += means.stiff * at_nodes->m[at][p];
+    }
+}
+
+static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
+                      Sums *sums)
+{
+    for (int slot = 0; slot < batch->count; slot++) {
+        const OstLocal tet = batch->tet[slot];
+        const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes_of(mesh, tet)));
+        for (int a = 0; a < element->nodes; a++) {
+            const OstLocal node = batch->node[slot][a];
+            if (node >= mesh->owned_nodes || mesh->tet_region[tet] != sums->region[node])
+                continue;
+            sums->volume[node] += volume;
+            for (int p = 0; p < 6; p++)
+                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][slot];
+        }
+    }
+}
+
+static void average(const OstResult *result, Sums *sums)
+{
+    const OstMesh *mesh = result->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    OstElasticity at_nodes;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_elasticity_clear(&at_nodes);
+    find_regions(mesh, sums->region);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd stress[6 * OST_MAX_TET_NODES];
+        ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
+        stress_of_batch(result, element, &batch, &at_nodes, stress);
+        add_batch(mesh, element, &batch, stress, sums);
+    }
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        for (size_t p = 0; p < 6; p++)
+            sums->stress[6 * (size_t)node + p] /= sums->volume[node];
+}
+
+/* Collective. Makes result->node_stress, ghosts included (see recovery.h). */
+static OstStatus recover_node_stress(OstResult *result)
+{
+    OstContext *ctx = result->ctx;
+    const OstMesh *mesh = result->mesh;
+    Sums sums = {0};
+    OstStatus status = OST_NEW(ctx, &sums.stress, 6 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &sums.volume, mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &sums.region, mesh->owned_nodes));
+    if (status == OST_SUCCESS)
+        average(result, &sums);
+    status = ost_agree(ctx, status);
+    OST_THEN(ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), sums.stress)));
+    OST_FREE(sums.volume);
+    OST_FREE(sums.region);
+    if (status != OST_SUCCESS)
+        OST_FREE(sums.stress);
+    result->node_stress = sums.stress;
+    return status;
+}
+
 OstStatus ost_result_recover(OstResult *result, unsigned fields)
 {
     OstContext *ctx = result->ctx;
@@ -56,7 +160,7 @@ OstStatus ost_result_recover(OstResult *result, unsigned fields)
     ost_ledger_enter(ctx, OST_EFFECT_RECOVERY);
     OstStatus status = ost_agree(ctx, recover_means(result, fields));
     if (status == OST_SUCCESS && at_nodes)
-        status = ost_result_recover_node_stress(result);
+        status = recover_node_stress(result);
     ost_ledger_leave(ctx);
     return status;
 }

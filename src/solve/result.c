@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "solve/result.h"
+#include "solve/strategy.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -45,8 +45,7 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem)
 {
     OstContext *ctx = result->ctx;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, 1.0, result->force);
     return ost_agree(ctx, status);

@@ -9,7 +9,7 @@ sources = [read(path) for path in sorted(glob.glob(os.path.join(SOURCE, "src", "
 page = read("docs", "case.md")
 code = code_of(page)
 
-keys = {key for text in sources for key in re.findall(r'\{"(\w+)",\s*OST_(?:OPTIONAL|NEEDED)', text)}
+keys = {key for text in sources for key in re.findall(r'\.name = "(\w+)"', text)}
 keys |= {key for text in sources for key in re.findall(r'\{OST_\w+,\s*"(\w+)",', text)}  # forms of axes and selections
 check(len(keys) > 70 and {"mesh", "youngs_modulus", "nu12", "G13", "gradient", "nearest"} <= keys,
       f"keys are no longer found in src/case: {sorted(keys)}")

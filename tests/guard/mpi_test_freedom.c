@@ -4,7 +4,7 @@
 #include "mesh/mesh_support.h"
 
 #include "core/small.h"
-#include "guard/freedom.h"
+#include "guard/guard.h"
 #include "mesh/lattice.h"
 
 static OstSupports *new_supports(const OstMesh *mesh)

@@ -5,7 +5,7 @@
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
 #include "orthostat/refine.h"
-#include "problem/coarse_parents.h"
+#include "problem/coarse_space.h"
 
 /* A quarter of a tube, whose quadratic tets have curved edges on both surfaces; held at one end. */
 typedef struct Body {

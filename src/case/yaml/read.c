@@ -99,6 +99,9 @@ OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYaml
         if (keys[k].needed && !keys[k].value)
             return ost_yaml_raise(yaml, node, "key '%s' is missing in %s", keys[k].name,
                                   ost_yaml_place(yaml, mapping, place, sizeof place));
+    for (int k = 0; k < count; k++)
+        if (keys[k].read && keys[k].value)
+            OST_TRY(keys[k].read(yaml, keys[k].value, keys[k].into));
     return OST_SUCCESS;
 }
 
@@ -139,6 +142,11 @@ OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, cons
                ? OST_SUCCESS
                : ost_yaml_raise(yaml, node, "found a list of %d, expected at most %d entries", *count,
                                 OST_YAML_MOST_ENTRIES);
+}
+
+int ost_yaml_says(const OstYaml *yaml, const OstYamlNode *node, const char *word)
+{
+    return ost_yaml_is(yaml, node, OST_YAML_SCALAR) && strcmp(scalar_text(yaml, node), word) == 0;
 }
 
 OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char **text)
@@ -206,9 +214,7 @@ OstStatus ost_yaml_integer(const OstYaml *yaml, const OstYamlNode *node, int64_t
     return *number >= low && *number <= high ? OST_SUCCESS : raise_integer(yaml, node, low, high);
 }
 
-typedef OstStatus (*NumberReader)(const OstYaml *yaml, const OstYamlNode *node, double *number);
-
-static OstStatus read_list(const OstYaml *yaml, const OstYamlNode *node, int count, NumberReader read, double *numbers)
+OstStatus ost_yaml_numbers(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers)
 {
     char expected[64];
     int found;
@@ -218,18 +224,22 @@ static OstStatus read_list(const OstYaml *yaml, const OstYamlNode *node, int cou
         return ost_yaml_raise_type(yaml, node, expected, "");
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read(yaml, item, &numbers[i]));
+        OST_TRY(ost_yaml_number(yaml, item, &numbers[i]));
     return OST_SUCCESS;
-}
-
-OstStatus ost_yaml_numbers(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers)
-{
-    return read_list(yaml, node, count, ost_yaml_number, numbers);
 }
 
 OstStatus ost_yaml_positives(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers)
 {
-    return read_list(yaml, node, count, ost_yaml_positive, numbers);
+    OST_TRY(ost_yaml_numbers(yaml, node, count, numbers));
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(ost_yaml_positive(yaml, item, &numbers[i]));
+    return OST_SUCCESS;
+}
+
+OstStatus ost_yaml_vector(const OstYaml *yaml, const OstYamlNode *node, double vector[3])
+{
+    return ost_yaml_numbers(yaml, node, 3, vector);
 }
 
 OstStatus ost_yaml_direction(const OstYaml *yaml, const OstYamlNode *node, double direction[3])

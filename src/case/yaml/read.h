@@ -3,25 +3,26 @@
 #define ORTHOSTAT_CASE_YAML_READ_H
 
 #include "case/yaml/message.h"
-#include "case/yaml/place.h"
 
 /* Typed reading of a YAML tree. Every function is local, follows aliases, and raises OST_INVALID_INPUT as
  * "path:line:column: what was found, what was expected". */
 
-/* A key that a mapping may have. ost_yaml_mapping fills `value`; NULL if the key is absent. */
+/* A key that a mapping may have, optional unless `needed`. ost_yaml_mapping fills `value`; NULL if the key is absent.
+ */
 typedef struct OstYamlKey {
     const char *name;
     int needed;
     const OstYamlNode *value;
+    OstStatus (*read)(const OstYaml *yaml, const OstYamlNode *node, double *into); /* or NULL: the caller reads it */
+    double *into;
 } OstYamlKey;
-
-enum { OST_OPTIONAL = 0, OST_NEEDED = 1 };
 
 #define OST_COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
 OstPlace ost_yaml_at(const OstYamlNode *node);
 
-/* Fills the keys' values; refuses unknown, repeated and missing keys, and keys without a value. */
+/* Fills the keys' values; refuses unknown, repeated and missing keys, and keys without a value. Then reads those with a
+ * `read`, in their order. */
 OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count);
 
 /* Which one of the first `count` keys has a value; refuses none, and more than one. */
@@ -35,6 +36,7 @@ OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, cons
 
 /* Scalars. A number is finite, with nothing after it; an integer lies in [low, high]. The text lives as long as the
  * tree. */
+int ost_yaml_says(const OstYaml *yaml, const OstYamlNode *node, const char *word);
 OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char **text);
 OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *number);
 OstStatus ost_yaml_positive(const OstYaml *yaml, const OstYamlNode *node, double *number);
@@ -42,7 +44,8 @@ OstStatus ost_yaml_integer(const OstYaml *yaml, const OstYamlNode *node, int64_t
 OstStatus ost_yaml_numbers(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers);
 OstStatus ost_yaml_positives(const OstYaml *yaml, const OstYamlNode *node, int count, double *numbers);
 
-/* Three numbers that are not all zero, scaled to length 1. */
+/* Three numbers; a direction's are not all zero, and scaled to length 1. */
+OstStatus ost_yaml_vector(const OstYaml *yaml, const OstYamlNode *node, double vector[3]);
 OstStatus ost_yaml_direction(const OstYaml *yaml, const OstYamlNode *node, double direction[3]);
 
 /* One of some words; `what` names their kind ("field"). */

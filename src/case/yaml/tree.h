@@ -8,6 +8,11 @@
  * them. libyaml parses. The tree is our own because yaml_document_t takes up to 160 times the size of the text (ours at
  * most six times), takes minutes for a megabyte of deep nesting, and loses the places of aliases. */
 
+/* Line and column of a word in the case file, from 1, for messages; zeros if there is none. */
+typedef struct OstPlace {
+    int line, column;
+} OstPlace;
+
 typedef enum { OST_YAML_SCALAR, OST_YAML_SEQUENCE, OST_YAML_MAPPING, OST_YAML_ALIAS } OstYamlKind;
 
 typedef struct OstYamlNode {

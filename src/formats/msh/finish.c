@@ -163,8 +163,7 @@ static OstStatus make_boundaries(const OstMsh *msh)
         if (group->dimension == 3)
             continue;
         OstStatus status = copy_group_name(msh, group->dimension, group->tag, &name);
-        if (status == OST_SUCCESS)
-            status = add_boundary(msh, group, &name);
+        OST_THEN(add_boundary(msh, group, &name));
         OST_FREE(name);
         OST_TRY(status);
     }

@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/msh/msh.h"
-#include "formats/serial/serial.h"
+#include "formats/serial/formats.h"
 
 #include <stdio.h>
 #include <stdlib.h>

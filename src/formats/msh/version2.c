@@ -9,14 +9,6 @@
 enum { BINARY_NODE = 28, TEXT_NODE = 8, SMALLEST_ELEMENT = 8 };
 
 /* Parametric nodes have more behind their coordinates: dimension and tag of an entity, and parameters. */
-static OstStatus skip_parameters(OstMshCursor *cursor)
-{
-    int dimension = 0, tag = 0;
-    OST_TRY(ost_msh_int(cursor, "the dimension of a node's entity", &dimension));
-    OST_TRY(ost_msh_int(cursor, "the tag of a node's entity", &tag));
-    return ost_msh_skip_doubles(cursor, "a parameter of a node", dimension == 1 || dimension == 2 ? dimension : 0);
-}
-
 static OstStatus read_nodes(OstMsh *msh, int parametric)
 {
     OstMshCursor *cursor = &msh->cursor;
@@ -25,13 +17,17 @@ static OstStatus read_nodes(OstMsh *msh, int parametric)
     OST_TRY(ost_msh_check_count(cursor, "nodes", count, cursor->binary ? BINARY_NODE : TEXT_NODE));
     OST_TRY(ost_msh_reserve_nodes(msh, count));
     for (OstGlobal i = 0; i < count; i++) {
-        int tag = 0;
+        int tag = 0, dimension = 0, entity = 0;
         double x[3];
         OST_TRY(ost_msh_int(cursor, "a node's tag", &tag));
         for (int c = 0; c < 3; c++)
             OST_TRY(ost_msh_double(cursor, "a coordinate", &x[c]));
-        if (parametric)
-            OST_TRY(skip_parameters(cursor));
+        if (parametric) {
+            OST_TRY(ost_msh_int(cursor, "the dimension of a node's entity", &dimension));
+            OST_TRY(ost_msh_int(cursor, "the tag of a node's entity", &entity));
+            const int parameters = dimension == 1 || dimension == 2 ? dimension : 0;
+            OST_TRY(ost_msh_skip_doubles(cursor, "a parameter of a node", parameters));
+        }
         OST_TRY(ost_msh_add_node(msh, tag, x));
     }
     return ost_msh_index_nodes(msh);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/serial/serial.h"
 #include "formats/veg/veg.h"
 
 #include <string.h>

@@ -75,8 +75,7 @@ static OstStatus write_boundaries(OstHdf5 *h5, const OstMesh *mesh)
     char **names = NULL;
     int32_t *kinds = NULL;
     OstStatus status = OST_NEW(h5->ctx, &names, count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(h5->ctx, &kinds, 2 * count);
+    OST_THEN(OST_NEW(h5->ctx, &kinds, 2 * count));
     OST_TRY_DONE(ost_agree(h5->ctx, status));
     for (int b = 0; b < count; b++) {
         names[b] = mesh->boundaries[b].name;
@@ -207,10 +206,8 @@ static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t
                                                      "with more ranks",
                                                      h5->path, count)
                                          : OST_NEW(h5->ctx, &pool, chunk->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(h5->ctx, &value, chunk->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(h5->ctx, &query, count);
+    OST_THEN(OST_NEW(h5->ctx, &value, chunk->node_count));
+    OST_THEN(OST_NEW(h5->ctx, &query, count));
     OST_TRY_DONE(ost_agree(h5->ctx, status));
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         value[i] = chunk->first_node + i;
@@ -257,11 +254,9 @@ OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
     if (!found)
         return OST_SUCCESS;
     OstStatus status = read_kinds(h5, chunk);
-    if (status == OST_SUCCESS)
-        status = read_items(h5, chunk, &count, &width, &items);
+    OST_THEN(read_items(h5, chunk, &count, &width, &items));
     const size_t labels = (size_t)count * (size_t)width;
-    if (status == OST_SUCCESS)
-        status = OST_NEW(h5->ctx, &number, labels);
+    OST_THEN(OST_NEW(h5->ctx, &number, labels));
     OST_TRY_DONE(ost_agree(h5->ctx, status));
     OST_TRY_DONE(find_nodes(h5, chunk, labels, items, number));
     OST_TRY_DONE(ost_agree(h5->ctx, fill_boundaries(h5, chunk, count, width, items, number)));

@@ -114,8 +114,7 @@ static OstStatus create_together(OstHdf5 *h5)
         h5->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
         status = ost_agree(h5->ctx, h5->file < 0 ? ost_hdf5_raise(h5, "create the file", "") : OST_SUCCESS);
     }
-    if (access >= 0)
-        H5Pclose(access);
+    ost_hdf5_release(access);
     return status;
 }
 

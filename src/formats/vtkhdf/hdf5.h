@@ -41,6 +41,13 @@ OstStatus ost_hdf5_open(OstContext *ctx, const char *path, OstHdf5 *h5);
 /* Collective for a file that was created, else local. Raises OST_FILE_FAILED if not all was written. */
 OstStatus ost_hdf5_close(OstHdf5 *h5);
 
+/* Local. Closes a dataset, type, space, ... unless it could not be opened. */
+static inline void ost_hdf5_release(hid_t object)
+{
+    if (object >= 0)
+        H5Idec_ref(object);
+}
+
 /* Local. Raises OST_FILE_FAILED as "path: could not <action>: <HDF5's innermost reason>". */
 OstStatus ost_hdf5_raise(const OstHdf5 *h5, const char *action, const char *name);
 

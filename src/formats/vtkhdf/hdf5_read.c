@@ -33,8 +33,7 @@ static OstStatus check_stored(const OstHdf5 *h5, const char *name, hid_t dataset
 {
     const hid_t type = H5Dget_type(dataset);
     const double size = type < 0 ? 0.0 : (double)H5Tget_size(type);
-    if (type >= 0)
-        H5Tclose(type);
+    ost_hdf5_release(type);
     const double claimed = (double)extent[0] * (double)extent[1] * size;
     const double stored = (double)H5Dget_storage_size(dataset);
     if (claimed > LARGEST_COMPRESSION * stored)
@@ -59,8 +58,7 @@ static OstStatus open_dataset(const OstHdf5 *h5, const char *name, hid_t *datase
     const int dimensions = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
     const int good =
         (dimensions == 1 || dimensions == 2) && H5Sget_simple_extent_dims(space, extent, NULL) == dimensions;
-    if (space >= 0)
-        H5Sclose(space);
+    ost_hdf5_release(space);
     if (!good || extent[0] > INT64_MAX || extent[1] > INT32_MAX)
         return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: %s is not an array of one or two dimensions", h5->path, name);
     return check_stored(h5, name, *dataset, extent);
@@ -71,8 +69,7 @@ OstStatus ost_hdf5_shape(const OstHdf5 *h5, const char *name, OstGlobal *rows, i
     hid_t dataset = H5I_INVALID_HID;
     hsize_t extent[2] = {0, 0};
     const OstStatus status = open_dataset(h5, name, &dataset, extent);
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    ost_hdf5_release(dataset);
     if (status != OST_SUCCESS)
         return status;
     *rows = (OstGlobal)extent[0];
@@ -87,8 +84,7 @@ static OstStatus check_class(const OstHdf5 *h5, const char *name, hid_t dataset,
     const H5T_class_t found = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
     const H5T_class_t asked = H5Tget_class(wanted);
     const int fixed_string = found == H5T_STRING && H5Tis_variable_str(type) == 0;
-    if (type >= 0)
-        H5Tclose(type);
+    ost_hdf5_release(type);
     if (found == asked && (found != H5T_STRING || fixed_string))
         return OST_SUCCESS;
     if (found == H5T_INTEGER && asked == H5T_FLOAT)
@@ -111,10 +107,8 @@ static OstStatus read_selected(const OstHdf5 *h5, const char *name, hid_t datase
         H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, NULL, size, NULL) < 0 ||
         H5Dread(dataset, type, memory_space, file_space, H5P_DEFAULT, values) < 0)
         status = ost_hdf5_raise(h5, "read", name);
-    if (file_space >= 0)
-        H5Sclose(file_space);
-    if (memory_space >= 0)
-        H5Sclose(memory_space);
+    ost_hdf5_release(file_space);
+    ost_hdf5_release(memory_space);
     return status;
 }
 
@@ -128,12 +122,10 @@ OstStatus ost_hdf5_read_rows(const OstHdf5 *h5, const char *name, hid_t type, in
         status = OST_RAISE(
             h5->ctx, OST_INVALID_INPUT, "%s: %s has %llu rows of %llu; expected %lld of %d by the counts in the file",
             h5->path, name, (unsigned long long)extent[0], (unsigned long long)extent[1], (long long)total, components);
-    if (status == OST_SUCCESS)
-        status = check_class(h5, name, dataset, type);
+    OST_THEN(check_class(h5, name, dataset, type));
     if (status == OST_SUCCESS && count > 0)
         status = read_selected(h5, name, dataset, type, first, count, components, values);
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    ost_hdf5_release(dataset);
     return status;
 }
 
@@ -148,8 +140,7 @@ static hsize_t rows_at_once(hid_t dataset, const hsize_t extent[2], hsize_t *end
         H5Pget_chunk(made, 2, chunk);
     else if (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT)
         *end = extent[0] < 1 ? extent[0] : 1;
-    if (made >= 0)
-        H5Pclose(made);
+    ost_hdf5_release(made);
     return chunk[0] < extent[0] ? chunk[0] : extent[0];
 }
 
@@ -176,12 +167,10 @@ OstStatus ost_hdf5_try_rows(const OstHdf5 *h5, const char *name, hid_t type)
     if (!ost_hdf5_has(h5, name))
         return OST_SUCCESS;
     OstStatus status = open_dataset(h5, name, &dataset, extent);
-    if (status == OST_SUCCESS)
-        status = check_class(h5, name, dataset, type);
+    OST_THEN(check_class(h5, name, dataset, type));
     if (status == OST_SUCCESS && extent[1] <= MOST_COMPONENTS)
         status = try_rows(h5, name, dataset, type, extent);
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    ost_hdf5_release(dataset);
     return status;
 }
 
@@ -200,10 +189,8 @@ static OstStatus open_attribute(const OstHdf5 *h5, const char *group, const char
     const H5T_class_t wanted = count > 0 ? H5T_INTEGER : H5T_STRING;
     const int good = space >= 0 && type >= 0 && H5Tget_class(type) == wanted &&
                      H5Sget_simple_extent_npoints(space) == (count > 0 ? count : 1);
-    if (space >= 0)
-        H5Sclose(space);
-    if (type >= 0)
-        H5Tclose(type);
+    ost_hdf5_release(space);
+    ost_hdf5_release(type);
     return good ? OST_SUCCESS
                 : OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: the attribute %s of %s is not %s", h5->path, name, group,
                             count > 0 ? "made of two integers" : "one string");
@@ -215,8 +202,7 @@ OstStatus ost_hdf5_read_integers(const OstHdf5 *h5, const char *group, const cha
     OstStatus status = open_attribute(h5, group, name, count, &attribute);
     if (status == OST_SUCCESS && H5Aread(attribute, H5T_NATIVE_INT, values) < 0)
         status = ost_hdf5_raise(h5, "read the attribute", name);
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    ost_hdf5_release(attribute);
     return status;
 }
 
@@ -244,10 +230,8 @@ OstStatus ost_hdf5_read_text(const OstHdf5 *h5, const char *group, const char *n
     const hid_t type = attribute < 0 ? H5I_INVALID_HID : H5Aget_type(attribute);
     if (status == OST_SUCCESS && (type < 0 || read_string(attribute, type, text, size) < 0))
         status = ost_hdf5_raise(h5, "read the attribute", name);
-    if (type >= 0)
-        H5Tclose(type);
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    ost_hdf5_release(type);
+    ost_hdf5_release(attribute);
     return status;
 }
 
@@ -257,10 +241,8 @@ static OstStatus name_length(const OstHdf5 *h5, const char *name, size_t *length
     const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT);
     const hid_t type = dataset < 0 ? H5I_INVALID_HID : H5Dget_type(dataset);
     *length = type < 0 ? 0 : H5Tget_size(type);
-    if (type >= 0)
-        H5Tclose(type);
-    if (dataset >= 0)
-        H5Dclose(dataset);
+    ost_hdf5_release(type);
+    ost_hdf5_release(dataset);
     return *length == 0 ? ost_hdf5_raise(h5, "read", name) : OST_SUCCESS;
 }
 
@@ -285,8 +267,7 @@ OstStatus ost_hdf5_read_names(const OstHdf5 *h5, const char *name, int *count, c
     for (; *count < rows; (*count)++)
         OST_TRY_DONE(ost_copy_string(h5->ctx, text + (size_t)*count * (length + 1), &(*names)[*count]));
 done:
-    if (type >= 0)
-        H5Tclose(type);
+    ost_hdf5_release(type);
     OST_FREE(text);
     return status;
 }

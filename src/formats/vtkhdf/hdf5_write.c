@@ -17,10 +17,8 @@ static OstStatus create_dataset(OstHdf5 *h5, const char *name, hid_t type, int c
     if (space >= 0 && layout >= 0 && H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER) >= 0)
         *dataset = H5Dcreate2(h5->file, name, type, space, h5->links, layout, H5P_DEFAULT);
     const OstStatus status = *dataset < 0 ? ost_hdf5_raise(h5, "create", name) : OST_SUCCESS;
-    if (space >= 0)
-        H5Sclose(space);
-    if (layout >= 0)
-        H5Pclose(layout);
+    ost_hdf5_release(space);
+    ost_hdf5_release(layout);
     return status;
 }
 
@@ -40,10 +38,8 @@ static OstStatus write_block(OstHdf5 *h5, const char *name, hid_t dataset, hid_t
     OstStatus status = ost_agree(h5->ctx, good ? OST_SUCCESS : ost_hdf5_raise(h5, "select rows of", name));
     if (status == OST_SUCCESS && H5Dwrite(dataset, type, memory_space, file_space, h5->transfer, values) < 0)
         status = ost_hdf5_raise(h5, "write", name);
-    if (file_space >= 0)
-        H5Sclose(file_space);
-    if (memory_space >= 0)
-        H5Sclose(memory_space);
+    ost_hdf5_release(file_space);
+    ost_hdf5_release(memory_space);
     return ost_agree(h5->ctx, status);
 }
 
@@ -73,8 +69,7 @@ static OstStatus write_attribute(OstHdf5 *h5, const char *group, const char *nam
     OstStatus status = OST_SUCCESS;
     if (attribute < 0 || H5Awrite(attribute, memory_type, values) < 0)
         status = ost_hdf5_raise(h5, "write the attribute", name);
-    if (attribute >= 0)
-        H5Aclose(attribute);
+    ost_hdf5_release(attribute);
     return ost_agree(h5->ctx, status);
 }
 
@@ -83,8 +78,7 @@ OstStatus ost_hdf5_write_integers(OstHdf5 *h5, const char *group, const char *na
     const hsize_t extent = (hsize_t)count;
     const hid_t space = H5Screate_simple(1, &extent, NULL);
     const OstStatus status = write_attribute(h5, group, name, H5T_STD_I64LE, H5T_NATIVE_INT, space, values);
-    if (space >= 0)
-        H5Sclose(space);
+    ost_hdf5_release(space);
     return status;
 }
 
@@ -105,10 +99,8 @@ OstStatus ost_hdf5_write_text(OstHdf5 *h5, const char *group, const char *name, 
     const hid_t type = string_type(strlen(text), H5T_CSET_ASCII);
     const hid_t space = H5Screate(H5S_SCALAR);
     const OstStatus status = write_attribute(h5, group, name, type, type, space, text);
-    if (type >= 0)
-        H5Tclose(type);
-    if (space >= 0)
-        H5Sclose(space);
+    ost_hdf5_release(type);
+    ost_hdf5_release(space);
     return status;
 }
 
@@ -129,8 +121,7 @@ OstStatus ost_hdf5_write_names(OstHdf5 *h5, const char *name, int count, char *c
         memcpy(text + (size_t)i * length, names[i], strlen(names[i]));
     status = ost_hdf5_write_rows(h5, name, type, 1, &rows, text);
 done:
-    if (type >= 0)
-        H5Tclose(type);
+    ost_hdf5_release(type);
     OST_FREE(text);
     return status;
 }

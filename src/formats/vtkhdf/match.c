@@ -63,8 +63,7 @@ OstStatus ost_match_keys(OstContext *ctx, OstLocal pool_count, const OstKey *poo
     OST_TRY_DONE(ost_route_carry(pool, sizeof *pool_key, pool_key, (void **)&keys));
     OST_TRY_DONE(ost_route_carry(pool, sizeof *pool_value, pool_value, (void **)&values));
     status = ost_index_create(ctx, OST_KEY_WORDS, &index);
-    if (status == OST_SUCCESS)
-        status = fill_index(pool->receives, keys, values, index);
+    OST_THEN(fill_index(pool->receives, keys, values, index));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_FREE(keys);
     OST_TRY_DONE(create_route(ctx, query_count, query_key, &query));

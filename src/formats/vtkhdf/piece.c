@@ -64,59 +64,30 @@ const void *ost_piece_gather(OstPiece *piece, size_t row_bytes, const void *valu
     return piece->gathered;
 }
 
-static OstStatus write_counts(OstHdf5 *h5, const OstPiece *piece)
-{
-    OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64, 1, &piece->one, &piece->points.count));
-    OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfCells", H5T_NATIVE_INT64, 1, &piece->one, &piece->tets.count));
-    return ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, &piece->one,
-                               &piece->connectivity.count);
-}
-
-static OstStatus write_connectivity(OstHdf5 *h5, const OstPiece *piece)
-{
-    OstGlobal *points = NULL;
-    OstStatus status = ost_agree(h5->ctx, OST_NEW(h5->ctx, &points, piece->connectivity.count));
-    if (status == OST_SUCCESS) {
-        for (OstGlobal i = 0; i < piece->connectivity.count; i++)
-            points[i] = piece->point[piece->mesh->tet_nodes[i]];
-        status = ost_hdf5_write_rows(h5, "/VTKHDF/Connectivity", H5T_NATIVE_INT64, 1, &piece->connectivity, points);
-    }
-    OST_FREE(points);
-    return status;
-}
-
-static OstStatus write_offsets(OstHdf5 *h5, const OstPiece *piece)
-{
-    OstGlobal *offset = NULL;
-    OstStatus status = ost_agree(h5->ctx, OST_NEW(h5->ctx, &offset, piece->offsets.count));
-    if (status == OST_SUCCESS) {
-        for (OstGlobal i = 0; i < piece->offsets.count; i++)
-            offset[i] = i * piece->mesh->nodes_per_tet;
-        status = ost_hdf5_write_rows(h5, "/VTKHDF/Offsets", H5T_NATIVE_INT64, 1, &piece->offsets, offset);
-    }
-    OST_FREE(offset);
-    return status;
-}
-
-static OstStatus write_types(OstHdf5 *h5, const OstPiece *piece)
-{
-    unsigned char *types = NULL;
-    OstStatus status = ost_agree(h5->ctx, OST_NEW(h5->ctx, &types, piece->tets.count));
-    if (status == OST_SUCCESS) {
-        memset(types, piece->mesh->nodes_per_tet == 4 ? VTK_TETRA : VTK_QUADRATIC_TETRA, (size_t)piece->tets.count);
-        status = ost_hdf5_write_rows(h5, "/VTKHDF/Types", H5T_NATIVE_UCHAR, 1, &piece->tets, types);
-    }
-    OST_FREE(types);
-    return status;
-}
-
 OstStatus ost_piece_write_shape(OstHdf5 *h5, OstPiece *piece)
 {
     const OstMesh *mesh = piece->mesh;
-    OST_TRY(write_counts(h5, piece));
+    const OstGlobal ids = piece->connectivity.count, offsets = piece->offsets.count;
+    OstGlobal *numbers = NULL;
+    unsigned char *types = NULL;
+    OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64, 1, &piece->one, &piece->points.count));
+    OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfCells", H5T_NATIVE_INT64, 1, &piece->one, &piece->tets.count));
+    OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, &piece->one, &ids));
     OST_TRY(ost_hdf5_write_rows(h5, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, 3, &piece->points,
                                 ost_piece_gather(piece, 3 * sizeof(double), mesh->coordinates)));
-    OST_TRY(write_connectivity(h5, piece));
-    OST_TRY(write_offsets(h5, piece));
-    return write_types(h5, piece);
+    OstStatus status = OST_NEW(h5->ctx, &numbers, ids > offsets ? ids : offsets);
+    OST_THEN(OST_NEW(h5->ctx, &types, piece->tets.count));
+    OST_TRY_DONE(ost_agree(h5->ctx, status));
+    for (OstGlobal i = 0; i < ids; i++)
+        numbers[i] = piece->point[mesh->tet_nodes[i]];
+    OST_TRY_DONE(ost_hdf5_write_rows(h5, "/VTKHDF/Connectivity", H5T_NATIVE_INT64, 1, &piece->connectivity, numbers));
+    for (OstGlobal i = 0; i < offsets; i++)
+        numbers[i] = i * mesh->nodes_per_tet;
+    OST_TRY_DONE(ost_hdf5_write_rows(h5, "/VTKHDF/Offsets", H5T_NATIVE_INT64, 1, &piece->offsets, numbers));
+    memset(types, mesh->nodes_per_tet == 4 ? VTK_TETRA : VTK_QUADRATIC_TETRA, (size_t)piece->tets.count);
+    status = ost_hdf5_write_rows(h5, "/VTKHDF/Types", H5T_NATIVE_UCHAR, 1, &piece->tets, types);
+done:
+    OST_FREE(numbers);
+    OST_FREE(types);
+    return status;
 }

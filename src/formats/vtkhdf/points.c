@@ -165,8 +165,7 @@ static OstStatus number_points(Merge *merge, const OstMeshChunk *chunk)
     OstStatus status = ost_agree(merge->h5->ctx, OST_NEW(merge->h5->ctx, &query, points->count));
     for (OstLocal i = 0; status == OST_SUCCESS && i < points->count; i++)
         query[i].word[0] = merge->representative[i];
-    if (status == OST_SUCCESS)
-        status = ost_match_keys(merge->h5->ctx, pool, merge->key, merge->matched, points->count, query, points->node);
+    OST_THEN(ost_match_keys(merge->h5->ctx, pool, merge->key, merge->matched, points->count, query, points->node));
     OST_FREE(query);
     return status;
 }
@@ -212,14 +211,6 @@ static int is_mine(const OstFilePoints *points, OstGlobal point)
     return point >= points->first && point < points->first + points->count;
 }
 
-static void fill_number_keys(const OstFilePoints *points, OstKey *pool, const OstNumberSet *others, OstKey *query)
-{
-    for (OstLocal i = 0; i < points->count; i++)
-        pool[i].word[0] = points->first + i;
-    for (OstLocal i = 0; i < others->count; i++)
-        query[i].word[0] = others->number[i];
-}
-
 OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points, size_t count, OstGlobal *point)
 {
     OstNumberSet others = {0};
@@ -230,15 +221,15 @@ OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points,
         if (!is_mine(points, point[i]))
             status = ost_number_set_add(ctx, &others, point[i]);
     ost_number_set_close(&others);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &node, others.count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &pool, ost_size(ctx) > 1 ? points->count : 0);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &query, others.count);
+    OST_THEN(OST_NEW(ctx, &node, others.count));
+    OST_THEN(OST_NEW(ctx, &pool, ost_size(ctx) > 1 ? points->count : 0));
+    OST_THEN(OST_NEW(ctx, &query, others.count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_size(ctx) > 1) {
-        fill_number_keys(points, pool, &others, query);
+        for (OstLocal i = 0; i < points->count; i++)
+            pool[i].word[0] = points->first + i;
+        for (OstLocal i = 0; i < others.count; i++)
+            query[i].word[0] = others.number[i];
         OST_TRY_DONE(ost_match_keys(ctx, points->count, pool, points->node, others.count, query, node));
     }
     for (size_t i = 0; i < count; i++) {

@@ -193,8 +193,7 @@ static OstStatus read_offsets(const Reader *reader)
     OstStatus status = ost_hdf5_read_rows(&reader->h5, "/VTKHDF/Offsets", H5T_NATIVE_INT64, 1,
                                           chunk->global_tets + reader->points.piece_count,
                                           chunk->first_tet + first_piece, count, offset);
-    if (status == OST_SUCCESS)
-        status = check_offsets(reader, offset, first_piece);
+    OST_THEN(check_offsets(reader, offset, first_piece));
     OST_FREE(offset);
     return status;
 }
@@ -297,8 +296,7 @@ static OstStatus dry_run(OstContext *ctx, const char *path)
                   {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
     Reader reader = {.h5.file = H5I_INVALID_HID};
     OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
-    if (status == OST_SUCCESS)
-        status = check_kind(&reader);
+    OST_THEN(check_kind(&reader));
     const int can_be_read = status == OST_SUCCESS;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
         const OstStatus one = ost_hdf5_try_rows(&reader.h5, arrays[i].name, arrays[i].type);

@@ -4,13 +4,15 @@
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/write_aside.h"
-#include "formats/vtkhdf/disk_space.h"
 #include "formats/vtkhdf/groups.h"
 #include "formats/vtkhdf/piece.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static size_t row_bytes(const OstOutputArray *array)
 {
@@ -170,6 +172,36 @@ static OstStatus find_bytes(const OstMesh *mesh, int count, const OstOutputArray
     return OST_SUCCESS;
 }
 
+/* Returns 0, or errno. A file that cannot be opened is left to the writer, whose message is better. */
+static int allocate(const char *path, OstGlobal bytes, int empties)
+{
+    int reason = 0;
+    const int descriptor = open(path, O_WRONLY);
+    if (descriptor < 0)
+        return 0;
+    do
+        reason = fallocate(descriptor, 0, 0, (off_t)bytes) == 0 ? 0 : errno;
+    while (reason == EINTR);
+    if (empties && ftruncate(descriptor, 0) != 0 && reason == 0)
+        reason = errno;
+    close(descriptor);
+    return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
+}
+
+/* Is there room on disk for this many bytes (as rank 0 gives them)? Asks the file system to reserve them, which
+ * respects quotas and limits too; then empties the file again, or leaves them reserved, so that no other program takes
+ * them while the file is written (HDF5 truncates it when it closes it). Needed because Open MPI 4.1 does not report a
+ * full disk: the written file has holes, and HDF5 takes it for whole, or crashes as it closes it. A file system that
+ * cannot reserve space is trusted. */
+static OstStatus reserve_space(OstContext *ctx, const OstAside *file, OstGlobal bytes, int empties)
+{
+    const int reason = ost_rank(ctx) == 0 ? allocate(file->aside, bytes, empties) : 0;
+    return ost_agree(ctx, reason == 0 ? OST_SUCCESS
+                                      : OST_RAISE(ctx, OST_FILE_FAILED,
+                                                  "%s: needs %.3g MiB of disk space, which cannot be reserved: %s",
+                                                  file->path, (double)bytes / 1048576.0, strerror(reason)));
+}
+
 /* Tests for disk space before HDF5 writes anything, and reserves it until the file is written. */
 static OstStatus write_file(const OstAside *aside, OstPiece *piece, int count, const OstOutputArray *arrays,
                             const OstOutputMark *mark)
@@ -178,12 +210,10 @@ static OstStatus write_file(const OstAside *aside, OstPiece *piece, int count, c
     OstHdf5 h5;
     OstGlobal bytes = 0;
     OST_TRY(find_bytes(piece->mesh, count, arrays, &bytes));
-    OST_TRY(ost_disk_space_check(ctx, aside, bytes));
+    OST_TRY(reserve_space(ctx, aside, bytes, 1));
     OstStatus status = ost_hdf5_create(ctx, aside->aside, &h5);
-    if (status == OST_SUCCESS)
-        status = ost_disk_space_keep(ctx, aside, bytes);
-    if (status == OST_SUCCESS)
-        status = write_contents(&h5, piece, count, arrays, mark);
+    OST_THEN(reserve_space(ctx, aside, bytes, 0));
+    OST_THEN(write_contents(&h5, piece, count, arrays, mark));
     const OstStatus closed = ost_hdf5_close(&h5);
     return ost_agree(ctx, status != OST_SUCCESS ? status : closed);
 }
@@ -197,12 +227,9 @@ OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mes
     for (int a = 0; a < array_count; a++)
         largest_row = row_bytes(&arrays[a]) > largest_row ? row_bytes(&arrays[a]) : largest_row;
     OstStatus status = ost_agree(ctx, check_arrays(mesh, path, array_count, arrays));
-    if (status == OST_SUCCESS)
-        status = ost_piece_create(mesh, largest_row, &piece);
-    if (status == OST_SUCCESS)
-        status = ost_aside_open_together(ctx, path, &aside);
-    if (status == OST_SUCCESS)
-        status = ost_aside_finish_together(ctx, &aside, write_file(&aside, &piece, array_count, arrays, mark));
+    OST_THEN(ost_piece_create(mesh, largest_row, &piece));
+    OST_THEN(ost_aside_open_together(ctx, path, &aside));
+    OST_THEN(ost_aside_finish_together(ctx, &aside, write_file(&aside, &piece, array_count, arrays, mark)));
     ost_piece_free(&piece);
     return status;
 }

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_PROBLEM_SCENE_PARTS_H
+#define ORTHOSTAT_PROBLEM_SCENE_PARTS_H
+
+#include "problem/scene_data.h"
+
+/* One material and one specification of axes for every region of the mesh. The specifications borrow their arrays from
+ * the case. */
+typedef struct OstSceneMaterials {
+    OstMaterial *material;
+    OstAxesSpec *axes;
+} OstSceneMaterials;
+
+/* Local, the same on all ranks. One for each of the mesh's regions: the mesh file's materials, overridden by those of
+ * the case, later ones first. Raises OST_INVALID_INPUT if the case names a region that does not exist (listing those
+ * that do), or leaves one without a material. */
+OstStatus ost_scene_materials(const OstCase *c, const OstNames *regions, const OstFileMaterials *from_file,
+                              OstSceneMaterials *materials);
+void ost_scene_materials_release(OstSceneMaterials *materials);
+
+/* Collective. Reads the tables of axes that the case's materials name into the chunk's tet_axes: one line a tet, in the
+ * order of the mesh file. Done before the mesh is partitioned, while tets are in that order. */
+OstStatus ost_scene_read_cell_axes(const OstCase *c, OstMeshChunk *chunk);
+
+/* Collective. This rank's piece of the case's mesh: read or made, with the axes that the case has in tables,
+ * partitioned and distributed, refined as often as the case says, and in tets of the case's order (new nodes of shapes
+ * lie on the true surface). `from_file`: the materials that came with the file, or NULL; `materials`: one for each
+ * region. The partition runs along their stiff directions where it can. Both are the caller's to free. */
+OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file,
+                              OstSceneMaterials *materials);
+
+/* Collective. The second half of that: partitions, distributes and refines a chunk, which is consumed, and changes it
+ * to the case's order. */
+OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
+                               OstMesh **mesh, OstSceneMaterials *materials);
+
+/* Collective. Axes from two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, and has no
+ * flux elsewhere. e1 is the gradient of the first; e2 is the part of the second's orthogonal to e1. Both are solved at
+ * once, as components of a displacement, by the solver of the elastic problem. Fills `axes` (9 a tet) for the region's
+ * tets. Account OST_EFFECT_GRADIENT_AXES. */
+OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
+
+#endif
