@@ -53,7 +53,7 @@ static OstStatus check_shifted(const OstDirect *direct, const OstSolveReport *re
         !ost_surely_beyond(report->rounding_error, report->rounding_spread, ost_least_digit))
         return OST_SUCCESS;
     return OST_RAISE(direct->system.matrix->ctx, OST_NOT_CONVERGED,
-                     "rounded to double precision, the stiffness is not or hardly positive definite: the body, or a "
+                     "rounded to double precision, the stiffness is not positive definite, or hardly: the body, or a "
                      "part of it, can move freely or has no stiffness in some direction; constrain all six rigid "
                      "motions, and check that parts share nodes and that materials are definite");
 }
