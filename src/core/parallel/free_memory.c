@@ -114,8 +114,8 @@ OstStatus ost_memory_installed(OstContext *ctx, double *bytes)
 
 OstStatus ost_memory_foresee(OstContext *ctx, double bytes, const char *who)
 {
-    void *tried = malloc((size_t)bytes + 1);
-    const int fits = tried && bytes <= free_here();
+    void *tried = bytes <= free_here() ? malloc((size_t)bytes + 1) : NULL;
+    const int fits = tried != NULL;
     free(tried);
     if (fits)
         return ost_agree(ctx, OST_SUCCESS);
