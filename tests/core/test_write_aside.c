@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[64];
-static char place[400];
+static char folder[256];
+static char place[600];
 
 static const char *in_folder(const char *name)
 {
@@ -20,7 +20,8 @@ static const char *in_folder(const char *name)
 static int make_folder(void **state)
 {
     (void)state;
-    strcpy(folder, "/tmp/orthostat-aside-XXXXXX");
+    const char *temporary = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/orthostat-aside-XXXXXX", temporary ? temporary : P_tmpdir);
     return mkdtemp(folder) ? 0 : -1;
 }
 
