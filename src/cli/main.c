@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
-#include "core/memory.h"
+#include "core/address_space.h"
 
 #include <errno.h>
 #include <mpi.h>

@@ -1,31 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
 
-#include "core/memory.h"
+#include "core/address_space.h"
 
 #include <stdlib.h>
-
-extern void dpotrf_(const char *uplo, const int *n, double *a, const int *leading, int *info, size_t length);
-
-/* OpenBLAS takes a buffer of 128 MiB when it is first called, keeps it, and asks for ever where it gets none: it is
- * made to take it at once, while there is room. */
-static int start_blas(void)
-{
-    enum { BUFFER_MIB = 160 };
-    const int n = 1;
-    int info = 0;
-    double one = 1.0;
-    if (!ost_address_space_has(BUFFER_MIB))
-        return 0;
-    dpotrf_("L", &n, &one, &n, &info, 1);
-    return info == 0;
-}
 
 OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx)
 {
     OstContext *made = calloc(1, sizeof *made);
     *ctx = NULL;
-    if (!made || !start_blas()) {
+    if (!made || !ost_start_blas()) {
         free(made);
         return OST_OUT_OF_MEMORY;
     }
@@ -48,6 +32,9 @@ void ost_context_destroy(OstContext **ctx)
         return;
     ost_progress(*ctx, "", -1.0);
     MPI_Comm_free(&(*ctx)->comm);
+    for (int i = 0; i < (*ctx)->warnings; i++)
+        free((*ctx)->warning[i]);
+    free((*ctx)->warning);
     free(*ctx);
     *ctx = NULL;
 }

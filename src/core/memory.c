@@ -9,7 +9,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 /* Precedes every block, so that freeing it needs only the pointer. Aligned, so that the block behind it is. */
 typedef struct Header {
@@ -92,13 +91,6 @@ void ost_return_freed_memory(void)
 #ifdef __GLIBC__
     malloc_trim(0);
 #endif
-}
-
-int ost_address_space_has(size_t mebibytes)
-{
-    const size_t bytes = mebibytes << 20;
-    void *tried = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    return tried != MAP_FAILED && munmap(tried, bytes) == 0;
 }
 
 OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy)

@@ -15,9 +15,6 @@ OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memo
 /* Local. Returns to the system the freed memory that ost_keep_freed_memory makes malloc keep. */
 void ost_return_freed_memory(void);
 
-/* Local. Could the process map so many MiB more? Not if a limit (ulimit -v) is in the way. */
-int ost_address_space_has(size_t mebibytes);
-
 /* Local. A copy of a string in memory from ost_allocate. */
 OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy);
 

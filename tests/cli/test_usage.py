@@ -49,6 +49,19 @@ def impossible_sizes_are_told_by_their_limit(folder):
     check("ranks  " not in run("explain", "bar.yaml", folder=folder).output, "one rank will do, and nothing is said")
 
 
+def explain_says_where_each_modulus_goes(folder):
+    """Axes with the fibre along e1, but a material whose axis is e3: nothing else would show it."""
+    with open(os.path.join(folder, "fibre.yaml"), "w") as stream:
+        stream.write(CASE.replace("youngs_modulus: 1000", "axes: {fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]}, "
+                                  "youngs_modulus: {plane: 1, axis: 88}"))
+    words = "E = 88 along e3 (the axis), 1 along e1 and e2"
+    axes = "e1 = (0, 1, 0), e2 = (-1, 0, 0), e3 = (0, 0, 1)"
+    told = run("explain", "fibre.yaml", folder=folder)
+    check(words in told.output and axes in told.output, f"explain: {told.output}{told.errors}")
+    told = json.loads(run("explain", "fibre.yaml", "--json", folder=folder).output)
+    check(told["materials"] == [{"region": "all", "moduli": words, "axes": axes}], f"explain --json: {told}")
+
+
 def what_does_not_fit_is_said(folder):
     """A body of 2e9 tets is foreseen without being made; the bar fits."""
     with open(os.path.join(folder, "huge.yaml"), "w") as stream:
@@ -68,6 +81,7 @@ def main():
     with open(os.path.join(folder, "bar.yaml"), "w") as stream:
         stream.write(CASE)
     what_does_not_fit_is_said(folder)
+    explain_says_where_each_modulus_goes(folder)
 
     helped = run("--help")
     check(helped.exit_code == 0 and "solve" in helped.output and not helped.errors, "orthostat --help")
