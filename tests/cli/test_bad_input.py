@@ -2,7 +2,7 @@
 import os
 from concurrent.futures import ThreadPoolExecutor
 
-from program import check, new_folder, run
+from program import SANITIZED, check, new_folder, run
 
 GOOD = """mesh:
   block: {size: [2, 1, 1], divisions: [4, 2, 2]}
@@ -196,7 +196,8 @@ def refused(mistake, ranks):
 
 def main():
     with ThreadPoolExecutor(2) as pool:  # most of each run is Open MPI's start
-        runs = [pool.submit(refused, mistake, ranks) for mistake in MISTAKES for ranks in (1, 2)]
+        runs = [pool.submit(refused, mistake, ranks) for i, mistake in enumerate(MISTAKES)
+                for ranks in ((1 + i % 2,) if SANITIZED else (1, 2))]
         for done in runs:
             done.result()
 

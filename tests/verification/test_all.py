@@ -10,7 +10,7 @@ from program import SOURCE, check, new_folder, run  # noqa: E402
 
 os.environ["ORTHOSTAT_CASES"] = os.path.join(SOURCE, "cases")
 report = os.path.join(new_folder(), "verify.json")
-finished = run("verify", "--json", report, ranks=2, timeout=580)
+finished = run("verify", "--json", report, timeout=580)
 check(finished.exit_code == 0, f"verify: {finished.output[-4000:]}{finished.errors}")
 check("FAIL" not in finished.output, finished.output)
 with open(report, encoding="utf-8") as stream:

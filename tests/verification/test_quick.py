@@ -4,7 +4,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SOURCE, check, new_folder, run  # noqa: E402
+from program import SANITIZED, SOURCE, check, new_folder, run  # noqa: E402
 
 CASES = os.path.join(SOURCE, "cases")
 os.environ["ORTHOSTAT_CASES"] = CASES
@@ -42,6 +42,8 @@ def main():
             check(max(one["force_imbalance"], one["moment_imbalance"]) <= 1e-10, f"{case['name']} is out of balance")
             check(one["energy_imbalance"] <= 1e-9, f"{case['name']}: energy is not work")
 
+    if SANITIZED:  # the rest is about numbers
+        return
     # A sign, a factor, a wrong material, a wrong shear modulus, an axis that points elsewhere.
     fails_when(folder, "tube-lekhnitskii", "pressure: 1}\naccuracy", "pressure: -1}\naccuracy")
     fails_when(folder, "axial-pull", "total_force: [2,", "total_force: [2.0000001,")
