@@ -163,6 +163,7 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     const OstShapeSurface surface = true_surface(c);
     *mesh = NULL;
     OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
+    (*chunk)->straighten = c->straighten;
     OST_THEN(partition(materials, chunk, mesh));
     OST_THEN(refine(c, &surface, mesh));
     OST_THEN(change_order(c, &surface, mesh));

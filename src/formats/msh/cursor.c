@@ -176,18 +176,22 @@ OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value)
     return OST_SUCCESS;
 }
 
+static OstStatus read_double(OstMshCursor *cursor, const char *what, double *value)
+{
+    char *end = NULL;
+    if (cursor->binary)
+        return read_bytes(cursor, what, sizeof *value, value);
+    skip_blanks(cursor);
+    *value = strtod(cursor->next, &end);
+    if (end == cursor->next || !word_ends(cursor, end))
+        return raise_word(cursor, what);
+    cursor->next = end;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value)
 {
-    if (cursor->binary) {
-        OST_TRY(read_bytes(cursor, what, sizeof *value, value));
-    } else {
-        char *end = NULL;
-        skip_blanks(cursor);
-        *value = strtod(cursor->next, &end);
-        if (end == cursor->next || !word_ends(cursor, end))
-            return raise_word(cursor, what);
-        cursor->next = end;
-    }
+    OST_TRY(read_double(cursor, what, value));
     if (!isfinite(*value))
         return OST_RAISE_MSH(cursor, "%g found, expected %s that is finite", *value, what);
     return OST_SUCCESS;
@@ -197,7 +201,7 @@ OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal
 {
     double value = 0.0;
     for (OstGlobal i = 0; i < count; i++)
-        OST_TRY(ost_msh_double(cursor, what, &value));
+        OST_TRY(read_double(cursor, what, &value));
     return OST_SUCCESS;
 }
 
@@ -208,6 +212,14 @@ OstStatus ost_msh_check_count(const OstMshCursor *cursor, const char *what, OstG
         return OST_RAISE_MSH(cursor, "%" PRId64 " %s stated, which do not fit into the %" PRId64 " bytes left", count,
                              what, left);
     return OST_SUCCESS;
+}
+
+OstStatus ost_msh_count(OstMshCursor *cursor, const char *what, OstGlobal bytes_each, OstGlobal *count)
+{
+    char message[64];
+    snprintf(message, sizeof message, "the number of %s", what);
+    OST_TRY(ost_msh_size(cursor, message, count));
+    return ost_msh_check_count(cursor, what, *count, bytes_each);
 }
 
 OstStatus ost_msh_count_line(OstMshCursor *cursor, const char *what, OstGlobal *count)
