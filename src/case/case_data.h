@@ -134,6 +134,7 @@ struct OstCase {
     OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
+    unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
