@@ -16,9 +16,10 @@ static const struct argp effects_argp = {
     .options = options,
     .parser = ost_cli_take,
     .args_doc = "CASE",
-    .doc = "Measures which effects a case calls for: solves it as it is, and once more with each effect left out. Lists "
-           "seconds, memory, and by how much the pose, the strain energy and the quantities of interest change; names "
-           "the effects that change the answer by less than the accuracy asked for (accuracy: relative_error).",
+    .doc =
+        "Measures which effects a case calls for: solves it as it is, and once more with each effect left out. Lists "
+        "seconds, memory, and by how much the pose, the strain energy and the quantities of interest change; names "
+        "the effects that change the answer by less than the accuracy asked for (accuracy: relative_error).",
 };
 
 static OstStatus write_study(const void *study, const char *path)

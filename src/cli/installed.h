@@ -11,8 +11,8 @@
  * script itself prints why. */
 OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *first, const char *second);
 
-/* Collective; rank 0 draws. Writes the numbers of a study (`write` writes it as JSON to a path) to a file in a new folder,
- * where none of the user's can be in the way, and has a script draw them. Raises as ost_cli_run_script does. */
+/* Collective; rank 0 draws. Writes the numbers of a study (`write` writes it as JSON to a path) to a file in a new
+ * folder, where none of the user's can be in the way, and has a script draw them. Raises as ost_cli_run_script does. */
 OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(const void *study, const char *path),
                        const void *study, const char *picture);
 

@@ -9,15 +9,15 @@
  * (or put in): what that saves, and by how much it changes the answer. */
 
 /* What a run does differently. Columns: name; the effect; what is said of it. */
-#define OST_VARIANT_TABLE(X)                                                                                      \
-    X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")                              \
-    X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")                               \
-    X(OST_VARIANT_ONE_MATERIAL, OST_EFFECT_REGIONS, "one material for several")                                   \
-    X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")                        \
-    X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero")                      \
-    X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                                         \
-    X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")                                 \
-    X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")                              \
+#define OST_VARIANT_TABLE(X)                                                                 \
+    X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")         \
+    X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")          \
+    X(OST_VARIANT_ONE_MATERIAL, OST_EFFECT_REGIONS, "one material for several")              \
+    X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")   \
+    X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero") \
+    X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                    \
+    X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")            \
+    X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")         \
     X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")
 
 #define OST_VARIANT_ENUM(name, effect, label) name,
@@ -69,9 +69,9 @@ typedef struct OstVariantCase {
     OstConstraint *constraints;
 } OstVariantCase;
 
-/* Collective. Makes the case of a variant from the solved scene, whose materials and axes are averaged where the variant
- * wants a mean: moduli by their geometric mean; a frame by the mean of e_k e_k', the best aligned axis first; of several
- * materials the one that fills the largest volume counts. Release it in any case. */
+/* Collective. Makes the case of a variant from the solved scene, whose materials and axes are averaged where the
+ * variant wants a mean: moduli by their geometric mean; a frame by the mean of e_k e_k', the best aligned axis first;
+ * of several materials the one that fills the largest volume counts. Release it in any case. */
 OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariantCase *made);
 void ost_variant_case_release(OstVariantCase *made);
 

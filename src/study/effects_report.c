@@ -65,8 +65,8 @@ void ost_effect_study_print(const OstEffectStudy *study)
     char asked[CELL_SIZE];
     if (ost_rank(study->ctx) != 0)
         return;
-    printf("%s: which effects does it call for?\n\n  %-*s %11s %12s %*s %*s", study->c->title, LABEL_WIDTH, "", "seconds",
-           "memory", CELL_WIDTH, "pose", CELL_WIDTH, "energy");
+    printf("%s: which effects does it call for?\n\n  %-*s %11s %12s %*s %*s", study->c->title, LABEL_WIDTH, "",
+           "seconds", "memory", CELL_WIDTH, "pose", CELL_WIDTH, "energy");
     for (int w = 0; w < study->c->watch_count; w++)
         printf(" %*.*s", CELL_WIDTH, CELL_WIDTH, study->c->watches[w].name);
     printf("\n");
@@ -75,7 +75,8 @@ void ost_effect_study_print(const OstEffectStudy *study)
         if (study->run[v].state != OST_VARIANT_OFF)
             print_run(study, ost_variant_label[v], &study->run[v]);
     percent(study->c->relative_error, asked, sizeof asked);
-    printf("\nChanges are relative to the case as it is. The accuracy asked for is %s (accuracy: relative_error).\n", asked);
+    printf("\nChanges are relative to the case as it is. The accuracy asked for is %s (accuracy: relative_error).\n",
+           asked);
     print_list(study, "Needed, as leaving it out changes the answer by more: ", 1);
     print_list(study, "Could be left out, as it changes the answer by less: ", 0);
     printf("The case does not have: ");
@@ -129,10 +130,9 @@ OstStatus ost_effect_study_write_json(const OstEffectStudy *study, const char *p
     json_t *variants = json_array();
     for (int v = 0; v < OST_VARIANT_COUNT; v++)
         json_array_append_new(variants, variant_json(study, v));
-    json_t *document =
-        json_pack("{s:o, s:o, s:i, s:f, s:o, s:o}", "case", ost_json_text(study->c->path), "title",
-                  ost_json_text(study->c->title), "ranks", ost_size(study->ctx), "relative_error",
-                  study->c->relative_error, "base", run_json(study, &study->base), "variants", variants);
+    json_t *document = json_pack("{s:o, s:o, s:i, s:f, s:o, s:o}", "case", ost_json_text(study->c->path), "title",
+                                 ost_json_text(study->c->title), "ranks", ost_size(study->ctx), "relative_error",
+                                 study->c->relative_error, "base", run_json(study, &study->base), "variants", variants);
     if (!document)
         return OST_RAISE(study->ctx, OST_CHECK_FAILED,
                          "%s: the study of effects cannot be written as JSON (are its title and names UTF-8?)",

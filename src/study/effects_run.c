@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Nodes by their labels, which do not depend on the partition: that follows the materials, which differ between runs. */
+/* Nodes by their labels, which do not depend on the partition: that follows the materials, which differ between runs.
+ */
 typedef struct PlacedNode {
     OstGlobal label;
     double displacement[3];

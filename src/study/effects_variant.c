@@ -40,8 +40,9 @@ static OstStatus sum_regions(const OstScene *scene, RegionMean *mean)
     return ost_sum(scene->ctx, numbers * mesh->regions.count, (double *)mean);
 }
 
-/* The unit vector that is on average best aligned with an axis, among those orthogonal to `taken` (0, or a unit vector);
- * returns by how much, 1 at most. Of equally good ones the first world axis wins, the same on any number of ranks. */
+/* The unit vector that is on average best aligned with an axis, among those orthogonal to `taken` (0, or a unit
+ * vector); returns by how much, 1 at most. Of equally good ones the first world axis wins, the same on any number of
+ * ranks. */
 static OstStatus best_aligned(OstContext *ctx, const RegionMean *mean, int k, const double taken[3], double found[3],
                               double *alignment)
 {

@@ -4,8 +4,8 @@
 
 #include "effect/effect.h"
 
-/* What one run of a study costs: the seconds of the slowest rank, as a whole and by account of the ledger, and the bytes
- * of our own arrays at their peak, over all ranks. */
+/* What one run of a study costs: the seconds of the slowest rank, as a whole and by account of the ledger, and the
+ * bytes of our own arrays at their peak, over all ranks. */
 typedef struct OstMeter {
     double seconds;
     double account[OST_EFFECT_END];
