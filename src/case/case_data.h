@@ -136,6 +136,7 @@ struct OstCase {
     double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
+    unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */

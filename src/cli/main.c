@@ -16,6 +16,7 @@ static const struct {
     {"solve", "solve a case and write its fields for ParaView", ost_cli_solve},
     {"check", "read a case and its mesh, and report what is wrong with them", ost_cli_check},
     {"explain", "list the effects that a case calls for, and what it will cost", ost_cli_explain},
+    {"effects", "measure what each effect changes and costs: solve with each one left out", ost_cli_effects},
     {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
      ost_cli_cost},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
