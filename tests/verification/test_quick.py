@@ -30,7 +30,7 @@ def fails_when(folder, name, old, new):
 
 def coarse_meshes_pass(folder):
     report = os.path.join(folder, "verify.json")
-    finished = run("verify", "--quick", "--json", report, ranks=2)
+    finished = run("verify", "--quick", "--json", report, ranks=2, timeout=540)
     check(finished.exit_code == 0, f"verify --quick: {finished.output[-4000:]}{finished.errors}")
     with open(report) as stream:
         check_cases(json.load(stream)["cases"])
