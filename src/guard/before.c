@@ -19,9 +19,8 @@ static OstStatus take_objection(OstContext *ctx, OstStatus status, OstVerdict *b
 }
 
 /* Do stiffness and right-hand side (3 × rows) keep all computed numbers within double precision (core/number_range.h)?
- * Both tests are collective and raise OST_INVALID_INPUT with the number and what to do. A
- * right-hand side of zeros is fine. */
-
+ * Both tests are collective and raise OST_INVALID_INPUT with the number and what to do. A right-hand side of zeros is
+ * fine. */
 static OstStatus check_size(OstContext *ctx, const char *where, const char *what, double size)
 {
     if (size >= OST_LEAST_NUMBER && size <= OST_MOST_NUMBER)
@@ -29,8 +28,8 @@ static OstStatus check_size(OstContext *ctx, const char *where, const char *what
     if (!isfinite(size))
         return OST_RAISE(
             ctx, OST_INVALID_INPUT,
-            "%s: the %s are beyond 1.8e308, the largest number that double precision holds; choose units of "
-            "length and force that bring them nearer to 1",
+            "%s: the %s are not finite everywhere: a value is no number, or beyond 1.8e308, the largest that "
+            "double precision holds; choose units of length and force that bring them nearer to 1",
             where, what);
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "%s: the %s are of size %.2g in the case's units; beyond %g to %g, squares leave the range of "

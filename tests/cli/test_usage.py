@@ -29,6 +29,12 @@ def a_full_standard_output_is_no_success(folder):
               f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
+def a_case_comes_from_standard_input(folder):
+    process = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=folder, input=CASE, stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, text=True, timeout=240)
+    check(process.returncode == 0 and json.loads(process.stdout)["loads"] == 1, f"check -: {process}")
+
+
 def impossible_sizes_are_told_by_their_limit(folder):
     """2^31 - 1 unknowns are 715,827,882 nodes, which no ranks help beyond; the nonzeros of a rank they do help."""
     for divisions, refine in (([100000, 100000, 100000], 0), ([1000000, 1000000, 1000000], 8), ([894, 894, 894], 0)):
@@ -145,6 +151,7 @@ def main():
     check(full.exit_code == 2, "an impossible JSON path")
     a_full_standard_output_is_no_success(folder)
     impossible_sizes_are_told_by_their_limit(folder)
+    a_case_comes_from_standard_input(folder)
 
 
 main()
