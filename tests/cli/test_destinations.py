@@ -236,6 +236,10 @@ def the_script_takes_words_in_any_order(folder):
         said = subprocess.run(["bash", os.path.join(scripts, "orthostat"), *words.split()], text=True,
                               stdout=subprocess.PIPE).stdout.strip()
         check(said == expected, f"scripts/orthostat {words}: {said}")
+    refused = subprocess.run(["bash", os.path.join(scripts, "orthostat"), "-n", "49", "check", "a.yaml"], text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    check(refused.returncode == 2 and "-n 49 is far more ranks than the 3 cores" in refused.stderr and
+          refused.stdout == "", f"49 ranks on 3 cores: {refused.stdout} {refused.stderr}")
 
 
 def main():
