@@ -43,6 +43,9 @@ def takes_words_in_any_order(script, program):
             ("-n 2", "alone")]:
         said = call(script, words).stdout.strip()
         check(said == expected, f"scripts/orthostat {words}: {said}")
+    refused = call(script, "-n 49 check a.yaml")
+    check(refused.returncode == 2 and "-n 49 is far more ranks than the 3 cores" in refused.stderr and
+          refused.stdout == "", f"49 ranks on 3 cores: {refused}")
 
 
 def leaves_standard_input_alone(script):

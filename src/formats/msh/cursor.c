@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/serial/line_reader.h"
+#include "formats/serial/input_file.h"
 #include "mesh/mesh_data.h"
 
 #include <inttypes.h>
@@ -16,7 +16,7 @@
 #include <zlib.h>
 
 /* gzip packs meshes to a fifth, regular ones to a twentieth. A damaged file may claim a thousandth. */
-enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, MESSAGE_SIZE = 1024 };
+enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, PLACE_SIZE = 4200 };
 
 static OstStatus raise_unpacking(const OstMshCursor *cursor, gzFile file)
 {
@@ -77,21 +77,19 @@ void ost_msh_close(OstMshCursor *cursor)
 
 OstStatus ost_msh_raise(const OstMshCursor *cursor, const char *file, int line, const char *format, ...)
 {
-    char text[MESSAGE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = '?';
-    if (cursor->binary)
-        return ost_error_set(cursor->ctx, OST_INVALID_INPUT, file, line, "%s, near byte %td: %s", cursor->path,
-                             cursor->place - cursor->bytes, text);
+    char place[PLACE_SIZE];
     OstGlobal lines = 1;
+    va_list arguments;
     for (const char *c = cursor->bytes; c < cursor->place; c++)
         lines += *c == '\n';
-    return ost_error_set(cursor->ctx, OST_INVALID_INPUT, file, line, "%s:%" PRId64 ": %s", cursor->path, lines, text);
+    if (cursor->binary)
+        snprintf(place, sizeof place, "%s, near byte %td", cursor->path, cursor->place - cursor->bytes);
+    else
+        snprintf(place, sizeof place, "%s:%" PRId64, cursor->path, lines);
+    va_start(arguments, format);
+    const OstStatus status = ost_file_raise(cursor->ctx, file, line, place, format, arguments);
+    va_end(arguments);
+    return status;
 }
 
 static int is_blank(char c)

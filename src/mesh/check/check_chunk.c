@@ -53,7 +53,8 @@ static OstStatus check_kind(const OstMeshChunk *chunk)
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes, expected 4 or 10",
                          chunk->nodes_per_tet);
     if (chunk->global_tets < 1)
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has %lld nodes and no tet; give it at least one",
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "the mesh has %lld nodes and no tet; mesh the volume of the body, not its surface alone",
                          (long long)chunk->global_nodes);
     return OST_SUCCESS;
 }
