@@ -44,10 +44,12 @@ static OstStatus prepare(OstAnalysis *analysis)
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
     OstContext *ctx = analysis->ctx;
-    OstSolvedFor solved_for = {0.0, 0.0};
+    OstSolvedFor solved_for = {0};
     OST_TRY(prepare(analysis));
     result->unknowns = ost_problem_unknowns(analysis->problem);
-    const OstStatus solved = analysis->strategy->solve(analysis, result, &solved_for);
+    result->asked = fields;
+    const OstStatus solved =
+        ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)
         return solved;
     result->unfinished = solved == OST_NOT_CONVERGED;

@@ -64,6 +64,18 @@ static OstStatus recompute_residual(Refinement *work)
     return OST_SUCCESS;
 }
 
+/* How much all later corrections would change u, by the geometric series. A small correction after which u counts as
+ * settled says nothing of itself: a strategy that takes over may begin with it. */
+static double later_changes(const Refinement *work)
+{
+    const int is_settled = work->change <= work->goal->settled;
+    if (work->contraction == 0.0)
+        return is_settled ? 0.0 : work->change;
+    const double series =
+        work->contraction < 1.0 ? work->change * work->contraction / (1.0 - work->contraction) : HUGE_VAL;
+    return is_settled ? fmin(work->change, series) : series;
+}
+
 /* How much the correction changes u, and from the contraction, as a geometric series, how much all later ones would. */
 static OstStatus measure_change(Refinement *work)
 {
@@ -80,8 +92,7 @@ static OstStatus measure_change(Refinement *work)
         work->contraction = work->change / before;
     work->contracts = work->change < least_gain * work->least_change;
     work->least_change = fmin(work->least_change, work->change);
-    const double series = work->contraction < 1.0 ? work->change / (1.0 - work->contraction) : HUGE_VAL;
-    work->goal->drift = work->change <= work->goal->settled ? work->change : series;
+    work->goal->drift = later_changes(work);
     return OST_SUCCESS;
 }
 
@@ -156,8 +167,8 @@ static OstStatus explain_end(Refinement *work)
         ost_goal_end_by_iterations(goal);
     } else if (goal->end == OST_END_REACHED) {
         goal->end = OST_END_STALLED;
-        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing",
-                 goal->convergence.count);
+        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing%s",
+                 goal->convergence.count, goal->compensated ? ": rounding hides the softest motions of the body" : "");
     }
     return OST_SUCCESS;
 }

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/error.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "problem/free_body.h"
+
+/* Below this an error need not be known better than one application of the preconditioner tells. */
+static const double small_error = 1e-6;
+
+typedef struct Search {
+    const OstProblem *problem;
+    OstSolver *solver;
+    const double *displacement; /* of all local nodes */
+    double *residual;           /* of the rows */
+    double *of_rows;            /* the error, of the rows */
+    double *error;              /* of all local nodes; first, the internal forces */
+} Search;
+
+/* P (f - K u) */
+static OstStatus find_residual(const Search *search)
+{
+    const OstProblem *problem = search->problem;
+    const OstSystem *system = problem->system;
+    OST_TRY(ost_agree(problem->ctx, ost_problem_force(problem, search->displacement, search->error)));
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const size_t node = (size_t)system->node_of_row[row];
+        double projector[9], left[3];
+        for (size_t i = 0; i < 3; i++)
+            left[i] = problem->force[3 * node + i] - search->error[3 * node + i];
+        ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
+        ost_apply3(projector, left, search->residual + 3 * (size_t)row);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus measure(const Search *search, OstErrorDepth depth, OstErrors *errors)
+{
+    const OstProblem *problem = search->problem;
+    int found;
+    errors->known = 0;
+    OST_TRY(ost_solver_error(search->solver, depth, search->residual, search->of_rows, &found));
+    if (!found)
+        return OST_SUCCESS;
+    OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
+    if (problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, search->error));
+    return ost_guard_errors(problem, search->displacement, search->error, errors);
+}
+
+OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, OstErrors *errors)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    Search search = {.problem = problem, .solver = solver, .displacement = displacement};
+    *errors = (OstErrors){0};
+    OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);
+    OST_THEN(OST_NEW(ctx, &search.error, 3 * (size_t)problem->mesh->node_count));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    search.of_rows = search.residual + rows;
+    OST_TRY_DONE(find_residual(&search));
+    OST_TRY_DONE(measure(&search, OST_ERROR_AT_MOST, errors));
+    if (errors->known && fmax(errors->displacement, fmax(errors->reaction, errors->stress)) > small_error)
+        OST_TRY_DONE(measure(&search, OST_ERROR_ITSELF, errors));
+done:
+    OST_FREE(search.residual);
+    OST_FREE(search.error);
+    return status;
+}
