@@ -32,7 +32,8 @@ static void take_result(const OstResult *result, HardReading *reading)
     reading->steps = result->solve.steps;
     reading->residual = result->solve.relative_residual;
     reading->rounding_limited = result->solve.rounding_limited;
-    reading->stated_error = result->solve.error_estimate > 0.0 ? result->solve.error_estimate : NAN;
+    reading->stated_error = result->checks.displacement_error;
+    reading->stated_forces = result->checks.force_error;
 }
 
 static OstStatus solve(OstScene *scene, OstResult **result, HardReading *reading)
@@ -135,7 +136,7 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (HardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);

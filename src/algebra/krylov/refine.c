@@ -64,19 +64,17 @@ static OstStatus recompute_residual(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* How much all later corrections would change u, by the geometric series. A small correction after which u counts as
- * settled says nothing of itself: a strategy that takes over may begin with it. */
-static double later_changes(const Refinement *work)
+/* How much u may still change, by the geometric series of the corrections. One that is small enough for u to count as
+ * settled says nothing of itself, only the later ones do: a strategy that takes over may begin with it. */
+static double find_drift(const Refinement *work)
 {
-    const int is_settled = work->change <= work->goal->settled;
-    if (work->contraction == 0.0)
-        return is_settled ? 0.0 : work->change;
-    const double series =
-        work->contraction < 1.0 ? work->change * work->contraction / (1.0 - work->contraction) : HUGE_VAL;
-    return is_settled ? fmin(work->change, series) : series;
+    const double series = work->contraction < 1.0 ? work->change / (1.0 - work->contraction) : HUGE_VAL;
+    if (work->change > work->goal->settled)
+        return series;
+    return work->taken ? fmin(work->change, work->contraction * series) : work->change;
 }
 
-/* How much the correction changes u, and from the contraction, as a geometric series, how much all later ones would. */
+/* How much the correction changes u, and how that compares with the one before. */
 static OstStatus measure_change(Refinement *work)
 {
     double largest[2] = {0.0}; /* not 2-norms: squares may overflow, as numbers have any unit */
@@ -92,7 +90,6 @@ static OstStatus measure_change(Refinement *work)
         work->contraction = work->change / before;
     work->contracts = work->change < least_gain * work->least_change;
     work->least_change = fmin(work->least_change, work->change);
-    work->goal->drift = later_changes(work);
     return OST_SUCCESS;
 }
 
@@ -110,6 +107,8 @@ static OstStatus take_correction(Refinement *work)
     const double norm = sqrt(sums[SQUARE]);
     const int contracts = work->step && work->contracts;
     work->taken = isfinite(norm) && (norm < work->goal->norm || sums[ENERGY] > 0.0 || contracts);
+    if (work->goal->settled > 0.0)
+        work->goal->drift = find_drift(work);
     if (!work->taken)
         return OST_SUCCESS;
     memcpy(work->u, work->candidate, work->n * sizeof(double));
