@@ -380,7 +380,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     return status;
 }
 
-OstStatus ost_solver_error(OstSolver *solver, OstErrorDepth depth, const double *residual, double *error, int *found)
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
 {
     OstCgSystem system;
     OstPreconditioner preconditioner;
@@ -390,7 +390,7 @@ OstStatus ost_solver_error(OstSolver *solver, OstErrorDepth depth, const double 
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     current_system(solver, &system, &preconditioner);
     const OstStatus status =
-        ost_error_of_residual(&system, &preconditioner, solver->smallest, depth, residual, error, found);
+        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
     return status;
 }

@@ -43,6 +43,6 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 /* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
  * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.
  */
-OstStatus ost_solver_error(OstSolver *solver, OstErrorDepth depth, const double *residual, double *error, int *found);
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
 
 #endif

@@ -9,16 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-/* What may be missing of the error, relative to it. */
-static const double missing = 0.1;
-
-enum { MOST_STEPS = 60 };
+enum { MOST_STEPS = 200 };
 
 typedef struct Search {
     const OstCgSystem *system;
     const OstPreconditioner *preconditioner;
     size_t n;                 /* unknowns this rank owns */
     double smallest;          /* eigenvalue of M^-1 A */
+    double missing;           /* what may be missing of the error, relative to it */
     double *remaining;        /* r - A e, r being of order 1 */
     double *scaled;           /* the same in scaled unknowns */
     double *correction;       /* M^-1 of it, then the step */
@@ -64,8 +62,8 @@ static OstStatus look_at_rest(const Search *search, const double *error, int *is
     double size, next;
     OST_TRY(ost_vector_dot(ctx, search->n, error, error, &size));
     OST_TRY(ost_vector_dot(ctx, search->n, search->correction, search->correction, &next));
-    *is_small =
-        search->weight <= missing * missing * search->smallest * search->gained && next <= missing * missing * size;
+    const double square = search->missing * search->missing;
+    *is_small = search->weight <= square * search->smallest * search->gained && next <= square * size;
     return OST_SUCCESS;
 }
 
@@ -101,7 +99,7 @@ static OstStatus apply_once(Search *search, double *error, int *found)
     return OST_SUCCESS;
 }
 
-static OstStatus find(Search *search, OstErrorDepth depth, const double *residual, double *error, int *found)
+static OstStatus find(Search *search, const double *residual, double *error, int *found)
 {
     OstContext *ctx = search->system->matrix->ctx;
     double size;
@@ -110,7 +108,7 @@ static OstStatus find(Search *search, OstErrorDepth depth, const double *residua
         search->remaining[i] = residual[i] / size;
         error[i] = 0.0;
     }
-    if (depth == OST_ERROR_ITSELF)
+    if (search->missing < 1.0)
         OST_TRY(ost_compensated_step_create(search->system->matrix, &search->step));
     OST_TRY(search->step ? iterate(search, error, found) : apply_once(search, error, found));
     for (size_t i = 0; i < search->n; i++)
@@ -119,15 +117,18 @@ static OstStatus find(Search *search, OstErrorDepth depth, const double *residua
 }
 
 OstStatus ost_error_of_residual(const OstCgSystem *system, const OstPreconditioner *preconditioner, double smallest,
-                                OstErrorDepth depth, const double *residual, double *error, int *found)
+                                double missing, const double *residual, double *error, int *found)
 {
     const OstBlockMatrix *matrix = system->matrix;
-    Search search = {
-        .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)matrix->rows, .smallest = smallest};
+    Search search = {.system = system,
+                     .preconditioner = preconditioner,
+                     .n = 3 * (size_t)matrix->rows,
+                     .smallest = smallest,
+                     .missing = missing};
     OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &search.remaining, 3 * search.n)));
     search.scaled = search.remaining + search.n;
     search.correction = search.scaled + search.n;
-    const OstStatus status = find(&search, depth, residual, error, found);
+    const OstStatus status = find(&search, residual, error, found);
     OST_FREE(search.remaining);
     ost_compensated_step_destroy(&search.step);
     return status;
