@@ -9,7 +9,7 @@
 /* Below this an error need not be known better than one application of the preconditioner tells. */
 static const double small_error = 1e-6;
 
-/* An error of the forces above this is looked at more closely where the displacement's is far smaller. */
+/* An error of the forces above this is looked at more closely where the displacement's is smaller. */
 static const double large_error = 1e-2;
 
 typedef struct Search {
@@ -60,7 +60,7 @@ static double of_forces(const OstErrors *errors)
 /* In a part that is 1e9 times stiffer, what little is missing of the error may have large stresses. */
 static int seem_lost(const OstErrors *errors)
 {
-    return of_forces(errors) > large_error && of_forces(errors) > 10.0 * errors->displacement;
+    return of_forces(errors) > large_error && of_forces(errors) > 2.0 * errors->displacement;
 }
 
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, OstErrors *errors)

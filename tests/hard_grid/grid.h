@@ -143,6 +143,16 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 /* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
 OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
 
+/* Local. Is what the program states of its answer's errors, of displacement and of reactions and stresses, at least a
+ * third of the true ones and at most a thousand times them? True also where no true ones are known. */
+int hard_states_its_error(const HardReading *reading);
+
+/* Collective. Solves a scene, and compares and judges the answer as that of a sound body. */
+OstStatus hard_solve_scene(OstScene *scene, HardReading *reading);
+
+/* Collective. The same for a case file, printed; *passed: was the case refused, or are its errors stated rightly? */
+OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed);
+
 /* Collective. All points, with a progress line. */
 OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);
 void hard_report_destroy(HardReport **report);
