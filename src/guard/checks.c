@@ -16,24 +16,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Error of the displacement in the equations. The solver estimates it from the preconditioner applied to the true
- * residual and to a random sample of the rounding errors of the stiffness: with multigrid in the energy norm by the
- * smallest Ritz value of the solve, or in the displacement if that is larger; with factors in the displacement
- * (energy_error.h), or by how much refinement still changes it, if that is larger (refine.h). It is an estimate and no
- * bound, because the Ritz value approaches the smallest eigenvalue from above. PLAIN keeps the coefficients of its
- * iteration to itself, and so states no error. The relative difference of strain energy and work counts as an error
- * too. An error that the requested residual allows is the user's choice; an error above a tenth that rounding alone
- * causes is objected to. The residual's 2-norm times the condition number would need no preconditioner, but fails where
- * stiffness is uneven: it takes the residual at a stiff inclusion for one at a soft place, and refused answers with
- * errors of 1e-5.
+/* Errors in the equations are those that the solver found (solve/error.h): of the displacement, the reactions and the
+ * stresses. An answer is objected to where they leave no digit of what was asked for. The residual's 2-norm times the
+ * condition number would need no solver, but fails where stiffness is uneven: it takes the residual at a stiff
+ * inclusion for one at a soft place, and refused answers with errors of 1e-5.
  *
- * Error of the forces. If a support moves the whole body along, the displacement may have a relative error of 1e-11 and
- * the strains one of 1: neither residual nor error estimate shows it, as both are relative to what the support does to
- * the unknowns. The error of the forces is therefore the largest of the imbalances of force, moment and energy, and of
- * the displacement's error relative to what strains the body (to the strain energy; with factors, to the displacement
- * less its mean). The imbalances alone do not suffice: they are relative to the reactions, and random rounding errors
- * of n reactions add up to sqrt(n) of them only (a cube of 9261 vertices, moved by 1 while it deforms by 1e-10,
- * balances to 0.06 with stresses 330 times too large).
+ * Where the solver finds none, the displacement's error is the solver's estimate (energy_error.h, refine.h), or the
+ * relative difference of strain energy and work. If a support moves the whole body along, the displacement may have a
+ * relative error of 1e-11 and the strains one of 1. The error of the forces is then the largest of the imbalances of
+ * force, moment and energy, and of the displacement's error relative to what strains the body (to the strain energy;
+ * with factors, to the displacement less its mean). The imbalances alone do not suffice: they are relative to the
+ * reactions, and random rounding errors of n reactions add up to sqrt(n) of them only (a cube of 9261 vertices, moved
+ * by 1 while it deforms by 1e-10, balances to 0.06 with stresses 330 times too large).
  *
  * The sums are not compensated: a displacement rounded to double precision leaves a residual of about DBL_EPSILON |K|
  * |u|, however it is summed. Measured on the worst case, an inclusion 1e9 times stiffer than its surroundings: 4.61e-6
@@ -287,10 +281,11 @@ static void object_to_displacement(OstResult *result, const OstErrors *errors, c
 }
 
 /* Are reactions and stresses lost? Without a load they are allowed to be: a rigid motion leaves rounding errors alone.
- * What the requested residual may add up to over all unknowns is the user's choice. Where the body moves as a whole the
- * error of the forces counts, or, where the solver states none, a residual above the load. Elsewhere the displacement's
- * error is judged by itself, and a difference of energy and work is stated but does not refuse: in a part that is 1e9
- * times stiffer strains are smaller than rounding errors while displacement and reactions are right. */
+ * What the requested residual may add up to over all unknowns is the user's choice. The errors that the solver found
+ * count where the output holds the fields that they spoil. Where it found none, the error of the forces counts if the
+ * body moves as a whole, or, if none is stated, a residual above the load; elsewhere a difference of energy and work is
+ * stated but does not refuse: in a part that is 1e9 times stiffer strains are smaller than rounding errors while
+ * displacement and reactions are right. */
 static int loses_the_forces(const OstResult *result, const OstErrors *errors, const double *sums, double requested)
 {
     const OstChecks *checks = &result->checks;
