@@ -32,7 +32,7 @@ static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
     OstLocal *start = incidence->tet_start;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         OstLocal ordered[OST_MAX_TET_NODES];
-        ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
+        ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
         for (OstLocal a = 0; a < n; a++) {
             const OstLocal row = system->row_of_node[ordered[a]];
             incidence->row[n * t + a] = row;

@@ -9,7 +9,8 @@
  * constraints contradict each other, or if nothing is constrained. */
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
 
-/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). */
-OstStatus ost_scene_loads(const OstScene *scene, double *force);
+/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). Warns of a load that these
+ * supports take up whole, so that it strains nothing; they may be NULL. */
+OstStatus ost_scene_loads(const OstScene *scene, const OstSupports *supports, double *force);
 
 #endif

@@ -92,7 +92,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
     OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, made->force));
+    OST_TRY_DONE(ost_scene_loads(scene, made->supports, made->force));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
 done:
     if (status != OST_SUCCESS)

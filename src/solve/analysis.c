@@ -44,10 +44,12 @@ static OstStatus prepare(OstAnalysis *analysis)
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
     OstContext *ctx = analysis->ctx;
-    OstSolvedFor solved_for = {0.0, 0.0};
+    OstSolvedFor solved_for = {0};
     OST_TRY(prepare(analysis));
     result->unknowns = ost_problem_unknowns(analysis->problem);
-    const OstStatus solved = analysis->strategy->solve(analysis, result, &solved_for);
+    result->asked = fields;
+    const OstStatus solved =
+        ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)
         return solved;
     result->unfinished = solved == OST_NOT_CONVERGED;
@@ -61,6 +63,8 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
     }
     OST_TRY(ost_result_take_load(result, analysis->problem));
     OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, &solved_for, result));
+    if (solved_for.errors.known) /* one error of the displacement is stated */
+        result->solve.error_estimate = solved_for.errors.displacement;
     OST_TRY(ost_result_find_largest(result));
     OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
     return result->unfinished ? OST_RAISE(ctx, solved, "%s", result->verdict.text[0])

@@ -7,6 +7,7 @@
 #include "core/small.h"
 #include "problem/coarse_space.h"
 #include "problem/free_body.h"
+#include "solve/error.h"
 #include "solve/strategy.h"
 
 /* One linear solve: K v = P (f - K g), u = v + g. Stiffness and solver are made once, for all loads. */
@@ -92,7 +93,7 @@ static OstStatus describe_rhs(OstContext *ctx, const Linear *linear, size_t unkn
         sums[1] += linear->rhs[i] * linear->v[i];
     }
     OST_TRY(ost_sum(ctx, 2, sums));
-    *solved_for = (OstSolvedFor){sqrt(sums[0]), sums[1]};
+    *solved_for = (OstSolvedFor){.norm = sqrt(sums[0]), .work = sums[1]};
     return OST_SUCCESS;
 }
 
@@ -112,6 +113,8 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    if (solved == OST_SUCCESS)
+        OST_TRY(ost_find_errors(problem, linear->solver, result->displacement, &solved_for->errors));
     return solved;
 }
 
