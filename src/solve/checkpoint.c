@@ -240,8 +240,8 @@ static OstStatus check_header(const OstPath *path, const char *name, const Heade
     char what[160];
     if (memcmp(found->magic, magic, sizeof magic) != 0 || found->version != VERSION)
         return raise_damaged(ctx, name, "another version of the program wrote it");
-    snprintf(what, sizeof what, "it was made on %d rank%s, and this run has %d: its numbers go on on %d alone",
-             found->ranks, found->ranks == 1 ? "" : "s", expected->ranks, found->ranks);
+    snprintf(what, sizeof what, "it was made on %d rank%s and goes on there alone, but this run has %d",
+             found->ranks, found->ranks == 1 ? "" : "s", expected->ranks);
     if (found->ranks != expected->ranks)
         return raise_damaged(ctx, name, what);
     if (found->case_hash != expected->case_hash)
