@@ -12,16 +12,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The file: a header, the steps done, the arrays of each rank in turn, and the hash of all that. In the byte order of
- * the machine: only the program that wrote it, on such a machine, takes the same bits from it. */
+/* The file: a header, the steps done, what the answers are made of (of arrays, that of each rank in turn), and the hash
+ * of all that. In the byte order of the machine: only the program that wrote it, on such a machine, takes the same bits
+ * from it. */
 typedef struct Header {
     char magic[16];
     int32_t version, ranks;
     uint64_t case_hash;    /* of the text; 0 without a case */
     uint64_t problem_hash; /* of mesh, partition, materials, loads, supports and times */
     int32_t count, done;
-    int64_t has_state; /* of Newton's method */
-    double t, step;
+    int64_t parts; /* of linear answers */
 } Header;
 
 enum { VERSION = 1, BLOCK = 65536 };
@@ -83,9 +83,7 @@ static OstStatus describe(const OstPath *path, Header *header)
                        .case_hash = path->problem->c ? path->problem->c->text_hash : 0,
                        .count = path->count,
                        .done = path->done,
-                       .has_state = path->state.displacement != NULL,
-                       .t = path->state.t,
-                       .step = path->state.step};
+                       .parts = path->linear.count};
     memcpy(header->magic, magic, sizeof magic);
     OST_TRY(ost_gather_items(path->ctx, sizeof here, &here, 1, "there are too many ranks", (void **)&all, &total));
     header->problem_hash = ost_hash(OST_HASH_START, (size_t)total * sizeof *all, all);
@@ -109,14 +107,14 @@ static void put(Writer *writer, size_t size, const void *bytes)
     writer->hash = ost_hash(writer->hash, size, bytes);
 }
 
-/* The largest number of numbers that a rank has in a state's array. */
+/* The most numbers that a rank has in an array. */
 static OstStatus find_largest(const OstPath *path, OstGlobal *largest)
 {
     *largest = 3 * (OstGlobal)path->problem->mesh->node_count;
     return ost_max_numbers(path->ctx, 1, largest);
 }
 
-/* An array of the state, of all ranks; `room` (rank 0) takes the largest. */
+/* An array of all ranks; `room` (rank 0) takes the largest. */
 static OstStatus put_array(OstContext *ctx, Writer *writer, OstGlobal count, const double *values, double *room)
 {
     const MPI_Comm comm = ost_comm(ctx);
@@ -136,18 +134,22 @@ static OstStatus put_array(OstContext *ctx, Writer *writer, OstGlobal count, con
     return OST_SUCCESS;
 }
 
-static OstStatus put_state(const OstPath *path, Writer *writer)
+static OstStatus put_parts(const OstPath *path, Writer *writer)
 {
     OstContext *ctx = path->ctx;
+    const OstSuperposition *linear = &path->linear;
     const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
     OstGlobal largest = 0;
     double *room = NULL;
-    if (!path->state.displacement)
-        return OST_SUCCESS;
+    if (ost_rank(ctx) == 0) {
+        put(writer, sizeof linear->solve, &linear->solve);
+        put(writer, (size_t)linear->count * sizeof *linear->norm, linear->norm);
+    }
     OST_TRY(find_largest(path, &largest));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
-    OstStatus status = put_array(ctx, writer, count, path->state.displacement, room);
-    OST_THEN(put_array(ctx, writer, count, path->state.slope, room));
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < linear->count; k++)
+        OST_THEN(put_array(ctx, writer, count, linear->part[k], room));
     OST_FREE(room);
     return status;
 }
@@ -187,7 +189,7 @@ static OstStatus write_file(const OstPath *path, const OstAside *aside)
         put(&writer, sizeof header, &header);
         put(&writer, (size_t)path->done * sizeof *path->steps, path->steps);
     }
-    const OstStatus status = put_state(path, &writer);
+    const OstStatus status = put_parts(path, &writer);
     const OstStatus closed = close_writer(ctx, aside, &writer);
     return ost_agree(ctx, status == OST_SUCCESS ? closed : status);
 }
@@ -240,8 +242,8 @@ static OstStatus check_header(const OstPath *path, const char *name, const Heade
     char what[160];
     if (memcmp(found->magic, magic, sizeof magic) != 0 || found->version != VERSION)
         return raise_damaged(ctx, name, "another version of the program wrote it");
-    snprintf(what, sizeof what, "it was made on %d rank%s and goes on there alone, but this run has %d",
-             found->ranks, found->ranks == 1 ? "" : "s", expected->ranks);
+    snprintf(what, sizeof what, "it was made on %d rank%s and goes on there alone, but this run has %d", found->ranks,
+             found->ranks == 1 ? "" : "s", expected->ranks);
     if (found->ranks != expected->ranks)
         return raise_damaged(ctx, name, what);
     if (found->case_hash != expected->case_hash)
@@ -257,7 +259,12 @@ static OstStatus get(OstContext *ctx, const char *name, FILE *file, size_t size,
     return fread(bytes, 1, size, file) == size ? OST_SUCCESS : raise_damaged(ctx, name, "it ends too early");
 }
 
-/* An array of the state to all ranks, which each has the room it needs; `room` is rank 0's. */
+static OstStatus share(OstContext *ctx, size_t size, void *bytes)
+{
+    return OST_MPI(ctx, MPI_Bcast(bytes, (int)size, MPI_BYTE, 0, ost_comm(ctx)));
+}
+
+/* An array to all ranks, which each has the room it needs; `room` is rank 0's. */
 static OstStatus get_array(OstContext *ctx, const char *name, FILE *file, OstGlobal count, double *values, double *room)
 {
     const MPI_Comm comm = ost_comm(ctx);
@@ -279,16 +286,27 @@ static OstStatus get_array(OstContext *ctx, const char *name, FILE *file, OstGlo
     return ost_agree(ctx, status);
 }
 
-static OstStatus get_state(OstPath *path, const char *name, FILE *file)
+static OstStatus get_parts(OstPath *path, const char *name, FILE *file)
 {
     OstContext *ctx = path->ctx;
+    OstSuperposition *linear = &path->linear;
     const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
     OstGlobal largest = 0;
     double *room = NULL;
+    OST_TRY(ost_superposition_make_room(path->problem, linear));
+    const size_t norms = (size_t)linear->count * sizeof *linear->norm;
+    OstStatus status = OST_SUCCESS;
+    if (file) {
+        status = get(ctx, name, file, sizeof linear->solve, &linear->solve);
+        OST_THEN(get(ctx, name, file, norms, linear->norm));
+    }
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(share(ctx, sizeof linear->solve, &linear->solve));
+    OST_TRY(share(ctx, norms, linear->norm));
     OST_TRY(find_largest(path, &largest));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
-    OstStatus status = get_array(ctx, name, file, count, path->state.displacement, room);
-    OST_THEN(get_array(ctx, name, file, count, path->state.slope, room));
+    for (int k = 0; k < linear->count; k++)
+        OST_THEN(get_array(ctx, name, file, count, linear->part[k], room));
     OST_FREE(room);
     return status;
 }
@@ -308,13 +326,10 @@ static OstStatus read_file(OstPath *path, const char *name, FILE *file)
     Header expected, header;
     OST_TRY(describe(path, &expected));
     OST_TRY(ost_agree(ctx, file ? get_head(path, name, file, &expected, &header) : OST_SUCCESS));
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(&header, (int)sizeof header, MPI_BYTE, 0, ost_comm(ctx))));
-    OST_TRY(OST_MPI(
-        ctx, MPI_Bcast(path->steps, (int)((size_t)header.done * sizeof *path->steps), MPI_BYTE, 0, ost_comm(ctx))));
-    if (header.has_state)
-        OST_TRY(get_state(path, name, file));
-    path->state.t = header.t;
-    path->state.step = header.step;
+    OST_TRY(share(ctx, sizeof header, &header));
+    OST_TRY(share(ctx, (size_t)header.done * sizeof *path->steps, path->steps));
+    if (header.parts > 0)
+        OST_TRY(get_parts(path, name, file));
     path->done = header.done;
     return OST_SUCCESS;
 }

@@ -70,11 +70,13 @@ void ost_path_destroy(OstPath **path)
     OST_FREE(*path);
 }
 
+/* Done once, whatever the number of steps; a checkpoint brings what was solved. */
 static OstStatus solve_linearly(OstPath *path)
 {
+    if (!path->analysis->work)
+        OST_TRY(ost_analysis_prepare(path->analysis));
     if (path->linear.count > 0)
         return OST_SUCCESS;
-    OST_TRY(ost_analysis_prepare(path->analysis));
     path->solved_linearly = ost_superposition_create(path->analysis, &path->linear);
     return path->linear.count > 0 ? OST_SUCCESS : path->solved_linearly;
 }

@@ -12,6 +12,9 @@ typedef struct OstSuperposition {
     OstSolveReport solve; /* of all: iterations are added up, of errors the largest counts */
 } OstSuperposition;
 
+/* Collective. Room for the parts of a problem's functions. */
+OstStatus ost_superposition_make_room(const OstProblem *problem, OstSuperposition *all);
+
 /* Collective, on a prepared linear analysis. One solve for each function. Raises OST_INVALID_INPUT for loads that
  * cannot be solved for, OST_NOT_CONVERGED where the solver stopped early; all parts are there then. */
 OstStatus ost_superposition_create(OstAnalysis *analysis, OstSuperposition *all);
