@@ -232,6 +232,7 @@ static size_t read_whole(const char *name, char *bytes, size_t room)
     assert_non_null(file);
     const size_t size = fread(bytes, 1, room, file);
     fclose(file);
+    MPI_Barrier(ost_comm(ctx)); /* before rank 0 damages it */
     return size;
 }
 
