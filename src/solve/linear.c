@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/linear.h"
+
 #include "algebra/solver.h"
 #include "algebra/solver_plan.h"
 #include "core/error.h"
@@ -8,7 +9,6 @@
 #include "core/small.h"
 #include "problem/coarse_space.h"
 #include "problem/free_body.h"
-#include "problem/timed.h"
 
 static void release(OstAnalysis *analysis)
 {

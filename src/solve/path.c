@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "problem/timed.h"
 #include "solve/path_data.h"
 
 #include <math.h>

@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "problem/timed.h"
 #include "solve/linear.h"
 
 #include <math.h>

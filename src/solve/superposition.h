@@ -4,7 +4,7 @@
 
 #include "solve/strategy.h"
 
-/* The linear answers of a path: what each function of time (problem/timed.h) causes at factor 1, to be added up. */
+/* The linear answers of a path: what each function of time (problem/problem.h) causes at factor 1, to be added up. */
 typedef struct OstSuperposition {
     int count;            /* functions; 0: not solved yet */
     double **part;        /* the displacement of each, 3 × node_count */

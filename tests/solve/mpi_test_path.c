@@ -4,8 +4,8 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "orthostat/orthostat.h"
+#include "problem/problem.h"
 #include "problem/scene_data.h"
-#include "problem/timed.h"
 
 /* Paths of a linear problem: every step is the static answer to the loads at its time; a checkpoint goes on with the
  * same bits; one that does not fit is refused. */
