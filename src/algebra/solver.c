@@ -20,6 +20,7 @@ struct OstSolver {
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
+    OstSolverAim aim;
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -113,7 +114,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
         solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
-        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
+        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status) || solver->aim.probing)
             return status;
         note_step(step, steps, method, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
         if (method == OST_METHOD_DIRECT)
@@ -211,6 +212,11 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
     return start(solver, &solver->options);
 }
 
+void ost_solver_aim(OstSolver *solver, OstSolverAim aim)
+{
+    solver->aim = aim;
+}
+
 void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
@@ -264,8 +270,8 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 /* Is there a next strategy that could succeed? */
 static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
-    const int mendable =
-        goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
+    const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
+    const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
     return may_change(solver) && mendable && solver->method < OST_METHOD_DIRECT;
 }
 
@@ -316,6 +322,9 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
             solver->ctx, OST_NOT_CONVERGED,
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
+    if (solver->aim.relative_residual > 0.0)
+        goal.target = solver->aim.relative_residual * goal.start;
+    goal.crude = solver->aim.crude;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
@@ -330,6 +339,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
+    if (goal.crude)
+        return OST_SUCCESS;
     return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 

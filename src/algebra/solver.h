@@ -24,6 +24,15 @@ void ost_solver_destroy(OstSolver **solver);
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 
+/* Local. How later solves go about it, in place of the options' relative residual: Newton's method needs little at first.
+ * `crude`: the error of the solution is not estimated. `probing`: the matrix may be indefinite, and the first sign of it
+ * ends update and solve with OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried otherwise. */
+typedef struct OstSolverAim {
+    double relative_residual; /* 0: the options' */
+    int crude, probing;
+} OstSolverAim;
+void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
+
 /* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm.
  * The residual is recomputed from A, u and f; if the recursive one has drifted from it, the iteration continues. f and
  * u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any number of right-hand sides.

@@ -98,3 +98,16 @@ OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
     *largest = (OstLinearity){both[0], both[1]};
     return OST_SUCCESS;
 }
+
+static void visit(void *largest, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                  const OstMeans *means)
+{
+    ost_linearity_add(batch, element, u, means, largest);
+}
+
+OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLinearity *largest)
+{
+    *largest = (OstLinearity){0.0, 0.0};
+    ost_visit_means(mesh, field, u, visit, largest);
+    return ost_linearity_agree(mesh->ctx, largest);
+}

@@ -15,6 +15,9 @@ typedef struct OstLinearity {
 void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
                        OstLinearity *largest);
 
+/* Collective. Those of a displacement (3 × node_count). */
+OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLinearity *largest);
+
 /* Collective. The largest over all ranks. */
 OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest);
 

@@ -41,6 +41,7 @@ struct OstResult {
     double largest_displacement;
     double largest_at[3];
     OstSolveReport solve;
+    OstNewtonReport newton;
     OstChecks checks;
     int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */

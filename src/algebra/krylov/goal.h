@@ -27,6 +27,7 @@ typedef struct OstGoal {
     int iterations;
     int most_iterations;
     int patience;          /* iterations the solver may still need; 0: no limit */
+    int crude;             /* the error of u is not estimated, and u need not settle */
     int accept_attainable; /* a norm at the rounding limit is accepted even above the target */
     double settled; /* also iterate until a correction changes u by no more than this, relative to u; 0: do not */
     double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
