@@ -32,5 +32,6 @@
 #include "orthostat/scene.h"
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
+#include "orthostat/time_table.h"
 
 #endif

@@ -146,6 +146,16 @@ static void body_force(const OstEffectFacts *f, OstEffectState *state)
     loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
 }
 
+/* The load of each table, and the displacement of each function of time. */
+static void path(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->path_steps > 0)
+        on(state, 24.0 * f->nodes * (1.0 + 2.0 * f->tables), "%d step%s, %d time table%s", f->path_steps,
+           f->path_steps == 1 ? "" : "s", f->tables, f->tables == 1 ? "" : "s");
+    else
+        off(state, "the case has no path: the answer is that at t = 1");
+}
+
 static void recovery(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->cell_fields + f->node_fields > 0)

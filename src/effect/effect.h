@@ -22,6 +22,7 @@
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
     X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
+    X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)
 
 #define OST_EFFECT_ENUM(name, label, rule) name,
@@ -45,6 +46,7 @@ typedef struct OstEffectFacts {
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides;
     int free_body;
+    int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads;
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */

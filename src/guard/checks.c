@@ -10,6 +10,7 @@
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
+#include "problem/timed.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -320,7 +321,7 @@ static void judge(OstResult *result, double requested, Explained explained)
 }
 
 /* Centre, mean displacement, and whether supports move the body. */
-static OstStatus look_at_body(const OstResult *result, Body *body)
+static OstStatus look_at_body(const OstProblem *problem, const OstResult *result, Body *body)
 {
     const OstMesh *mesh = result->mesh;
     double low[3], high[3];
@@ -329,9 +330,7 @@ static OstStatus look_at_body(const OstResult *result, Body *body)
     for (int i = 0; i < 3; i++)
         body->centre[i] = 0.5 * (low[i] + high[i]);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        double projector[9], prescribed[3];
-        if (ost_supports_get(body->supports, n, projector, prescribed) > 0)
-            sums[3] += prescribed[0] != 0.0 || prescribed[1] != 0.0 || prescribed[2] != 0.0;
+        sums[3] += ost_problem_moves(problem, n);
         for (int i = 0; i < 3; i++)
             sums[i] += result->displacement[3 * (size_t)n + (size_t)i];
     }
@@ -360,7 +359,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
     OST_THEN(ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude));
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(look_at_body(result, &body));
+    OST_TRY_DONE(look_at_body(problem, result, &body));
     ost_visit_means(mesh, problem->field, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));

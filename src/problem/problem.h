@@ -6,6 +6,13 @@
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
 
+/* What follows a time table, at factor 1. */
+typedef struct OstTimed {
+    OstTimeTable table;
+    double *force;         /* 3 × node_count, complete on owned nodes */
+    OstSupports *supports; /* those of the problem, with the displacements that follow this table */
+} OstTimed;
+
 struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
@@ -14,9 +21,11 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
-    OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
-    int filled;                /* does the matrix have values? */
-    int linear;                /* is the internal force linear in the displacement? */
+    int timed_count;           /* time tables of further loads and displacements (problem/timed.h) */
+    OstTimed *timed;
+    OstSystem *system; /* NULL before ost_problem_stiffness, and after its release */
+    int filled;        /* does the matrix have values? */
+    int linear;        /* is the internal force linear in the displacement? */
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */
@@ -25,11 +34,11 @@ struct OstProblem {
 /* Local. What messages begin with: the case's file, or "the problem". */
 const char *ost_problem_name(const OstProblem *problem);
 
-/* Local. The right-hand side P (load(t) - K t g) of a linear problem, g the prescribed displacements, after
+/* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs);
 
-/* Collective. The displacement u = P v + t g of every local node, from v of the rows. */
+/* Collective. The displacement u = P v + g(t) of every local node, from v of the rows. */
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u);
 
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.
