@@ -18,12 +18,38 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
     return OST_SUCCESS;
 }
 
+OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {
+        [OST_LARGE_ROTATION_AUTO] = "auto", [OST_LARGE_ROTATION_ON] = "on", [OST_LARGE_ROTATION_OFF] = "off"};
+    int which;
+    OST_TRY(ost_yaml_word(yaml, node, "answer", words, OST_COUNT_OF(words), &which));
+    c->large_rotation = (OstLargeRotation)which;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {"consistent", "classical"};
+    int which;
+    OST_TRY(ost_yaml_word(yaml, node, "formulation", words, OST_COUNT_OF(words), &which));
+    c->formulation = which == 0 ? OST_FORMULATION_CONSISTENT : OST_FORMULATION_CLASSICAL;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};
-    enum { RESIDUAL, OUT_OF_REACH };
-    OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"}, [OUT_OF_REACH] = {.name = "out_of_reach"}};
+    enum { RESIDUAL, OUT_OF_REACH, ERROR };
+    OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"},
+                         [OUT_OF_REACH] = {.name = "out_of_reach"},
+                         [ERROR] = {.name = "relative_error"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[ERROR].value) {
+        OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
+        if (!(c->relative_error > 0.0 && c->relative_error <= 1.0))
+            return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0, at most 1", "");
+    }
     if (keys[RESIDUAL].value)
         c->solver.accept_attainable = 0;
     if (keys[OUT_OF_REACH].value)
