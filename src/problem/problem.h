@@ -23,9 +23,10 @@ struct OstProblem {
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
     int timed_count;           /* time tables of further loads and displacements (problem/timed.h) */
     OstTimed *timed;
-    OstSystem *system; /* NULL before ost_problem_stiffness, and after its release */
-    int filled;        /* does the matrix have values? */
-    int linear;        /* is the internal force linear in the displacement? */
+    OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
+    int filled;                /* does the matrix have values? */
+    int linear;                /* is the internal force linear in the displacement? */
+    OstFormulation formulation;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */
