@@ -88,6 +88,7 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
     OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
         ost_problem_set_formulation(made, parts->formulation);
+        made->beyond_linear = parts->formulation;
         made->free_body = parts->free_body;
         made->with_metric = parts->field->region_axes != NULL;
         for (int r = 0; r < parts->field->region_count; r++)
@@ -125,6 +126,10 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
+    if (ost_effect_on(made->effects, OST_EFFECT_LARGE_ROTATION))
+        made->beyond_linear = scene->c->formulation;
+    made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
+    made->accuracy = scene->c->relative_error;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, 0, made->force));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
@@ -232,14 +237,15 @@ static OstStatus fill(const OstProblem *problem, const double *u, int definite)
     return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
 }
 
+/* The matrix stays where it is, so that a solver on it can be kept. */
 static OstStatus make_stiffness(OstProblem *problem, const double *u, int definite, OstStiffness *stiffness)
 {
-    const int may_fill = problem->system && problem->system->block_of_tet;
-    if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
-        ost_problem_release_stiffness(problem);
+    if (!problem->system)
         OST_TRY(make_pattern(problem));
-    }
-    if (problem->system->block_of_tet)
+    const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
+    if (fills && !problem->system->block_of_tet)
+        OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
+    if (fills)
         OST_TRY(ost_agree(problem->ctx, fill(problem, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;

@@ -26,7 +26,10 @@ struct OstProblem {
     OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
     int filled;                /* does the matrix have values? */
     int linear;                /* is the internal force linear in the displacement? */
-    OstFormulation formulation;
+    OstFormulation formulation;   /* of energy, force and stiffness now */
+    OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
+    int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */
+    double accuracy;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */

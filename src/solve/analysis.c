@@ -9,10 +9,9 @@
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
     OstContext *ctx = problem->ctx;
-    const OstStrategy *strategy = ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
+    const int is_linear = problem->beyond_linear == OST_FORMULATION_LINEAR;
+    const OstStrategy *strategy = is_linear ? &ost_linear_strategy : &ost_nonlinear_strategy;
     *analysis = NULL;
-    if (!strategy)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and there is no strategy for that");
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, analysis, 1)));
     **analysis = (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy};
     return OST_SUCCESS;

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "guard/linearity.h"
 #include "solve/newton_data.h"
 

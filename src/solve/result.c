@@ -47,7 +47,7 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem)
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
-        ost_problem_load(problem, 1.0, result->force);
+        ost_problem_load(problem, result->newton.used ? result->newton.reached : 1.0, result->force);
     return ost_agree(ctx, status);
 }
 

@@ -2,6 +2,7 @@
 #include "solve/stiffness_solver.h"
 
 #include "algebra/solver_plan.h"
+#include "core/error.h"
 
 void ost_stiffness_solver_release(OstStiffnessSolver *stiffness)
 {
@@ -48,6 +49,6 @@ OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, const doub
     const OstProblem *problem = stiffness->problem;
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
-        OST_TRY(ost_linear_space_move(stiffness->coarse, problem, displacement));
+        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, problem->formulation, displacement));
     return ost_solver_update(stiffness->solver, OST_UPDATE_REBUILD);
 }
