@@ -21,6 +21,7 @@ struct OstSolver {
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
     OstSolverAim aim;
+    int aged; /* have the matrix's values changed since the current strategy was built? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -76,6 +77,7 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
     solver->method = status == OST_SUCCESS ? options->method : OST_METHOD_AUTO;
+    solver->aged = 0;
     return status;
 }
 
@@ -174,6 +176,8 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
     OstStatus status = OST_SUCCESS;
     solver->steps = 0;
     ost_solver_plan(options, &facts, &solver->plan);
+    if (may_change(solver) && solver->aim.first > solver->plan.first)
+        solver->plan.first = solver->aim.first;
     tell_plan(solver);
     if (solver->matrix->global_rows > 0)
         status = build_first(solver, options);
@@ -206,8 +210,10 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
     /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
     const int may_stay = solver->method >= OST_METHOD_METRIC && solver->method <= OST_METHOD_TWO_LEVEL;
-    if (how == OST_UPDATE_KEEP && may_stay)
+    if (how == OST_UPDATE_KEEP && may_stay) {
+        solver->aged = 1;
         return OST_SUCCESS;
+    }
     destroy_strategy(solver);
     return start(solver, &solver->options);
 }
@@ -272,7 +278,7 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
     const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
-    return may_change(solver) && mendable && solver->method < OST_METHOD_DIRECT;
+    return may_change(solver) && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
@@ -330,6 +336,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     report->iterations = goal.iterations;
+    report->indefinite = goal.indefinite;
     if (goal.start > 0.0) {
         report->relative_residual = goal.norm / goal.start;
         report->attainable_residual = ost_goal_attainable(&goal);

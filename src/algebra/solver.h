@@ -19,7 +19,8 @@ void ost_solver_destroy(OstSolver **solver);
 /* Collective. To be called after the values of the matrix have changed on the same pattern. OST_UPDATE_REBUILD plans
  * and builds the first strategy again, as ost_solver_create. OST_UPDATE_KEEP keeps a multigrid hierarchy as
  * preconditioner of the new matrix, which pays if the values have changed little; the solution is that of the new
- * matrix either way. PLAIN's hierarchy and factors are always rebuilt. Raises what ost_solver_create raises; the solver
+ * matrix either way. Where such an old hierarchy is too slow, a solve ends with OST_NOT_CONVERGED: a new one comes
+ * before another strategy. PLAIN's hierarchy and factors are always rebuilt. Raises what ost_solver_create raises; the solver
  * is then without a strategy and can only be destroyed or updated again. */
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
@@ -30,6 +31,7 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 typedef struct OstSolverAim {
     double relative_residual; /* 0: the options' */
     int crude, probing;
+    OstMethod first; /* an update that rebuilds begins with this strategy, or a later one that the plan names */
 } OstSolverAim;
 void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* A first load step turns the body by about this much, in radians, as far as the tangent tells. */
-static const double first_turn = 0.5;
+static const double first_turn = 1.0;
 
 /* Iterations: of a load step that may be cut back; of the least one; up to which the next step is twice as large, and
  * from which it is half as large. */
@@ -55,6 +55,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         *made = (OstNewton){.ctx = ctx, .problem = problem, .options = stiffness->options, .stiffness = stiffness};
         made->solve = *solve;
         made->at_zero = 1;
+        made->method = solve->method;
         made->report.used = 1;
         made->report.setups = 1;
         OST_THEN(OST_NEW(ctx, &made->displacement, nodes));
@@ -216,6 +217,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
     newton->rebuild |= !newton->at_zero;
+    newton->method = newton->at_zero ? newton->method : OST_METHOD_AUTO;
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
     while (state->t < to) {

@@ -40,6 +40,7 @@ struct OstNewton {
     /* The solver's hierarchy: */
     int at_zero;         /* is it that of the stiffness at u = 0? */
     int rebuild;         /* is a new one needed? */
+    OstMethod method;    /* strategy that a new one begins with */
     double cost;         /* iterations per digit of the first solve since it was built; 0: none yet */
     int indefinite;      /* was the exact stiffness found indefinite in this load step? */
     int step_iterations; /* Newton iterations in this load step */

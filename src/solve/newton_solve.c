@@ -72,19 +72,34 @@ static OstStatus take_direction(OstNewton *newton)
     return ost_agree(newton->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), newton->direction));
 }
 
+/* One attempt. *again: the hierarchy was old, and a new one may find what it did not. */
+static OstStatus attempt(OstNewton *newton, int definite, double forcing, const double *rhs, int *again)
+{
+    const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
+    ost_solver_aim(newton->stiffness->solver, (OstSolverAim){forcing, 1, !definite, newton->method});
+    newton->solve.indefinite = 0;
+    OST_TRY(update(newton, definite));
+    const OstStatus status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+    newton->report.linear_iterations += newton->solve.iterations;
+    *again = can_go_on(status) && old && !newton->solve.indefinite;
+    if (status == OST_SUCCESS && !old)
+        newton->method = newton->solve.method;
+    return status;
+}
+
 OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, const double *rhs, int *found)
 {
-    OstContext *ctx = newton->ctx;
+    int again = 0;
     *found = 0;
-    ost_solver_aim(newton->stiffness->solver, (OstSolverAim){forcing, 1, !definite});
-    OstStatus status = update(newton, definite);
-    if (status == OST_SUCCESS) {
-        status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
-        newton->report.linear_iterations += newton->solve.iterations;
+    OstStatus status = attempt(newton, definite, forcing, rhs, &again);
+    if (again) {
+        newton->rebuild = 1;
+        status = attempt(newton, definite, forcing, rhs, &again);
     }
     if (can_go_on(status)) {
-        ost_log(ctx, OST_LOG_VERBOSE, "newton: the %s stiffness gives no correction: %s",
-                definite ? "definite" : "exact", ost_error_text(ctx));
+        ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: the %s stiffness gives no correction: %s",
+                definite ? "definite" : "exact", ost_error_text(newton->ctx));
+        newton->rebuild |= !newton->solve.indefinite;
         return OST_SUCCESS;
     }
     OST_TRY(status);
