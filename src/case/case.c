@@ -201,6 +201,7 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
+    (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
     (*c)->relative_error = 0.02;

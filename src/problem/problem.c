@@ -88,7 +88,6 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
     OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
         ost_problem_set_formulation(made, parts->formulation);
-        made->beyond_linear = parts->formulation;
         made->free_body = parts->free_body;
         made->with_metric = parts->field->region_axes != NULL;
         for (int r = 0; r < parts->field->region_count; r++)
@@ -167,12 +166,19 @@ int ost_problem_is_linear(const OstProblem *problem)
 }
 
 /* Values of the matrix are of the formulation that was: they do not count. */
-void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation)
 {
     if (problem->formulation != formulation)
         problem->filled = 0;
     problem->formulation = formulation;
     problem->linear = formulation == OST_FORMULATION_LINEAR && ost_element_of(problem->mesh->nodes_per_tet)->linear;
+}
+
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+{
+    ost_problem_take_formulation(problem, formulation);
+    problem->beyond_linear = formulation;
+    problem->automatic = 0;
 }
 
 OstFormulation ost_problem_formulation(const OstProblem *problem)

@@ -38,6 +38,9 @@ struct OstProblem {
 /* Local. What messages begin with: the case's file, or "the problem". */
 const char *ost_problem_name(const OstProblem *problem);
 
+/* Local. Goes on with another formulation on the way to the answer, whose formulation stays. */
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation);
+
 /* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs);

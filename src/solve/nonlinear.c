@@ -12,7 +12,7 @@
 
 static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
 {
-    ost_problem_set_formulation(analysis->problem, OST_FORMULATION_LINEAR);
+    ost_problem_take_formulation(analysis->problem, OST_FORMULATION_LINEAR);
     if (analysis->work && !analysis->problem->filled) /* an earlier solve has filled the matrix elsewhere */
         ost_linear_strategy.release(analysis);
     return ost_linear_strategy.prepare(analysis, before);
@@ -50,7 +50,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstLinear *linear = analysis->work;
     OstNewton *newton = NULL;
     OstNewtonState state = {0};
-    ost_problem_set_formulation(problem, problem->beyond_linear);
+    ost_problem_take_formulation(problem, problem->beyond_linear);
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(problem, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
