@@ -30,10 +30,10 @@ typedef struct OstChecks {
 
 /* What was found out about large rotations, and what was done about them (large_rotation in docs/case.md). */
 typedef struct OstNewtonReport {
-    int judged;            /* was linear theory's error estimated? */
-    double linear_error;   /* that estimate, relative */
-    double accuracy;       /* what it was compared with */
-    double linear_strain;  /* largest strain and rotation (radians) of the linear solution */
+    int judged;           /* was linear theory's error estimated? */
+    double linear_error;  /* that estimate, relative */
+    double accuracy;      /* what it was compared with */
+    double linear_strain; /* largest strain and rotation (radians) of the linear solution */
     double linear_rotation;
     int used;              /* was the nonlinear problem solved, by Newton's method? What follows is 0 if not. */
     double reached;        /* load factor of the last state at rest: 1 is all of the load */

@@ -129,10 +129,18 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [VERIFY] = {.name = "verify"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,      [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
-        [LOADS] = ost_read_loads,    [CONSTRAINTS] = ost_read_constraints, [ACCURACY] = ost_read_accuracy,
-        [SOLVER] = ost_read_solver,  [OUTPUT] = ost_read_output,           [WATCH] = ost_read_watches,
-        [PATH] = ost_read_load_path, [LARGE_ROTATION] = ost_read_large_rotation, [FORMULATION] = ost_read_formulation,
+        [MESH] = ost_read_mesh,
+        [ELEMENT] = ost_read_element,
+        [MATERIALS] = ost_read_materials,
+        [LOADS] = ost_read_loads,
+        [CONSTRAINTS] = ost_read_constraints,
+        [ACCURACY] = ost_read_accuracy,
+        [SOLVER] = ost_read_solver,
+        [OUTPUT] = ost_read_output,
+        [WATCH] = ost_read_watches,
+        [PATH] = ost_read_load_path,
+        [LARGE_ROTATION] = ost_read_large_rotation,
+        [FORMULATION] = ost_read_formulation,
         [VERIFY] = ost_read_verify,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
@@ -204,7 +212,6 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
-    (*c)->relative_error = 0.02;
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     (*c)->text_hash = ost_hash(OST_HASH_START, size, bytes);
     OST_TRY(ost_copy_string(ctx, path, &(*c)->path));

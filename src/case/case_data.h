@@ -137,9 +137,8 @@ struct OstCase {
     OstLoad *loads;
     OstLargeRotation large_rotation;
     OstFormulation formulation; /* of large rotations */
-    double relative_error;      /* of the answer: the accuracy asked for */
-    int path_steps;     /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
-    double *path_times; /* of the outputs, ascending, not negative */
+    int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
+    double *path_times;         /* of the outputs, ascending, not negative */
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;

@@ -48,7 +48,9 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
-    facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF ? 0 : c->large_rotation == OST_LARGE_ROTATION_ON ? 2 : 1;
+    facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
+                           : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
+                                                                        : 1;
     facts.formulation = c->formulation == OST_FORMULATION_CLASSICAL ? "classical" : "consistent";
     facts.accuracy = c->relative_error;
     facts.path_steps = c->path_steps;

@@ -45,11 +45,6 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
                          [OUT_OF_REACH] = {.name = "out_of_reach"},
                          [ERROR] = {.name = "relative_error"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    if (keys[ERROR].value) {
-        OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
-        if (!(c->relative_error > 0.0 && c->relative_error <= 1.0))
-            return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0, at most 1", "");
-    }
     if (keys[RESIDUAL].value)
         c->solver.accept_attainable = 0;
     if (keys[OUT_OF_REACH].value)

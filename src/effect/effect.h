@@ -47,8 +47,8 @@ typedef struct OstEffectFacts {
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides;
     int free_body;
-    int large_rotation;   /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
-    double accuracy;      /* relative */
+    int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
+    double accuracy;    /* relative */
     const char *formulation;
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads;

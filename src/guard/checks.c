@@ -73,7 +73,7 @@ static const double moves_as_a_whole = 10.0;
 
 typedef struct Body {
     const OstSupports *supports;
-    int turns;      /* are rotations large? Moments are then those of the current shape */
+    int turns; /* are rotations large? Moments are then those of the current shape */
     double centre[3];
     int moved;      /* is any prescribed displacement not zero? */
     double mean[3]; /* if so, the mean displacement; else zero */
@@ -359,13 +359,15 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(ost_internal_force_of(mesh, problem->field, problem->formulation, result->displacement, internal,
-                                   magnitude));
+    OST_THEN(
+        ost_internal_force_of(mesh, problem->field, problem->formulation, result->displacement, internal, magnitude));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(look_at_body(problem, result, &body));
     ost_visit_means_of(mesh, problem->field, problem->formulation, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
+    if (body.turns)
+        OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)

@@ -23,9 +23,9 @@ struct OstProblem {
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
     int timed_count;           /* time tables of further loads and displacements (problem/timed.h) */
     OstTimed *timed;
-    OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
-    int filled;                /* does the matrix have values? */
-    int linear;                /* is the internal force linear in the displacement? */
+    OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
+    int filled;                   /* does the matrix have values? */
+    int linear;                   /* is the internal force linear in the displacement? */
     OstFormulation formulation;   /* of energy, force and stiffness now */
     OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
     int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */

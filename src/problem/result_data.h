@@ -4,6 +4,7 @@
 
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/problem.h"
 #include "orthostat/result.h"
 
 /* Estimated relative error of linear theory, which takes strains and rotations as small. Rotated by an angle, a part
@@ -42,6 +43,7 @@ struct OstResult {
     double largest_at[3];
     OstSolveReport solve;
     OstNewtonReport newton;
+    OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */

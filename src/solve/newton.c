@@ -232,8 +232,12 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         const int found = rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
         if (found)
             OST_TRY(find_jump(newton, state, step, &jumps));
-        ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t, t,
-                !found ? "given up" : jumps ? "the body jumps" : "at rest", newton->step_iterations);
+        ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
+                t,
+                !found  ? "given up"
+                : jumps ? "the body jumps"
+                        : "at rest",
+                newton->step_iterations);
         if (found && !(jumps && step > jump_step * span)) {
             newton->report.jumps += jumps;
             newton->report.jump_at = jumps ? state->t : newton->report.jump_at;

@@ -68,7 +68,8 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
  * *length: of the step, 0 if none helps. */
 OstStatus ost_newton_search(OstNewton *newton, double *length);
 
-/* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where. */
+/* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where.
+ */
 OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, double t, OstRest rest);
 
 #endif

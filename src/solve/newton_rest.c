@@ -92,10 +92,11 @@ static OstStatus measure_change(OstNewton *newton, double length)
 
 static void tell(const OstNewton *newton, int definite, double length)
 {
-    ost_log(newton->ctx, OST_LOG_VERBOSE,
-            "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g, change %.1e",
-            newton->t, newton->step_iterations, newton->norm / newton->size, newton->energy, newton->solve.iterations,
-            newton->forcing, definite ? " with the definite stiffness" : "", length, newton->change);
+    ost_log(
+        newton->ctx, OST_LOG_VERBOSE,
+        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g, change %.1e",
+        newton->t, newton->step_iterations, newton->norm / newton->size, newton->energy, newton->solve.iterations,
+        newton->forcing, definite ? " with the definite stiffness" : "", length, newton->change);
 }
 
 /* One iteration: a correction by the exact stiffness or, where that is indefinite, by the definite one; a step along

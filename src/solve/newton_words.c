@@ -63,10 +63,10 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
                  "rounding allows no smaller residual than %.2g of loads and reactions, and %.2g was asked for",
                  newton->norm / newton->size, newton->options.relative_residual);
     else
-        snprintf(reason, sizeof reason, "%s", rest == OST_REST_SLOW ? "Newton's method does not converge there"
-                                              : rest == OST_REST_STALLED
-                                                  ? "no step along the correction lowers the energy"
-                                                  : "the linear solver finds no correction");
+        snprintf(reason, sizeof reason, "%s",
+                 rest == OST_REST_SLOW      ? "Newton's method does not converge there"
+                 : rest == OST_REST_STALLED ? "no step along the correction lowers the energy"
+                                            : "the linear solver finds no correction");
     return OST_RAISE(newton->ctx, OST_NOT_CONVERGED,
                      "the load is followed up to %.6g of it and not to %.6g: %s. The last correction is largest in %s",
                      state->t, t, reason, place);

@@ -29,9 +29,10 @@ static OstStatus judge(const OstProblem *problem, OstResult *result)
     result->newton.linear_rotation = largest.rotation;
     result->newton.linear_error = ost_linear_error(&as_linear);
     result->newton.accuracy = problem->accuracy;
-    ost_log(problem->ctx, OST_LOG_VERBOSE,
-            "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g: off by about %.2g (asked: %.2g)",
-            largest.rotation, largest.strain, result->newton.linear_error, problem->accuracy);
+    ost_log(
+        problem->ctx, OST_LOG_VERBOSE,
+        "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g: off by about %.2g (asked: %.2g)",
+        largest.rotation, largest.strain, result->newton.linear_error, problem->accuracy);
     return OST_SUCCESS;
 }
 

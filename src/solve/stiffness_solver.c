@@ -11,7 +11,8 @@ void ost_stiffness_solver_release(OstStiffnessSolver *stiffness)
     ost_row_geometry_release(&stiffness->rows);
 }
 
-OstStatus ost_stiffness_solver_create(OstProblem *problem, const OstSolverOptions *options, OstStiffnessSolver *stiffness)
+OstStatus ost_stiffness_solver_create(OstProblem *problem, const OstSolverOptions *options,
+                                      OstStiffnessSolver *stiffness)
 {
     OstContext *ctx = problem->ctx;
     *stiffness = (OstStiffnessSolver){.problem = problem, .options = *options};
