@@ -32,6 +32,7 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    OstFormulation formulation;    /* by which strain follows from the displacement */
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */

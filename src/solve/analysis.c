@@ -59,6 +59,7 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
         ost_problem_release_stiffness(analysis->problem);
     }
     OST_TRY(ost_result_take_load(result, analysis->problem));
+    result->formulation = ost_problem_formulation(analysis->problem);
     OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, &solved_for, result));
     OST_TRY(ost_result_find_largest(result));
     OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
