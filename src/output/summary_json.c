@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "output/path_files.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -157,8 +158,9 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
         ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
 }
 
-OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                                 const OstWatchedValue *watched, const char *file, const char *path)
+OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
+                                 const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
+                                 const char *to)
 {
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
@@ -167,5 +169,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED,
                          "the summary holds a number that is not finite, which JSON cannot hold");
-    return ost_json_write(ctx, document, path);
+    if (path)
+        json_object_set_new(document, "steps", ost_path_json(scene, path));
+    return ost_json_write(ctx, document, to);
 }

@@ -5,6 +5,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
+#include "problem/timed.h"
 
 static void release(OstAnalysis *analysis)
 {
@@ -42,7 +43,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
-    return ost_guard_load(problem, linear->rhs, before);
+    return ost_guard_load(problem, problem->force, linear->rhs, before);
 }
 
 static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t unknowns, OstSolvedFor *solved_for)
@@ -74,6 +75,47 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
     return solved;
+}
+
+OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm)
+{
+    const OstProblem *problem = analysis->problem;
+    OstLinear *linear = analysis->work;
+    double square = 0.0;
+    OST_TRY(ost_agree(analysis->ctx, ost_problem_function_right_hand_side(problem, function, linear->rhs)));
+    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
+        square += linear->rhs[i] * linear->rhs[i];
+    OST_TRY(ost_sum(analysis->ctx, 1, &square));
+    *norm = sqrt(square);
+    return ost_guard_load(problem, ost_problem_function_load(problem, function), linear->rhs, before);
+}
+
+OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement)
+{
+    const OstProblem *problem = analysis->problem;
+    OstLinear *linear = analysis->work;
+    if (!linear->stiffness.solver)
+        OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
+    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, report);
+    if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
+        return solved;
+    OST_TRY(ost_problem_function_displacement(problem, function, linear->v, displacement));
+    if (problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, displacement));
+    return solved;
+}
+
+/* The right-hand side has no part that supports take, so the displacement's own does not matter. */
+OstStatus ost_linear_work(const OstAnalysis *analysis, double t, const double *displacement, double *work)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstSystem *system = problem->system;
+    OstLinear *linear = analysis->work;
+    *work = 0.0;
+    OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, t, linear->rhs)));
+    for (OstLocal row = 0; row < system->matrix->rows; row++)
+        *work += ost_dot3(linear->rhs + 3 * (size_t)row, displacement + 3 * (size_t)system->node_of_row[row]);
+    return ost_sum(analysis->ctx, 1, work);
 }
 
 const OstStrategy ost_linear_strategy = {.prepare = prepare, .solve = solve, .release = release};

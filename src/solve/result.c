@@ -41,13 +41,20 @@ void ost_result_destroy(OstResult **result)
     OST_FREE(*result);
 }
 
-OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem)
+void ost_result_take_outcome(OstResult *result, OstStatus solved)
+{
+    result->unfinished = solved == OST_NOT_CONVERGED;
+    if (result->unfinished)
+        ost_object(&result->verdict, solved, "%s", ost_error_text(result->ctx));
+}
+
+OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, double t)
 {
     OstContext *ctx = result->ctx;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
-        ost_problem_load(problem, result->newton.used ? result->newton.reached : 1.0, result->force);
+        ost_problem_load(problem, t, result->force);
     return ost_agree(ctx, status);
 }
 
