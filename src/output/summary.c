@@ -72,13 +72,12 @@ static void describe_error(double error, char text[32])
         snprintf(text, 32, "by about %.2g %%", 100.0 * error);
 }
 
-static int warn_of_linear_theory(const OstResult *result, char text[OST_LONGEST_WARNING])
+int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
 {
-    const OstChecks *checks = &result->checks;
     const double error = ost_linear_error(checks);
     char off[32];
-    const int accepted = result->newton.judged && error <= result->newton.accuracy;
-    if (!checks->linear || !checks->finite || !(error > small_error) || accepted)
+    text[0] = '\0';
+    if (!checks->linear || !checks->finite || !(error > small_error))
         return 0;
     describe_error(error, off);
     snprintf(text, OST_LONGEST_WARNING,
@@ -86,6 +85,12 @@ static int warn_of_linear_theory(const OstResult *result, char text[OST_LONGEST_
              "is off %s there; scale the loads down, or read the result as a direction",
              checks->largest_rotation * degrees, 100.0 * checks->largest_strain, off);
     return 1;
+}
+
+static int warn_of_linear_theory(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const int accepted = result->newton.judged && result->newton.linear_error <= result->newton.accuracy;
+    return !accepted && ost_linearity_warning(&result->checks, text);
 }
 
 static int warn_of_inverted(const OstResult *result, char text[OST_LONGEST_WARNING])

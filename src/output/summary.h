@@ -37,6 +37,9 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
 enum { OST_WARNINGS = 3, OST_LONGEST_WARNING = 360 };
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
 
+/* Local. The first of these, of any answer of linear theory. */
+int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
+
 /* Local. The effects of a scene as a list of {effect, on, reason, bytes}, the bytes as predicted; the caller's
  * reference, NULL if jansson fails. */
 struct json_t;
