@@ -39,7 +39,7 @@ typedef struct OstProblemParts {
     OstLocal constraint_count;  /* on this rank; directions of one node may repeat, but not contradict each other */
     int free_body;              /* nothing holds the body, its loads balance, and there are no constraints */
     const double *force;        /* 3 × owned_nodes: the load at t = 1, or NULL for none */
-    OstFormulation formulation; /* 0: linear */
+    OstFormulation formulation; /* of the answer; 0: linear */
     int timed_count;            /* the same on all ranks, as are the tables */
     const OstTimedParts *timed;
 } OstProblemParts;
@@ -114,7 +114,7 @@ typedef struct OstWorstTet {
 OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst);
 
 /* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
- * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
+ * stiffness of a linear problem then stays as it is; that of a nonlinear one makes the map anew when asked for.
  */
 void ost_problem_release_scatter(OstProblem *problem);
 

@@ -79,6 +79,20 @@ static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const 
                      yaml->path, c->first_table_line);
 }
 
+static OstStatus check_large_rotation(const OstYaml *yaml, const OstYamlKey *large_rotation,
+                                      const OstYamlKey *formulation, const OstCase *c)
+{
+    if (c->large_rotation == OST_LARGE_ROTATION_ON && c->free_body)
+        return ost_yaml_raise(yaml, large_rotation->value,
+                              "a free body is solved linearly: nothing says how far it turns as a whole; constrain six "
+                              "of its components, or leave large_rotation out");
+    if (c->large_rotation == OST_LARGE_ROTATION_OFF && formulation->value)
+        return ost_yaml_raise(yaml, formulation->value,
+                              "formulation says how large rotations are computed, and large_rotation is off; leave out "
+                              "one of them");
+    return OST_SUCCESS;
+}
+
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
     enum {
@@ -93,6 +107,8 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         OUTPUT,
         WATCH,
         PATH,
+        LARGE_ROTATION,
+        FORMULATION,
         VERIFY,
         SECTIONS
     };
@@ -108,13 +124,24 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [OUTPUT] = {.name = "output"},
         [WATCH] = {.name = "watch"},
         [PATH] = {.name = "path"},
+        [LARGE_ROTATION] = {.name = "large_rotation"},
+        [FORMULATION] = {.name = "formulation"},
         [VERIFY] = {.name = "verify"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,      [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
-        [LOADS] = ost_read_loads,    [CONSTRAINTS] = ost_read_constraints, [ACCURACY] = ost_read_accuracy,
-        [SOLVER] = ost_read_solver,  [OUTPUT] = ost_read_output,           [WATCH] = ost_read_watches,
-        [PATH] = ost_read_load_path, [VERIFY] = ost_read_verify,
+        [MESH] = ost_read_mesh,
+        [ELEMENT] = ost_read_element,
+        [MATERIALS] = ost_read_materials,
+        [LOADS] = ost_read_loads,
+        [CONSTRAINTS] = ost_read_constraints,
+        [ACCURACY] = ost_read_accuracy,
+        [SOLVER] = ost_read_solver,
+        [OUTPUT] = ost_read_output,
+        [WATCH] = ost_read_watches,
+        [PATH] = ost_read_load_path,
+        [LARGE_ROTATION] = ost_read_large_rotation,
+        [FORMULATION] = ost_read_formulation,
+        [VERIFY] = ost_read_verify,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
     if (keys[TITLE].value)
@@ -125,6 +152,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         if (keys[s].value)
             OST_TRY(read[s](yaml, keys[s].value, c));
     OST_TRY(check_materials(yaml, c));
+    OST_TRY(check_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     return check_gravity(yaml, c);
 }
@@ -183,6 +211,7 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     (*c)->solver = ost_solver_default_options();
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
+    (*c)->formulation = OST_FORMULATION_CONSISTENT;
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     (*c)->text_hash = ost_hash(OST_HASH_START, size, bytes);
     OST_TRY(ost_copy_string(ctx, path, &(*c)->path));

@@ -6,6 +6,7 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
+#include "orthostat/formulation.h"
 #include "orthostat/material.h"
 #include "orthostat/time_table.h"
 
@@ -110,6 +111,9 @@ typedef enum {
     OST_MESH_FROM_PROGRAM /* the word from_program: who creates the scene passes the mesh */
 } OstMeshKind;
 
+/* Is the case solved for large rotations? AUTO: where linear theory is off by more than the accuracy asked for. */
+typedef enum { OST_LARGE_ROTATION_AUTO, OST_LARGE_ROTATION_ON, OST_LARGE_ROTATION_OFF } OstLargeRotation;
+
 struct OstCase {
     OstContext *ctx;
     char *path; /* of the case file */
@@ -131,8 +135,10 @@ struct OstCase {
     OstConstraint *constraints;
     int load_count;
     OstLoad *loads;
-    int path_steps;     /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
-    double *path_times; /* of the outputs, ascending, not negative */
+    OstLargeRotation large_rotation;
+    OstFormulation formulation; /* of large rotations */
+    int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
+    double *path_times;         /* of the outputs, ascending, not negative */
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;

@@ -15,6 +15,8 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_load_path(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);

@@ -124,6 +124,10 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
+    if (ost_effect_on(made->effects, OST_EFFECT_LARGE_ROTATION))
+        made->beyond_linear = scene->c->formulation;
+    made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
+    made->accuracy = scene->c->relative_error;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, 0, made->force));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
@@ -161,12 +165,19 @@ int ost_problem_is_linear(const OstProblem *problem)
 }
 
 /* Values of the matrix are of the formulation that was: they do not count. */
-void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation)
 {
     if (problem->formulation != formulation)
         problem->filled = 0;
     problem->formulation = formulation;
     problem->linear = formulation == OST_FORMULATION_LINEAR && ost_element_of(problem->mesh->nodes_per_tet)->linear;
+}
+
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+{
+    ost_problem_take_formulation(problem, formulation);
+    problem->beyond_linear = formulation;
+    problem->automatic = 0;
 }
 
 OstFormulation ost_problem_formulation(const OstProblem *problem)
@@ -231,14 +242,15 @@ static OstStatus fill(const OstProblem *problem, const double *u, int definite)
     return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
 }
 
+/* The matrix stays where it is, so that a solver on it can be kept. */
 static OstStatus make_stiffness(OstProblem *problem, const double *u, int definite, OstStiffness *stiffness)
 {
-    const int may_fill = problem->system && problem->system->block_of_tet;
-    if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
-        ost_problem_release_stiffness(problem);
+    if (!problem->system)
         OST_TRY(make_pattern(problem));
-    }
-    if (problem->system->block_of_tet)
+    const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
+    if (fills && !problem->system->block_of_tet)
+        OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
+    if (fills)
         OST_TRY(ost_agree(problem->ctx, fill(problem, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;

@@ -23,10 +23,13 @@ struct OstProblem {
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
     int timed_count;           /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
-    OstSystem *system; /* NULL before ost_problem_stiffness, and after its release */
-    int filled;        /* does the matrix have values? */
-    int linear;        /* is the internal force linear in the displacement? */
-    OstFormulation formulation;
+    OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
+    int filled;                   /* does the matrix have values? */
+    int linear;                   /* is the internal force linear in the displacement? */
+    OstFormulation formulation;   /* of energy, force and stiffness now */
+    OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
+    int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */
+    double accuracy;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */
@@ -34,6 +37,9 @@ struct OstProblem {
 
 /* Local. What messages begin with: the case's file, or "the problem". */
 const char *ost_problem_name(const OstProblem *problem);
+
+/* Local. Goes on with another formulation on the way to the answer, whose formulation stays. */
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation);
 
 /* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */

@@ -10,10 +10,9 @@
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
     OstContext *ctx = problem->ctx;
-    const OstStrategy *strategy = ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
+    const int is_linear = problem->beyond_linear == OST_FORMULATION_LINEAR;
+    const OstStrategy *strategy = is_linear ? &ost_linear_strategy : &ost_nonlinear_strategy;
     *analysis = NULL;
-    if (!strategy)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and there is no strategy for that");
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, analysis, 1)));
     **analysis = (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy};
     return OST_SUCCESS;
@@ -46,6 +45,7 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 {
     OstContext *ctx = analysis->ctx;
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
+    result->formulation = ost_problem_formulation(analysis->problem);
     OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, solved_for, result));
     OST_TRY(ost_result_find_largest(result));
     OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
@@ -68,7 +68,8 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
         analysis->strategy->release(analysis);
         ost_problem_release_stiffness(analysis->problem);
     }
-    return ost_analysis_conclude(analysis, 1.0, solved, &solved_for, fields, result);
+    const double t = result->newton.used ? result->newton.reached : 1.0;
+    return ost_analysis_conclude(analysis, t, solved, &solved_for, fields, result);
 }
 
 OstStatus ost_analysis_solve(OstAnalysis *analysis, unsigned fields, OstResult **result)

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/linear.h"
 
-#include "algebra/solver.h"
-#include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
-#include "problem/coarse_space.h"
 #include "problem/free_body.h"
 
 static void release(OstAnalysis *analysis)
@@ -15,9 +12,7 @@ static void release(OstAnalysis *analysis)
     OstLinear *linear = analysis->work;
     if (!linear)
         return;
-    ost_solver_destroy(&linear->solver);
-    ost_linear_space_destroy(&linear->coarse);
-    ost_row_geometry_release(&linear->rows);
+    ost_stiffness_solver_release(&linear->stiffness);
     OST_FREE(linear->rhs);
     OST_FREE(linear->v);
     OST_FREE(analysis->work);
@@ -37,12 +32,8 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     OstStatus status = OST_NEW(ctx, &linear->rhs, unknowns);
     OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
     OST_TRY(ost_agree(ctx, status));
-    ost_ledger_enter(ctx, OST_LEDGER_HIERARCHY);
-    status = ost_row_geometry_create(problem->system, problem->field, problem->with_metric, &linear->rows);
-    OST_THEN(ost_problem_facts(problem, &linear->facts));
-    ost_ledger_leave(ctx);
-    OST_TRY(status);
-    return ost_guard_stiffness(problem, linear->rows.modes, &linear->rigid_motion, before);
+    OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
+    return ost_guard_stiffness(problem, linear->stiffness.rows.modes, &linear->rigid_motion, before);
 }
 
 static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
@@ -53,26 +44,6 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
     return ost_guard_load(problem, problem->force, linear->rhs, before);
-}
-
-/* A problem made without a case has no effects; the rule of this one is then applied here. */
-static int needs_linear_space(const OstProblem *problem, const OstSolverPlan *plan)
-{
-    return problem->effects ? ost_effect_on(problem->effects, OST_EFFECT_LINEAR_SPACE)
-                            : problem->mesh->nodes_per_tet == 10 && ost_solver_may_be_multigrid(plan);
-}
-
-static OstStatus make_solver(const OstAnalysis *analysis, OstLinear *linear)
-{
-    const OstProblem *problem = analysis->problem;
-    OstSolverPlan plan;
-    ost_solver_plan(&analysis->options, &linear->facts, &plan);
-    if (needs_linear_space(problem, &plan))
-        OST_TRY(ost_linear_space_create(problem->system, problem->field, problem->with_metric, &linear->coarse));
-    OstSolverGeometry geometry = linear->rows.geometry;
-    geometry.coarse = linear->coarse ? &linear->coarse->space : NULL;
-    geometry.facts = &linear->facts;
-    return ost_solver_create(analysis->ctx, problem->system->matrix, &geometry, &analysis->options, &linear->solver);
 }
 
 static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t unknowns, OstSolvedFor *solved_for)
@@ -92,9 +63,9 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     result->checks.rigid_motion = linear->rigid_motion;
-    if (!linear->solver)
-        OST_TRY(make_solver(analysis, linear));
-    const OstStatus solved = ost_solver_solve(linear->solver, linear->rhs, linear->v, &result->solve);
+    if (!linear->stiffness.solver)
+        OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
+    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (!result->reached)
@@ -123,9 +94,9 @@ OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *
 {
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
-    if (!linear->solver)
-        OST_TRY(make_solver(analysis, linear));
-    const OstStatus solved = ost_solver_solve(linear->solver, linear->rhs, linear->v, report);
+    if (!linear->stiffness.solver)
+        OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
+    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, report);
     if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
         return solved;
     OST_TRY(ost_problem_function_displacement(problem, function, linear->v, displacement));

@@ -2,17 +2,14 @@
 #ifndef ORTHOSTAT_SOLVE_LINEAR_H
 #define ORTHOSTAT_SOLVE_LINEAR_H
 
-#include "algebra/solver.h"
-#include "problem/coarse_space.h"
+#include "solve/stiffness_solver.h"
 #include "solve/strategy.h"
 
-/* One linear solve: K v = P (f - K g), u = v + g. Stiffness and solver are made once, for all loads. */
+/* The work space of a linear solve, which nonlinear strategies begin with: K v = P (f - K g), u = v + g. Stiffness and
+ * solver are made once, for all loads. */
 typedef struct OstLinear {
-    OstRowGeometry rows;
-    OstLinearSpace *coarse; /* of the linear tets under quadratic ones, or NULL */
-    OstSolverFacts facts;
-    OstSolver *solver; /* made by the first solve */
-    double *rhs, *v;   /* 3 × rows */
+    OstStiffnessSolver stiffness; /* its solver is made by the first solve */
+    double *rhs, *v;              /* 3 × rows */
     double rigid_motion;
 } OstLinear;
 

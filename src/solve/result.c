@@ -126,6 +126,11 @@ const OstChecks *ost_result_checks(const OstResult *result)
     return &result->checks;
 }
 
+const OstNewtonReport *ost_result_newton_report(const OstResult *result)
+{
+    return &result->newton;
+}
+
 OstGlobal ost_result_unknowns(const OstResult *result)
 {
     return result->unknowns;

@@ -27,7 +27,8 @@ struct OstAnalysis {
     void *work; /* the strategy's; NULL until prepared */
 };
 
-extern const OstStrategy ost_linear_strategy; /* linear.c */
+extern const OstStrategy ost_linear_strategy;    /* linear.c */
+extern const OstStrategy ost_nonlinear_strategy; /* nonlinear.c */
 
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
