@@ -3,6 +3,7 @@
 #define ORTHOSTAT_SOLVE_PATH_DATA_H
 
 #include "orthostat/path.h"
+#include "solve/newton.h"
 #include "solve/superposition.h"
 
 struct OstPath {
@@ -11,8 +12,12 @@ struct OstPath {
     OstAnalysis *analysis;
     int count, done;
     double *times;
-    OstPathStep *steps;        /* count */
-    OstSuperposition linear;   /* solved by the first step, or read from a checkpoint */
+    OstPathStep *steps;      /* count */
+    OstSuperposition linear; /* solved by the first step that needs it, or read from a checkpoint */
+    int decided;             /* is it known which of the two the steps are? */
+    int nonlinear;           /* Newton's method takes them, from `state` */
+    OstNewtonState state;
+    OstNewtonReport judged;    /* how far linear theory is off at most, and with what that was compared */
     OstStatus solved_linearly; /* how that ended */
 };
 

@@ -7,6 +7,7 @@
 #include "solve/linear.h"
 
 #include <math.h>
+#include <string.h>
 
 void ost_superposition_release(OstSuperposition *all)
 {
@@ -85,6 +86,7 @@ OstStatus ost_superposition_at(const OstSuperposition *all, const OstAnalysis *a
     const size_t count = 3 * (size_t)problem->mesh->node_count;
     double *u = result->displacement;
     double work = 0.0;
+    memset(u, 0, count * sizeof *u);
     *solved_for = (OstSolvedFor){0.0, 0.0};
     ost_ledger_enter(problem->ctx, OST_EFFECT_PATH);
     for (int k = 0; k < all->count; k++) {
