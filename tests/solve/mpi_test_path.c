@@ -7,13 +7,13 @@
 #include "problem/problem.h"
 #include "problem/scene_data.h"
 
-/* Paths of a linear problem: every step is the static answer to the loads at its time; a checkpoint goes on with the
- * same bits; one that does not fit is refused. */
+/* Paths: every step is the static answer to the loads at its time, by linear theory or by Newton's method; a checkpoint
+ * goes on with the same bits; one that does not fit is refused. */
 
 #define BODY                                                                                         \
     "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"                                       \
     "materials: [{region: all, youngs_modulus: [100, 200, 400], poissons_ratio: 0.3, density: 1}]\n" \
-    "accuracy: {relative_residual: 1e-11}\n"
+    "accuracy: {relative_residual: 1e-11}\nlarge_rotation: off\n"
 #define HELD "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
 #define MOVED "  - {on: {nearest: [2, 0, 0]}, displacement: [free, 0.01, free], time: [[0, 1], [1, 3]]}\n"
 #define LOADS                                                                                     \
@@ -159,6 +159,85 @@ static void a_program_gives_tables_too(void **state)
     destroy(&made);
 }
 
+/* --- large rotations --- */
+
+#define BEAM                                                                              \
+    "mesh: {block: {size: [6, 1, 1], divisions: [9, 2, 2]}}\n"                            \
+    "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3, density: 1}]\n" \
+    "accuracy: {relative_residual: 1e-10}\nsolver: {method: metric, coarsest_unknowns: 30}\n" HELD
+#define BENT "loads:\n  - {on: {boundary: xmax}, total_force: [0, 0, 2]}\n"
+#define ON "large_rotation: on\n"
+
+static void compare_end(const char *text, const char *alone)
+{
+    Made path = make(text), fixed = make(alone);
+    const double last = path.c->path_times[path.c->path_steps - 1];
+    OstResult *end = NULL, *once = NULL;
+    assert_success(ost_scene_solve(path.scene, &end));
+    assert_success(ost_scene_solve(fixed.scene, &once));
+    assert_true(end->newton.used && once->newton.used && end->newton.reached == last);
+    assert_true(farthest(3 * (size_t)end->mesh->node_count, end->displacement, once->displacement) < 1e-7);
+    assert_true(farthest(3 * (size_t)end->mesh->node_count, end->reaction, once->reaction) < 1e-6);
+    ost_result_destroy(&end);
+    ost_result_destroy(&once);
+    destroy(&path);
+    destroy(&fixed);
+}
+
+static void steps_do_not_change_where_a_body_ends(void **state)
+{
+    (void)state;
+    compare_end(BEAM BENT ON "path: {steps: 3}\n", BEAM BENT ON);
+    /* where the load at t = 0 is not zero, it is brought up first */
+    compare_end(BEAM ON "loads:\n  - {gravity: [0, 0, 0.2], time: [[0, 1]]}\npath: {times: [0]}\n",
+                BEAM ON "loads:\n  - {gravity: [0, 0, 0.2]}\n");
+    compare_end(BEAM "  - {on: {boundary: xmax}, displacement: [-0.5, free, 1.5], time: [[0, 0.5], [1, 2]]}\n" ON
+                     "path: {times: [0, 0.2, 1]}\n",
+                BEAM "  - {on: {boundary: xmax}, displacement: [-1, free, 3]}\n" ON);
+}
+
+static void a_body_at_rest_stays_until_it_is_loaded(void **state)
+{
+    (void)state;
+    Made made = make(BEAM ON BENT "path: {times: [0, 0.5]}\n");
+    OstPath *path = NULL;
+    OstResult *result = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    assert_success(ost_path_advance(path, 0, &result));
+    assert_true(result->largest_displacement == 0.0);
+    assert_int_equal(ost_path_step(path, 0)->newton_iterations, 0);
+    ost_result_destroy(&result);
+    assert_success(ost_path_advance(path, 0, &result));
+    assert_true(result->largest_displacement > 0.1);
+    assert_true(ost_path_step(path, 1)->newton_iterations > 0);
+    ost_result_destroy(&result);
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+/* Linear theory serves all steps or none. */
+static void one_step_too_far_makes_all_newtons(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int linear;
+    } cases[] = {{BEAM BENT "path: {times: [0.01, 1]}\n", 0}, {BEAM BENT "path: {times: [0.01, 0.02]}\n", 1}};
+    for (int c = 0; c < 2; c++) {
+        Made made = make(cases[c].text);
+        OstPath *path = NULL;
+        OstResult *result = NULL;
+        assert_success(ost_scene_path(made.scene, &path));
+        assert_success(ost_path_advance(path, 0, &result));
+        assert_int_equal(ost_path_step(path, 0)->linear, cases[c].linear);
+        assert_int_equal(result->newton.used, !cases[c].linear);
+        assert_true(result->newton.judged);
+        ost_result_destroy(&result);
+        ost_path_destroy(&path);
+        destroy(&made);
+    }
+}
+
 /* --- checkpoints --- */
 
 static void checkpoint_name(char name[300])
@@ -179,11 +258,12 @@ static void a_resumed_path_has_the_same_bits(void **state)
 {
     (void)state;
     static const char *const texts[] = {BODY HELD MOVED LOADS TIMES "solver: {method: metric, coarsest_unknowns: 30}\n",
+                                        BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n",
                                         BODY HELD MOVED LOADS TIMES "solver: {method: direct}\n"};
     char name[300];
     checkpoint_name(name);
-    for (int s = 0; s < 2; s++) {
-        if (s == 1 && ost_size(ctx) > 1) /* sums of factors on several ranks depend on the order of messages */
+    for (int s = 0; s < 3; s++) {
+        if (s == 2 && ost_size(ctx) > 1) /* sums of factors on several ranks depend on the order of messages */
             break;
         Made made = make(texts[s]);
         OstPath *whole = NULL, *killed = NULL;
@@ -324,9 +404,15 @@ static void another_number_of_ranks_is_refused(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_step_is_the_static_answer),    cmocka_unit_test(without_a_load_the_body_is_at_rest),
-    cmocka_unit_test(what_has_no_table_needs_no_memory),  cmocka_unit_test(a_program_gives_tables_too),
-    cmocka_unit_test(a_resumed_path_has_the_same_bits),   cmocka_unit_test(checkpoints_that_do_not_fit_are_refused),
+    cmocka_unit_test(every_step_is_the_static_answer),
+    cmocka_unit_test(without_a_load_the_body_is_at_rest),
+    cmocka_unit_test(what_has_no_table_needs_no_memory),
+    cmocka_unit_test(a_program_gives_tables_too),
+    cmocka_unit_test(steps_do_not_change_where_a_body_ends),
+    cmocka_unit_test(a_body_at_rest_stays_until_it_is_loaded),
+    cmocka_unit_test(one_step_too_far_makes_all_newtons),
+    cmocka_unit_test(a_resumed_path_has_the_same_bits),
+    cmocka_unit_test(checkpoints_that_do_not_fit_are_refused),
     cmocka_unit_test(another_number_of_ranks_is_refused),
 };
 
