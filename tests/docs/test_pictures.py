@@ -56,6 +56,12 @@ finished = run("solve", "plank.yaml", "-q", "--json", "plank.json", folder=folde
 check(finished.exit_code == 0 and not finished.errors, finished.errors)
 check_drawn("plank.png", pictures.numbers_of_solve(report_of("plank.json")), 0.02, "plank")
 
+# A path.
+finished = run("solve", os.path.join(SOURCE, "cases", "bent-bar", "pull.yaml"), "-q", "--json", "pull.json", "--output", "pull.vtkhdf",
+               folder=folder)
+check(finished.exit_code == 0, finished.errors)
+check_drawn("history.png", pictures.numbers_of_path(report_of("pull.json")), 1e-5, "history")
+
 # Where nine constants are stable.
 check(run("material", "--stability-region", "region.csv", folder=folder).exit_code == 0, "the stability region failed")
 check_drawn("stability-region.png", pictures.numbers_of_region(os.path.join(folder, "region.csv")), 1e-4, "stability")
