@@ -48,7 +48,7 @@ typedef struct OstNewtonReport {
     double change;            /* its last correction over the displacement, in the 2-norm */
     int rounding_limited;     /* rounding, and not the residual asked for, ended an iteration */
     int jumps;                /* load steps over which the body jumped from one state to another: snap-through */
-    double jump_at;           /* load factor before the last of these */
+    double jump_at;           /* load factor at the end of the last of these */
     double seconds;           /* of Newton's method */
 } OstNewtonReport;
 

@@ -10,7 +10,8 @@ typedef enum {
     OST_REST_ROUNDING, /* rounding allows no smaller residual */
     OST_REST_SLOW,     /* too many iterations */
     OST_REST_STALLED,  /* no step along the correction lowers the energy */
-    OST_REST_NO_STEP   /* the linear solver found no correction */
+    OST_REST_NO_STEP,  /* the linear solver found no correction */
+    OST_REST_UNSTABLE  /* at rest, but not stable, and nothing stable was found near by */
 } OstRest;
 
 struct OstNewton {
@@ -67,6 +68,10 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
 /* Collective. Goes along newton->direction until the energy (without one, the residual) is low enough; evaluates there.
  * *length: of the step, 0 if none helps. */
 OstStatus ost_newton_search(OstNewton *newton, double *length);
+
+/* Collective. Looks whether the state at rest is stable: is the exact stiffness definite? If not, the body is pushed
+ * along its softest motion, and a stable state is looked for from there. */
+OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest);
 
 /* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where.
  */

@@ -17,7 +17,10 @@ static const double drowned = 1e-11;
 /* A step is cut to between these shares of itself. */
 static const double least_cut = 0.1, most_cut = 0.5;
 
-enum { MOST_CUTS = 20 };
+/* A step is doubled where the slope at its end is more than this share of that at its beginning. */
+static const double steep = 0.5;
+
+enum { MOST_CUTS = 20, MOST_EXTENSIONS = 10 };
 
 /* What the search goes by, at one step length: the energy and its slope, or, without an energy, the squared residual
  * and its slope, twice its negative. */
@@ -64,23 +67,42 @@ static double shorten(const Point *start, const Point *point)
     return fmin(fmax(found, least_cut * length), most_cut * length);
 }
 
+static OstStatus go_to(OstNewton *newton, double length, Point *point)
+{
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+        newton->candidate[i] = newton->displacement[i] + length * newton->direction[i];
+    OST_TRY(ost_newton_evaluate(newton, newton->candidate));
+    return measure(newton, length, point);
+}
+
+/* Twice as far, as long as the energy falls there nearly as steeply as at first: so it does along a direction of
+ * negative curvature, of which the definite stiffness knows nothing. */
+static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
+{
+    for (int times = 0; times < MOST_EXTENSIONS && point->slope < steep * start->slope; times++) {
+        Point next;
+        OST_TRY(go_to(newton, 2.0 * point->length, &next));
+        if (!(next.value < point->value))
+            return go_to(newton, point->length, point);
+        *point = next;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_search(OstNewton *newton, double *length)
 {
-    const size_t count = 3 * (size_t)newton->problem->mesh->node_count;
     Point start, point;
+    double next = 1.0;
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
-    if (!(start.slope < 0.0))
-        return OST_SUCCESS;
-    double next = 1.0;
-    for (int cut = 0; cut <= MOST_CUTS; cut++) {
-        for (size_t i = 0; i < count; i++)
-            newton->candidate[i] = newton->displacement[i] + next * newton->direction[i];
-        OST_TRY(ost_newton_evaluate(newton, newton->candidate));
-        OST_TRY(measure(newton, next, &point));
+    for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
+        OST_TRY(go_to(newton, next, &point));
         if (is_low_enough(newton, &start, &point)) {
-            memcpy(newton->displacement, newton->candidate, count * sizeof(double));
-            *length = next;
+            if (cut == 0 && ost_newton_has_energy(newton))
+                OST_TRY(extend(newton, &start, &point));
+            memcpy(newton->displacement, newton->candidate,
+                   3 * (size_t)newton->problem->mesh->node_count * sizeof(double));
+            *length = point.length;
             return OST_SUCCESS;
         }
         newton->report.cuts++;

@@ -12,16 +12,23 @@
 /* A first load step turns the body by about this much, in radians, as far as the tangent tells. */
 static const double first_turn = 1.0;
 
-/* Iterations: of a load step that may be cut back; of the least one; up to which the next step is twice as large, and
+/* Iterations: of a load step that may be cut back; of the least one; on the way from an unstable
+ * state to a stable one; up to which the next step is twice as large, and
  * from which it is half as large. */
-enum { MOST_ITERATIONS = 15, LAST_ITERATIONS = 60, FEW_ITERATIONS = 6, MANY_ITERATIONS = 11 };
+enum {
+    MOST_ITERATIONS = 15,
+    LAST_ITERATIONS = 60,
+    SETTLING_ITERATIONS = 200,
+    FEW_ITERATIONS = 6,
+    MANY_ITERATIONS = 11
+};
 
 /* The least load step, as a share of what an advance is asked for. */
 static const double least_step = 1.0 / 4096.0;
 
 /* Where the stiffness turned indefinite and the state found is farther from the predicted one than that is from the
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
-static const double jump_step = 1.0 / 256.0;
+static const double jump_step = 1.0 / 16.0;
 
 OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state)
 {
@@ -224,6 +231,11 @@ static OstStatus look_for_motion(OstNewton *newton, const OstNewtonState *state)
     return OST_SUCCESS;
 }
 
+static int is_at_rest(const OstNewton *newton, OstRest rest)
+{
+    return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
@@ -241,9 +253,13 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         OstRest rest;
         int jumps = 0;
         OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
-        const int found = rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
+        const int found = is_at_rest(newton, rest);
         if (found)
             OST_TRY(find_jump(newton, state, step, &jumps));
+        if (found && t == to)
+            OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));
+        if (found && !is_at_rest(newton, rest))
+            return ost_newton_give_up(newton, state, t, rest);
         ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
                 t,
                 !found  ? "given up"
@@ -252,7 +268,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
                 newton->step_iterations);
         if (found && !(jumps && step > jump_step * span)) {
             newton->report.jumps += jumps;
-            newton->report.jump_at = jumps ? state->t : newton->report.jump_at;
+            newton->report.jump_at = jumps ? t : newton->report.jump_at;
             newton->report.rounding_limited |= rest == OST_REST_ROUNDING;
             accept(newton, t, state);
             ost_progress(newton->ctx, "load", state->t);
