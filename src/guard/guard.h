@@ -22,9 +22,9 @@ OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before);
  * multigrid is given. `resistance` becomes the largest such force, over |K| |motion|. */
 OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, double *resistance, OstVerdict *before);
 
-/* Collective, before each solve. Objects to loads of a free body that do not balance, and to a
+/* Collective, before each solve. Objects to loads (3 × owned_nodes) of a free body that do not balance, and to a
  * right-hand side (3 × rows) out of range. */
-OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdict *before);
+OstStatus ost_guard_load(const OstProblem *problem, const double *force, const double *rhs, OstVerdict *before);
 
 /* Collective. Names the worst tet, by number, place and quality, if that quality is below 0.01: it may be why rounding
  * hides the answer. Otherwise `words` becomes empty. */
@@ -57,8 +57,8 @@ typedef struct OstSolvedFor {
  * forces summed tet by tet, without the assembled matrix, so that an error of assembly shows. Objects, with numbers,
  * unless all of this is true: values are finite; the true residual is what was asked for; forces and moments balance;
  * if the problem is linear, strain energy equals work (Clapeyron); the stated error is at most a tenth, in the
- * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative residual that was
- * asked for. */
+ * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative
+ * residual that was asked for. */
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result);
 

@@ -51,9 +51,10 @@ static OstStatus prescribed_displacement(const OstScene *scene, const OstConstra
     return OST_SUCCESS;
 }
 
-static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node,
+static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, int table, OstLocal node,
                                 OstSupports *supports)
 {
+    const double factor = constraint->table == table ? 1.0 : 0.0;
     double prescribed[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
         return ost_supports_constrain(supports, node, constraint->normal, 0.0);
@@ -62,12 +63,13 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->constrained[component])
-            OST_TRY(ost_supports_constrain(supports, node, direction, prescribed[component]));
+            OST_TRY(ost_supports_constrain(supports, node, direction, factor * prescribed[component]));
     }
     return OST_SUCCESS;
 }
 
-static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
+static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, int table,
+                                OstSupports *supports)
 {
     const OstAccount account = constraint->kind == OST_CONSTRAIN_SLIDE ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS;
     OstLocal count = 0;
@@ -77,14 +79,14 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = constrain_node(scene, constraint, nodes[i], supports);
+            status = constrain_node(scene, constraint, table, nodes[i], supports);
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
     return status;
 }
 
-OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
+OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports)
 {
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
         return ost_free_body_supports(scene->mesh, &scene->plan.effects, supports);
@@ -92,7 +94,7 @@ OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
     if (status == OST_SUCCESS)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
-        status = add_constraint(scene, &scene->c->constraints[i], *supports);
+        status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
     OST_THEN(ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
@@ -234,10 +236,10 @@ static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupport
     return status;
 }
 
-OstStatus ost_scene_loads(const OstScene *scene, const OstSupports *supports, double *force)
+OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force)
 {
     for (int i = 0; i < scene->c->load_count; i++)
-        if (ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
+        if (scene->c->loads[i].table == table && ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
             OST_TRY(supports ? add_checked_load(scene, i, supports, force)
                              : add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
     return OST_SUCCESS;
