@@ -32,6 +32,7 @@ struct OstNewton {
     double energy_size;               /* the sum of their sizes, for rounding */
     double norm;                      /* of the residual */
     double driving;                   /* the largest residual with which a load step began, before its prediction */
+    double stiffness_size;            /* 2-norm of the sums of absolute values of the rows of the stiffness at u = 0 */
     double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */

@@ -27,7 +27,7 @@ static const double rounding_change = 1e-9;
 enum { MOST_DESCENTS = 100, RETRIED = 3 };
 
 /* Sums over the rows and nodes of this rank. */
-enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUMS };
+enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
 
 /* What the supports take of a node's load and internal force is reaction. */
 static void add_node(const OstNewton *newton, OstLocal node, double sums[SUMS])
@@ -61,12 +61,17 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         add_node(newton, node, sums);
         sums[SUM_WORK] += ost_dot3(newton->load + 3 * (size_t)node, displacement + 3 * (size_t)node);
+        sums[SUM_DISPLACEMENT] += ost_dot3(displacement + 3 * (size_t)node, displacement + 3 * (size_t)node);
     }
     OST_TRY(ost_sum(newton->ctx, SUMS, sums));
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
-    newton->energy = strain_energy - sums[SUM_WORK];
+    newton->energy = ost_newton_has_energy(newton) ? strain_energy - sums[SUM_WORK] : 0.0;
     newton->energy_size = fabs(strain_energy) + fabs(sums[SUM_WORK]);
-    newton->size = fmax(fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), newton->driving), DBL_MIN);
+    /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
+     */
+    const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);
+    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness_size / newton->options.relative_residual;
+    newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, fmax(rounding, DBL_MIN)));
     return OST_SUCCESS;
 }
 

@@ -14,6 +14,9 @@ static const double share = 1e-4;
  * SIAM J. Optim. 16, 2005). */
 static const double drowned = 1e-11;
 
+/* There, and without an energy, the slope must fall to this share. */
+static const double flatter = 0.9;
+
 /* A step is cut to between these shares of itself. */
 static const double least_cut = 0.1, most_cut = 0.5;
 
@@ -22,8 +25,8 @@ static const double steep = 0.5;
 
 enum { MOST_CUTS = 20, MOST_EXTENSIONS = 10 };
 
-/* What the search goes by, at one step length: the energy and its slope, or, without an energy, the squared residual
- * and its slope, twice its negative. */
+/* What the search goes by, at one step length: the energy and its slope, or, without an energy, the slope alone: the
+ * residual along the direction. */
 typedef struct Point {
     double length, value, slope;
 } Point;
@@ -36,23 +39,19 @@ static OstStatus measure(const OstNewton *newton, double length, Point *point)
         slope -= newton->residual[i] * newton->correction[i];
     OST_TRY(ost_sum(newton->ctx, 1, &slope));
     *point = (Point){length, newton->energy, slope};
-    if (!ost_newton_has_energy(newton)) {
-        point->value = newton->norm * newton->norm;
-        point->slope = -2.0 * point->value;
-    }
     return OST_SUCCESS;
 }
 
 static int is_low_enough(const OstNewton *newton, const Point *start, const Point *point)
 {
-    if (!isfinite(point->value))
+    if (!isfinite(point->value) || !isfinite(point->slope))
         return 0;
+    if (!ost_newton_has_energy(newton))
+        return fabs(point->slope) <= flatter * fabs(start->slope);
     if (point->value <= start->value + share * point->length * start->slope)
         return 1;
-    if (!ost_newton_has_energy(newton))
-        return 0;
     const double hidden = drowned * newton->energy_size;
-    return point->value <= start->value + hidden && fabs(point->slope) <= 0.9 * fabs(start->slope);
+    return point->value <= start->value + hidden && fabs(point->slope) <= flatter * fabs(start->slope);
 }
 
 /* The minimiser of the cubic with the values and slopes of both ends, within bounds. */
@@ -62,6 +61,8 @@ static double shorten(const Point *start, const Point *point)
     const double secant = 3.0 * (start->value - point->value) / length + start->slope + point->slope;
     const double root = sqrt(fmax(secant * secant - start->slope * point->slope, 0.0));
     double found = length * (1.0 - (point->slope + root - secant) / (point->slope - start->slope + 2.0 * root));
+    if (point->value == 0.0 && start->value == 0.0) /* no energy: the zero of the slope */
+        found = length * start->slope / (start->slope - point->slope);
     if (!isfinite(found) || !isfinite(point->value))
         found = least_cut * length;
     return fmin(fmax(found, least_cut * length), most_cut * length);

@@ -50,6 +50,24 @@ double ost_newton_first_step(double rotation)
     return rotation > first_turn ? first_turn / rotation : 1.0;
 }
 
+/* The rows of the stiffness at u = 0, by the sums of their absolute values. */
+static OstStatus measure_stiffness(OstNewton *newton)
+{
+    const OstBlockMatrix *matrix = newton->problem->system->matrix;
+    double square = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        for (int i = 0; i < 3; i++) {
+            double sum = 0.0;
+            for (OstLocal block = matrix->row_start[row]; block < matrix->row_start[row + 1]; block++)
+                for (int j = 0; j < 3; j++)
+                    sum += fabs(matrix->value[9 * (size_t)block + (size_t)(3 * i + j)]);
+            square += sum * sum;
+        }
+    OST_TRY(ost_sum(newton->ctx, 1, &square));
+    newton->stiffness_size = sqrt(square);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport *solve, OstNewton **newton)
 {
     OstProblem *problem = stiffness->problem;
@@ -74,6 +92,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->correction, rows));
     }
     status = ost_agree(ctx, status);
+    OST_THEN(measure_stiffness(made));
     if (status != OST_SUCCESS)
         ost_newton_destroy(&made);
     *newton = made;

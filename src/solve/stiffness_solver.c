@@ -50,6 +50,6 @@ OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, const doub
     const OstProblem *problem = stiffness->problem;
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
-        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, problem->formulation, displacement));
+        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT, displacement));
     return ost_solver_update(stiffness->solver, OST_UPDATE_REBUILD);
 }
