@@ -62,6 +62,11 @@ finished = run("solve", os.path.join(SOURCE, "cases", "bent-bar", "pull.yaml"), 
 check(finished.exit_code == 0, finished.errors)
 check_drawn("history.png", pictures.numbers_of_path(report_of("pull.json")), 1e-5, "history")
 
+# What the effects of a tube change.
+check(run("effects", os.path.join(SOURCE, pictures.EFFECTS), "-q", "--json", "effects.json", folder=folder).exit_code == 0,
+      "orthostat effects failed")
+check_drawn("effects-tube.png", pictures.numbers_of_effects(report_of("effects.json")), 1e-3, "effects")
+
 # Where nine constants are stable.
 check(run("material", "--stability-region", "region.csv", folder=folder).exit_code == 0, "the stability region failed")
 check_drawn("stability-region.png", pictures.numbers_of_region(os.path.join(folder, "region.csv")), 1e-4, "stability")

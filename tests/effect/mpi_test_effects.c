@@ -32,7 +32,7 @@
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
 #define ALONG "path: {times: [0.5, 1]}\n"
 #define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
-#define ALL_FIELDS "output: {fields: [displacement, strain, stress, node_stress, strain_energy_density]}\n"
+#define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {
