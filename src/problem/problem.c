@@ -9,7 +9,6 @@
 #include "core/parallel/reduce.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
-#include "problem/timed.h"
 
 #include <math.h>
 #include <string.h>

@@ -21,7 +21,7 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
-    int timed_count;           /* time tables of further loads and displacements (problem/timed.h) */
+    int timed_count;           /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
@@ -51,5 +51,31 @@ OstStatus ost_problem_displacement(const OstProblem *problem, double t, const do
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.
  */
 OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts);
+
+/* What acts on a body is a sum over functions of time, each a factor times a load and prescribed displacements.
+ * Function 0 is t itself: the problem's force and supports. The others follow the problem's time tables (timed.c). */
+
+/* Local. How many functions there are, and the factor of one at t. */
+int ost_problem_functions(const OstProblem *problem);
+double ost_problem_factor(const OstProblem *problem, int function, double t);
+
+/* Local. The load of one function at factor 1, 3 × owned_nodes. */
+const double *ost_problem_function_load(const OstProblem *problem, int function);
+
+/* Local. Its right-hand side P (f - K g) of a linear problem, after ost_problem_stiffness; 3 × rows numbers. */
+OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs);
+
+/* Collective. Its displacement P v + g of every local node. */
+OstStatus ost_problem_function_displacement(const OstProblem *problem, int function, const double *v, double *u);
+
+/* Local. Does some function prescribe a displacement other than zero for an owned node? */
+int ost_problem_moves(const OstProblem *problem, OstLocal node);
+
+/* Local. Is every factor 0 at t = 0, so that a path begins there, with a body at rest? Else it begins at t = -1. */
+int ost_problem_begins_at_rest(const OstProblem *problem);
+
+/* Collective. Adds a function that follows this table (which is copied), without load and supports as yet. */
+OstStatus ost_problem_add_timed(OstProblem *problem, const OstTimeTable *table);
+void ost_problem_release_timed(OstProblem *problem);
 
 #endif
