@@ -66,7 +66,7 @@ check(not missing, f"docs/output.md says nothing of {missing}, which solve write
 from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
 
 reader = vtkHDFReader()
-reader.SetFileName(os.path.join(folder, "case.vtkhdf"))
+reader.SetFileName(os.path.join(folder, "linear.vtkhdf"))
 reader.Update()
 rows = {name: (on, components) for name, on, components in
         re.findall(r"^\| `(\w+)` \| (points|cells) \| (\d)", read("docs", "output.md"), re.M)}
@@ -77,7 +77,7 @@ for on, data in (("points", reader.GetOutput().GetPointData()), ("cells", reader
               f"docs/output.md does not have {data.GetArrayName(i)} on {found[0]} with {found[1]} components")
 check(not rows, f"docs/output.md has fields that are not in the file: {sorted(rows)}")
 
-# The field of strains is the tensor that VTK itself makes of the displacement, so that principal strains are right.
+# Of small rotations, the field of strains is the tensor that VTK itself makes of the displacement, so that principal strains are right.
 from vtkmodules.vtkFiltersGeneral import vtkCellDerivatives  # noqa: E402
 
 grid = reader.GetOutput()
