@@ -8,7 +8,8 @@
 /* Which effects does a scene call for? The case is solved as it is, and once more for each effect that can be left out
  * (or put in): what that saves, and by how much it changes the answer. */
 
-/* What a run does differently. Columns: name; the effect; what is said of it. */
+/* What a run does differently. Columns: name; the effect; what is said of it. Of the two for large rotation the one
+ * runs where the case itself was solved for large rotation, the other where it was not. */
 #define OST_VARIANT_TABLE(X)                                                                 \
     X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")         \
     X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")          \
@@ -18,7 +19,9 @@
     X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                    \
     X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")            \
     X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")         \
-    X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")
+    X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")   \
+    X(OST_VARIANT_LINEAR, OST_EFFECT_LARGE_ROTATION, "linear theory for large rotation")     \
+    X(OST_VARIANT_LARGE_ROTATION, OST_EFFECT_LARGE_ROTATION, "large rotation for linear theory")
 
 #define OST_VARIANT_ENUM(name, effect, label) name,
 typedef enum { OST_VARIANT_TABLE(OST_VARIANT_ENUM) OST_VARIANT_COUNT } OstVariant;
@@ -33,8 +36,9 @@ typedef struct OstEffectRun {
     OstMeter meter;
     OstGlobal unknowns;
     int iterations;
-    double pose;   /* largest |u - u0| of a node over the largest |u0| */
-    double energy; /* of the strain energy */
+    int large_rotation; /* was it solved for? */
+    double pose;        /* largest |u - u0| of a node over the largest |u0| */
+    double energy;      /* of the strain energy */
     OstWatched watched[OST_MOST_WATCHES];
     double watch[OST_MOST_WATCHES]; /* change over the size of the quantity, or of its kind where that is larger */
 } OstEffectRun;
@@ -45,6 +49,9 @@ typedef struct OstEffectStudy {
     OstEffectRun base; /* the case as it is */
     OstEffectRun run[OST_VARIANT_COUNT];
 } OstEffectStudy;
+
+/* Local. Does a variant apply to the case, given its effects and how it was solved? */
+int ost_variant_applies(const OstEffectStudy *study, const OstEffects *effects, OstVariant variant);
 
 extern const char *const ost_variant_label[]; /* by OstVariant */
 extern const OstEffect ost_variant_effect[];

@@ -44,19 +44,32 @@ static void print_run(const OstEffectStudy *study, const char *label, const OstE
     printf("\n");
 }
 
-/* The solved variants whose change is on one side of the accuracy asked for. */
-static void print_list(const OstEffectStudy *study, const char *heading, int needed)
+/* The solved variants whose change is on one side of the accuracy asked for: those that leave an effect out, or the one
+ * that puts large rotation in. */
+static void print_list(const OstEffectStudy *study, const char *heading, int needed, int puts_in)
 {
     int listed = 0;
     for (int v = 0; v < OST_VARIANT_COUNT; v++) {
         const OstEffectRun *run = &study->run[v];
         char most[CELL_SIZE];
-        if (run->state != OST_VARIANT_SOLVED || (ost_effect_change(study, run) > study->c->relative_error) != needed)
+        if (run->state != OST_VARIANT_SOLVED || (v == OST_VARIANT_LARGE_ROTATION) != puts_in ||
+            (ost_effect_change(study, run) > study->c->relative_error) != needed)
             continue;
         percent(ost_effect_change(study, run), most, sizeof most);
         printf("%s%s (%s)", listed++ ? ", " : heading, ost_effect_label(ost_variant_effect[v]), most);
     }
     if (listed)
+        printf("\n");
+}
+
+/* Which effects the case has no use for, large rotation apart: one of its two variants always is off. */
+static void print_off(const OstEffectStudy *study)
+{
+    int off = 0;
+    for (int v = 0; v < OST_VARIANT_COUNT; v++)
+        if (study->run[v].state == OST_VARIANT_OFF && ost_variant_effect[v] != OST_EFFECT_LARGE_ROTATION)
+            printf("%s%s", off++ ? ", " : "The case does not have: ", ost_effect_label(ost_variant_effect[v]));
+    if (off)
         printf("\n");
 }
 
@@ -77,14 +90,11 @@ void ost_effect_study_print(const OstEffectStudy *study)
     percent(study->c->relative_error, asked, sizeof asked);
     printf("\nChanges are relative to the case as it is. The accuracy asked for is %s (accuracy: relative_error).\n",
            asked);
-    print_list(study, "Needed, as leaving it out changes the answer by more: ", 1);
-    print_list(study, "Could be left out, as it changes the answer by less: ", 0);
-    printf("The case does not have: ");
-    int off = 0;
-    for (int v = 0; v < OST_VARIANT_COUNT; v++)
-        if (study->run[v].state == OST_VARIANT_OFF)
-            printf("%s%s", off++ ? ", " : "", ost_effect_label(ost_variant_effect[v]));
-    printf(off ? "\n" : "no effect less than all\n");
+    print_list(study, "Needed, as leaving it out changes the answer by more: ", 1, 0);
+    print_list(study, "Missing, as putting it in changes the answer by more: ", 1, 1);
+    print_list(study, "Could be left out, as it changes the answer by less: ", 0, 0);
+    print_list(study, "Rightly left out, as it would change the answer by less: ", 0, 1);
+    print_off(study);
 }
 
 static json_t *run_json(const OstEffectStudy *study, const OstEffectRun *run)
@@ -98,6 +108,7 @@ static json_t *run_json(const OstEffectStudy *study, const OstEffectRun *run)
     json_object_set_new(item, "bytes", json_real(run->meter.bytes));
     json_object_set_new(item, "unknowns", json_integer(run->unknowns));
     json_object_set_new(item, "iterations", json_integer(run->iterations));
+    json_object_set_new(item, "large_rotation", json_boolean(run->large_rotation));
     json_t *watch = json_object();
     for (int w = 0; w < study->c->watch_count; w++)
         json_object_set_new(watch, study->c->watches[w].name, ost_json_number(run->watched[w].value));

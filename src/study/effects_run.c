@@ -82,6 +82,7 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, OstEff
 {
     run->unknowns = result->unknowns;
     run->iterations = result->solve.iterations;
+    run->large_rotation = result->newton.used;
     run->energy = result->checks.strain_energy;
     for (int w = 0; w < scene->c->watch_count; w++)
         OST_TRY(ost_watch_evaluate(scene, result, &scene->c->watches[w], &run->watched[w]));
@@ -164,7 +165,7 @@ OstStatus ost_effect_study(const OstCase *c, OstEffectStudy *study)
     OST_TRY_DONE(solve(c, &study->base, &base, &scene));
     for (int v = 0; v < OST_VARIANT_COUNT; v++) {
         ost_progress(ctx, ost_variant_label[v], (double)(v + 1) / (OST_VARIANT_COUNT + 1));
-        if (ost_effect_on(&scene->plan.effects, ost_variant_effect[v]))
+        if (ost_variant_applies(study, &scene->plan.effects, (OstVariant)v))
             OST_TRY_DONE(run_variant(study, scene, (OstVariant)v, &base));
     }
 done:

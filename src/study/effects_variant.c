@@ -168,6 +168,15 @@ static OstStatus replace_constraints(const OstScene *scene, OstVariant variant, 
     return OST_SUCCESS;
 }
 
+int ost_variant_applies(const OstEffectStudy *study, const OstEffects *effects, OstVariant variant)
+{
+    if (variant == OST_VARIANT_LINEAR)
+        return study->base.large_rotation;
+    if (variant == OST_VARIANT_LARGE_ROTATION)
+        return !study->base.large_rotation && !study->c->free_body;
+    return ost_effect_on(effects, ost_variant_effect[variant]);
+}
+
 OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariantCase *made)
 {
     *made = (OstVariantCase){.c = *scene->c};
@@ -180,6 +189,12 @@ OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariant
     case OST_VARIANT_NOT_MOVED:
     case OST_VARIANT_CLAMPED:
         return replace_constraints(scene, variant, made);
+    case OST_VARIANT_LINEAR:
+        made->c.large_rotation = OST_LARGE_ROTATION_OFF;
+        return OST_SUCCESS;
+    case OST_VARIANT_LARGE_ROTATION:
+        made->c.large_rotation = OST_LARGE_ROTATION_ON;
+        return OST_SUCCESS;
     default:
         made->c.without = 1u << (ost_variant_effect[variant] - OST_EFFECT_FIRST);
         return OST_SUCCESS;

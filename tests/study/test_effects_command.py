@@ -59,7 +59,9 @@ check(not weightless["needed"], "1 % of weight is not needed for 2 %")
 close(variants["without surface loads"]["watch"]["support"], -WEIGHT * LENGTH, 1e-6, "support of the bar that hangs")
 frame = variants["one frame for varying axes"]
 check(0 < frame["change"]["pose"] < 1e-5 and not frame["needed"], f"one frame: {frame}")
-for name in ("one material for several", "without mean dilatation", "without point forces"):
+large = variants["large rotation for linear theory"]
+check(large["large_rotation"] and large["change"]["pose"] < 0.02 and not large["needed"], f"a stiff bar: {large}")
+for name in ("linear theory for large rotation", "one material for several", "without mean dilatation", "without point forces"):
     check(variants[name] == {"state": "off", "effect": variants[name]["effect"], "variant": name}, f"{variants[name]}")
 
 other = study(3)[1]
@@ -67,6 +69,15 @@ for name, variant in variants.items():
     check(variant["state"] == other[name]["state"], f"{name} on 3 ranks: {other[name]}")
     if variant["state"] == "solved" and variant is not frame:
         close(other[name]["change"]["pose"], variant["change"]["pose"], 1e-6, f"{name}: pose on 3 ranks")
+
+# Pushed sideways it bends far: large rotation is called for.
+with open(os.path.join(folder, "bent.yaml"), "w", encoding="utf-8") as stream:
+    stream.write(CASE.replace(f"total_force: [0, 0, {FORCE}]", "total_force: [2, 0, 0]"))
+bent = json.loads(run("effects", "bent.yaml", "-q", "--json", "-", folder=folder).output)
+check(bent["base"]["large_rotation"], f"a bar bent far: {bent['base']}")
+linear = next(variant for variant in bent["variants"] if variant["variant"] == "linear theory for large rotation")
+check(linear["state"] == "solved" and not linear["large_rotation"] and linear["needed"] and
+      linear["change"]["pose"] > 0.02, f"a bar bent far, by linear theory: {linear}")
 
 spoken = run("effects", "bar.yaml", "--picture", "bar.png", folder=folder)
 check(spoken.exit_code == 0, spoken.errors)
