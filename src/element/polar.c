@@ -7,40 +7,41 @@
 /* Below this length, relative to the longest, a deformed principal direction is rounding error. */
 static const double vanishing = 1e-14;
 
-/* Green's strain, 1/2 (F'F - I), from the displacement gradient. Its eigenvectors are U's. */
-static void green_strain(const OstSimd slope[9], OstSimd strain[9])
+/* Green's strain, 1/2 (F'F - I), from the displacement gradient: 11 22 33 12 23 31. Its eigenvectors are U's. */
+static inline void green_strain(const OstSimd slope[9], OstSimd strain[6])
 {
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            strain[3 * i + j] = 0.5 * (slope[3 * i + j] + slope[3 * j + i] + slope[i] * slope[j] +
-                                       slope[3 + i] * slope[3 + j] + slope[6 + i] * slope[6 + j]);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        strain[i] =
+            slope[4 * i] + 0.5 * (slope[i] * slope[i] + slope[3 + i] * slope[3 + i] + slope[6 + i] * slope[6 + i]);
+        strain[3 + i] = 0.5 * (slope[3 * i + j] + slope[3 * j + i] + slope[i] * slope[j] + slope[3 + i] * slope[3 + j] +
+                               slope[6 + i] * slope[6 + j]);
+    }
 }
 
 /* Puts the larger eigenvalue first; where two eigenvectors change places, one turns round, so that they stay
  * right-handed. */
-static void order(OstSimd *first, OstSimd *second, OstSimd *of_first, OstSimd *of_second)
+static inline void order(OstSimd *first, OstSimd *second, OstSimd *of_first, OstSimd *of_second)
 {
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        const int swap = (*first)[slot] < (*second)[slot];
-        const double larger = swap ? (*second)[slot] : (*first)[slot];
-        (*second)[slot] = swap ? (*first)[slot] : (*second)[slot];
-        (*first)[slot] = larger;
-        for (int i = 0; i < 3; i++) {
-            const double kept = of_first[i][slot];
-            of_first[i][slot] = swap ? of_second[i][slot] : kept;
-            of_second[i][slot] = swap ? -kept : of_second[i][slot];
-        }
+    const OstSimdMask swap = *first < *second;
+    const OstSimd larger = OST_SIMD_SELECT(swap, *second, *first);
+    *second = OST_SIMD_SELECT(swap, *first, *second);
+    *first = larger;
+    for (int i = 0; i < 3; i++) {
+        const OstSimd kept = of_first[i];
+        of_first[i] = OST_SIMD_SELECT(swap, of_second[i], kept);
+        of_second[i] = OST_SIMD_SELECT(swap, -kept, of_second[i]);
     }
 }
 
-static void principal_directions(const OstSimd slope[9], OstSimd before[9])
+static inline void principal_directions(const OstSimd slope[9], OstSimd before[9])
 {
-    OstSimd strain[9];
+    OstSimd strain[6];
     green_strain(slope, strain);
-    ost_simd_jacobi(3, strain, before);
-    order(&strain[0], &strain[4], before, before + 3);
-    order(&strain[4], &strain[8], before + 3, before + 6);
-    order(&strain[0], &strain[4], before, before + 3);
+    ost_simd_eigen3(strain, before);
+    order(&strain[0], &strain[1], before, before + 3);
+    order(&strain[1], &strain[2], before + 3, before + 6);
+    order(&strain[0], &strain[1], before, before + 3);
 }
 
 /* Any unit vector at right angles to a. */
@@ -59,8 +60,7 @@ static void choose_perpendicular(const OstSimd a[3], int slot, OstSimd chosen[3]
 static inline void length_of(const OstSimd a[3], OstSimd *length)
 {
     *length = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        (*length)[slot] = sqrt((*length)[slot]);
+    ost_simd_square_root(length);
 }
 
 /* a -= (a·unit) unit */
@@ -72,21 +72,20 @@ static inline void make_perpendicular(const OstSimd unit[3], OstSimd a[3])
 }
 
 /* The deformed directions F v, made orthonormal. Where F flattens the tet to a line or a point, any that fit serve. */
-static void orthonormalise(const OstSimd before[9], OstSimd deformed[9], OstSimd after[9])
+static inline void orthonormalise(const OstSimd before[9], OstSimd deformed[9], OstSimd after[9])
 {
     OstSimd first, second, again;
     length_of(deformed, &first);
+    const OstSimdMask point = first <= vanishing;
     for (int i = 0; i < 3; i++)
-        after[i] = deformed[i] / first;
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        for (int i = 0; i < 3 && !(first[slot] > vanishing); i++)
-            after[i][slot] = before[i][slot];
+        after[i] = OST_SIMD_SELECT(point, before[i], deformed[i] / first);
     make_perpendicular(after, deformed + 3);
     length_of(deformed + 3, &second);
     for (int i = 0; i < 3; i++)
         after[3 + i] = deformed[3 + i] / second;
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        if (!(second[slot] > vanishing * first[slot]) || !(first[slot] > vanishing))
+    const OstSimdMask line = point | (second <= vanishing * first);
+    for (int slot = 0; slot < OST_SIMD_WIDTH && ost_simd_any(&line); slot++)
+        if (line[slot])
             choose_perpendicular(after, slot, after + 3);
     make_perpendicular(after, after + 3); /* once more, since the first time much may have cancelled */
     length_of(after + 3, &again);
