@@ -165,14 +165,15 @@ static inline int are_semidefinite(OstSimd h[COUNT][COUNT])
 /* h minus its negative eigenvalues' part */
 static void remove_negative(OstSimd h[COUNT][COUNT])
 {
-    OstSimd a[COUNT * COUNT], vectors[COUNT * COUNT];
-    memcpy(a, h, sizeof a);
-    ost_simd_eigen(COUNT, a, vectors);
+    OstSimd full[COUNT][COUNT], value[COUNT], vectors[COUNT][COUNT];
+    for (int i = 0; i < COUNT; i++)
+        for (int j = 0; j < COUNT; j++)
+            full[i][j] = i < j ? h[i][j] : h[j][i];
+    ost_simd_eigen(COUNT, full[0], value, vectors[0]);
     for (int k = 0; k < COUNT; k++) {
-        const OstSimd *v = vectors + COUNT * k;
-        const OstSimd value = a[(COUNT + 1) * k];
-        const OstSimdMask negative = value < 0.0;
-        const OstSimd excess = OST_SIMD_SELECT(negative, -value, (OstSimd){0});
+        const OstSimd *v = vectors[k];
+        const OstSimdMask negative = value[k] < 0.0;
+        const OstSimd excess = OST_SIMD_SELECT(negative, -value[k], (OstSimd){0});
         for (int i = 0; i < COUNT && ost_simd_any(&negative); i++)
             for (int j = i; j < COUNT; j++)
                 h[i][j] += excess * v[i] * v[j];
