@@ -166,20 +166,28 @@ static void add_mean_blocks(const OstElement *element, const DeformedTets *tets,
                 blocks[n] += columns[3 * a + n / 3] * columns[3 * b + n % 3] / tets->volume;
 }
 
+static inline void sum_points(int nodes, const DeformedTets *tets, const OstElasticity *elasticity, int definite,
+                              OstSimd *blocks)
+{
+    memset(blocks, 0, 9 * (size_t)ost_pair_count(nodes) * sizeof *blocks);
+    for (int q = 0; q < tets->count; q++) {
+        OstSimd stress[6], hessian[81];
+        whole_stress(tets, elasticity, q, stress);
+        ost_biot_hessian(&tets->at[q].polar, tets->at[q].c, stress, definite, hessian);
+        add_blocks(nodes, &tets->at[q], hessian, blocks);
+    }
+    complete_by_translations(nodes, blocks);
+}
+
 static void consistent_stiffness(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
                                  const OstSimd *u, int definite, OstSimd *blocks)
 {
     DeformedTets tets;
     deform(element, x, elasticity, u, &tets);
-    memset(blocks, 0, 9 * (size_t)ost_pair_count(element->nodes) * sizeof *blocks);
-    for (int q = 0; q < tets.count; q++) {
-        OstSimd stress[6];
-        OstSimd hessian[81];
-        whole_stress(&tets, elasticity, q, stress);
-        ost_biot_hessian(&tets.at[q].polar, tets.at[q].c, stress, definite, hessian);
-        add_blocks(element->nodes, &tets.at[q], hessian, blocks);
-    }
-    complete_by_translations(element->nodes, blocks);
+    if (element->nodes == 4) /* a number that the compiler knows: half the time of what follows the Hessian */
+        sum_points(4, &tets, elasticity, definite, blocks);
+    else
+        sum_points(element->nodes, &tets, elasticity, definite, blocks);
     if (elasticity->by_mean)
         add_mean_blocks(element, &tets, blocks);
 }
