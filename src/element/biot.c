@@ -9,8 +9,8 @@ enum { STRAINS = 6, COUNT = 9 };
 /* Eigenvalues below this, relative to the sum of all, count as negative. */
 static const double rounding = 1e-13;
 
-/* The components of a shear strain, and the axis that is left. */
-static const int pair[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};
+/* The components of a shear strain in ascending order, and the axis that is left. */
+static const int pair[3][3] = {{0, 1, 2}, {1, 2, 0}, {0, 2, 1}};
 
 /* Where component ij of a strain is. */
 static const int strain_at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -90,7 +90,7 @@ void ost_biot_piola(const OstPolar *polar, const OstSimd stress[6], OstSimd piol
                 polar->after[i] * half[j] + polar->after[3 + i] * half[3 + j] + polar->after[6 + i] * half[6 + j];
 }
 
-/* C along the principal directions, w'Cw: the upper triangle. */
+/* C along the principal directions, w'Cw. */
 static inline void principal_elasticity(const OstSimd *c, OstSimd w[STRAINS][STRAINS], OstSimd q[STRAINS][STRAINS])
 {
     for (int b = 0; b < STRAINS; b++) {
@@ -102,6 +102,7 @@ static inline void principal_elasticity(const OstSimd *c, OstSimd w[STRAINS][STR
             q[a][b] = w[0][a] * stress[0];
             for (int p = 1; p < STRAINS; p++)
                 q[a][b] += w[p][a] * stress[p];
+            q[b][a] = q[a][b];
         }
     }
 }
@@ -116,27 +117,26 @@ static inline void principal_hessian(const OstPolar *polar, const OstSimd invers
     OstSimd share[3][3];
     shear_shares(polar, inverse, share);
     for (int k = 0; k < 3; k++) {
-        const OstSimd y = s[3 + k] * inverse[k];
-        const int next = 3 + pair[k][1], last = 3 + pair[k][2];
-        q[pair[k][0]][3 + k] -= y;
-        q[pair[k][1]][3 + k] -= y;
-        q[next < last ? next : last][next < last ? last : next] -= 0.5 * y;
+        const int i = pair[k][0], j = pair[k][1], left = pair[k][2];
+        const int terms[3][2] = {{i, 3 + k}, {j, 3 + k}, {strain_at[i][left], strain_at[j][left]}};
+        for (int n = 0; n < 3; n++) {
+            const OstSimd term = (n < 2 ? 1.0 : 0.5) * s[3 + k] * inverse[k];
+            q[terms[n][0]][terms[n][1]] -= term;
+            q[terms[n][1]][terms[n][0]] -= term;
+        }
     }
     for (int m = 0; m < COUNT; m++)
-        for (int n = m; n < COUNT; n++) {
-            const int a = strain_at[m % 3][m / 3], b = strain_at[n % 3][n / 3];
-            h[m][n] = share[m % 3][m / 3] * share[n % 3][n / 3] * (a < b ? q[a][b] : q[b][a]);
-        }
+        for (int n = m; n < COUNT; n++)
+            h[m][n] = share[m % 3][m / 3] * share[n % 3][n / 3] * q[strain_at[m % 3][m / 3]][strain_at[n % 3][n / 3]];
     for (int k = 0; k < 3; k++) {
         const int i = pair[k][0], j = pair[k][1];
-        const OstSimd square = inverse[k] * inverse[k];
         const OstSimd *sigma = polar->stretch;
+        const OstSimd square = inverse[k] * inverse[k];
         h[3 * j + i][3 * j + i] += square * (s[j] * (2.0 * sigma[i] + sigma[j]) - s[i] * sigma[i]);
         h[3 * i + j][3 * i + j] += square * (s[i] * (2.0 * sigma[j] + sigma[i]) - s[j] * sigma[j]);
-        const int low = i < j ? 3 * i + j : 3 * j + i, high = i < j ? 3 * j + i : 3 * i + j;
-        h[low][high] -= square * (s[i] * sigma[j] + s[j] * sigma[i]);
+        h[3 * i + j][3 * j + i] -= square * (s[i] * sigma[j] + s[j] * sigma[i]);
         for (int l = 0; l < 3; l++)
-            h[i < j ? 3 * i + l : 3 * j + l][i < j ? 3 * j + l : 3 * i + l] += 2.0 * s[3 + k] * inverse[k];
+            h[3 * i + l][3 * j + l] += 2.0 * s[3 + k] * inverse[k];
     }
 }
 
