@@ -10,6 +10,34 @@
 
 enum { OST_LARGEST_EIGEN = 9, OST_MOST_STEPS = 30 }; /* two or three steps suffice */
 
+/* a = h a h and v = h v, with h = I - factor u u', u of the last m rows, a of the last m rows and columns. */
+static inline void ost_simd_reflect(int n, int m, const OstSimd *u, const OstSimd *factor, OstSimd *a, OstSimd *v)
+{
+    OstSimd w[OST_LARGEST_EIGEN], share = {0};
+    a += (n + 1) * (n - m);
+    v += n * (n - m);
+    for (int i = 0; i < m; i++) {
+        w[i] = a[n * i] * u[0];
+        for (int j = 1; j < m; j++)
+            w[i] += a[n * i + j] * u[j];
+        w[i] *= *factor;
+        share += 0.5 * *factor * w[i] * u[i];
+    }
+    for (int i = 0; i < m; i++)
+        w[i] -= share * u[i];
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < m; j++)
+            a[n * i + j] -= u[i] * w[j] + w[i] * u[j];
+    for (int j = 0; j < n; j++) {
+        OstSimd along = u[0] * v[j];
+        for (int i = 1; i < m; i++)
+            along += u[i] * v[n * i + j];
+        along *= *factor;
+        for (int i = 0; i < m; i++)
+            v[n * i + j] -= along * u[i];
+    }
+}
+
 /* Householder's reflections make the full symmetric a (n × n) tridiagonal: d on and e beside the diagonal, a = v'tv. */
 static inline void ost_simd_tridiagonal(int n, OstSimd *a, OstSimd *d, OstSimd *e, OstSimd *v)
 {
@@ -19,7 +47,7 @@ static inline void ost_simd_tridiagonal(int n, OstSimd *a, OstSimd *d, OstSimd *
     for (int k = 0; k < n; k++) {
         const int m = n - k - 1;
         OstSimd *u = a + n * k + k + 1; /* the row right of the diagonal becomes the normal of the mirror */
-        OstSimd w[OST_LARGEST_EIGEN], size = {0}, share = {0};
+        OstSimd size = {0};
         d[k] = a[n * k + k];
         e[k] = m > 0 ? u[0] : (OstSimd){0};
         if (m < 2)
@@ -31,27 +59,7 @@ static inline void ost_simd_tridiagonal(int n, OstSimd *a, OstSimd *d, OstSimd *
         e[k] = OST_SIMD_SELECT(u[0] > 0.0, -length, length);
         const OstSimd factor = 1.0 / (size - u[0] * e[k] + 1e-300); /* 2 / u'u; u is 0 where there is nothing to do */
         u[0] -= e[k];
-        for (int i = 0; i < m; i++) {
-            const OstSimd *row = a + n * (k + 1 + i) + k + 1;
-            w[i] = row[0] * u[0];
-            for (int j = 1; j < m; j++)
-                w[i] += row[j] * u[j];
-            w[i] *= factor;
-            share += 0.5 * factor * w[i] * u[i];
-        }
-        for (int i = 0; i < m; i++)
-            w[i] -= share * u[i];
-        for (int i = 0; i < m; i++)
-            for (int j = 0; j < m; j++)
-                a[n * (k + 1 + i) + k + 1 + j] -= u[i] * w[j] + w[i] * u[j];
-        for (int j = 1; j < n; j++) {
-            OstSimd along = u[0] * v[n * (k + 1) + j];
-            for (int i = 1; i < m; i++)
-                along += u[i] * v[n * (k + 1 + i) + j];
-            along *= factor;
-            for (int i = 0; i < m; i++)
-                v[n * (k + 1 + i) + j] -= along * u[i];
-        }
+        ost_simd_reflect(n, m, u, &factor, a, v);
     }
 }
 

@@ -17,7 +17,7 @@ typedef double OstSimdUnaligned
 /* What comparisons yield: all bits of a tet's number, or none. */
 typedef int64_t OstSimdMask __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(int64_t))));
 
-/* Of each tet one of two numbers. (The functions of libm would be called tet by tet; so would an if.) */
+/* Of each tet one of two numbers. (An if, or fmax of libm, would go through the tets one by one.) */
 #define OST_SIMD_SELECT(where, yes, no) ((OstSimd)(((where) & (OstSimdMask)(yes)) | (~(where) & (OstSimdMask)(no))))
 
 /* Is it so of any tet? */
