@@ -19,9 +19,10 @@ void ost_biot_strain(const OstPolar *polar, OstSimd strain[6]);
 /* Local. P (row-major) from the stress conjugate to U - I, in world axes. */
 void ost_biot_piola(const OstPolar *polar, const OstSimd stress[6], OstSimd piola[9]);
 
-/* Local. The second derivative of W by F (9 × 9, F row-major). If `definite`, those that have a negative eigenvalue are
- * made positive semidefinite by setting their negative eigenvalues to 0; the others stay as they are. c is C's upper
- * triangle; the stress may have parts that are not C : (U - I), such as that of a mean. */
+/* Local. The second derivative of W by F: 9 × 9, with F_ij at 3 j + i, i along world axes and j along the principal
+ * directions before (what a node's force needs is then few products). If `definite`, those that have a negative
+ * eigenvalue are made positive semidefinite by setting their negative eigenvalues to 0; the others stay as they are. c
+ * is C's upper triangle; the stress may have parts that are not C : (U - I), such as that of a mean. */
 void ost_biot_hessian(const OstPolar *polar, const OstSimd *c, const OstSimd stress[6], int definite,
                       OstSimd hessian[81]);
 

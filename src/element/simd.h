@@ -2,6 +2,9 @@
 #ifndef ORTHOSTAT_ELEMENT_SIMD_H
 #define ORTHOSTAT_ELEMENT_SIMD_H
 
+#include <math.h>
+#include <stdint.h>
+
 /* One number of each tet of a batch. A kernel reads as if it were written for one tet, and computes the whole batch at
  * once in SIMD registers. On a processor without registers this wide the compiler splits the vectors. */
 enum { OST_SIMD_WIDTH = 4 };
@@ -10,6 +13,27 @@ typedef double OstSimd __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double
 /* The same at any address of doubles. (With memcpy, GCC may copy it through the stack in two halves, which stalls.) */
 typedef double OstSimdUnaligned
     __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/* What comparisons yield: all bits of a tet's number, or none. */
+typedef int64_t OstSimdMask __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(int64_t))));
+
+/* Of each tet one of two numbers. (An if, or fmax of libm, would go through the tets one by one.) */
+#define OST_SIMD_SELECT(where, yes, no) ((OstSimd)(((where) & (OstSimdMask)(yes)) | (~(where) & (OstSimdMask)(no))))
+
+/* Is it so of any tet? */
+static inline int ost_simd_any(const OstSimdMask *where)
+{
+    int64_t any = 0;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        any |= (*where)[slot];
+    return any != 0;
+}
+
+static inline void ost_simd_square_root(OstSimd *a)
+{
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        (*a)[slot] = sqrt((*a)[slot]);
+}
 
 /* Transposes 4 × 4 numbers: out[t] has tet t's number of each of the four vectors. */
 static inline void ost_simd_transpose(const OstSimd in[OST_SIMD_WIDTH], OstSimd out[OST_SIMD_WIDTH])
