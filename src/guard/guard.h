@@ -57,8 +57,8 @@ typedef struct OstSolvedFor {
  * forces summed tet by tet, without the assembled matrix, so that an error of assembly shows. Objects, with numbers,
  * unless all of this is true: values are finite; the true residual is what was asked for; forces and moments balance;
  * if the problem is linear, strain energy equals work (Clapeyron); the stated error is at most a tenth, in the
- * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative residual that was
- * asked for. */
+ * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative
+ * residual that was asked for. */
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result);
 
