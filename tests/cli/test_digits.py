@@ -16,6 +16,7 @@ loads:
   - {on: {nearest: [1.5, 2, 0]}, point_force: [1000, 0, 0]}
 accuracy: {relative_residual: 1e-8}
 solver: {method: METHOD}
+large_rotation: off
 """
 
 HARD = [("1e6, 1e6, 1e6", "0.3", 1), ("1e6, 1e9, 1e6", "0.3", 2), ("1e6, 1e12, 1e6", "0.3", 1), ("1e12, 1e6, 1e6", "0.3", 1),
@@ -37,6 +38,7 @@ constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
 loads:
   - {on: {boundary: xmax}, total_force: [0, 0, 1]}
+large_rotation: off
 """
 
 
@@ -64,6 +66,7 @@ loads:
   - {on: {boundary: xmax}, total_force: [1, 0, 0]}
   - {on: {nearest: [100, 0.5, 0.5]}, point_force: [0, 0, 1e-4]}
 solver: {method: METHOD}
+large_rotation: off
 """
 
 
