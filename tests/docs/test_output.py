@@ -67,7 +67,7 @@ check(not missing, f"docs/output.md says nothing of {missing}, which solve write
 from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
 
 reader = vtkHDFReader()
-reader.SetFileName(os.path.join(folder, "case.vtkhdf"))
+reader.SetFileName(os.path.join(folder, "linear.vtkhdf"))
 reader.Update()
 rows = {name: (on, components) for name, on, components in
         re.findall(r"^\| `(\w+)` \| (points|cells) \| (\d)", read("docs", "output.md"), re.M)}
