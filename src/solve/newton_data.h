@@ -32,7 +32,6 @@ struct OstNewton {
     double energy_size;               /* the sum of their sizes, for rounding */
     double norm;                      /* of the residual */
     double driving;                   /* the largest residual with which a load step began, before its prediction */
-    double stiffness_size;            /* 2-norm of the sums of absolute values of the rows of the stiffness at u = 0 */
     double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */
@@ -40,7 +39,6 @@ struct OstNewton {
     double forcing; /* relative residual of its linear solve */
 
     /* The solver's hierarchy: */
-    int at_zero;         /* is it that of the stiffness at u = 0? */
     int rebuild;         /* is a new one needed? */
     OstMethod method;    /* strategy that a new one begins with */
     double cost;         /* iterations per digit of the first solve since it was built; 0: none yet */

@@ -70,7 +70,7 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
      */
     const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);
-    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness_size / newton->options.relative_residual;
+    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness->size / newton->options.relative_residual;
     newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, fmax(rounding, DBL_MIN)));
     return OST_SUCCESS;
 }

@@ -38,7 +38,7 @@ static OstStatus update(OstNewton *newton, int definite)
         newton->report.setups++;
         newton->cost = 0.0;
     }
-    newton->at_zero = 0;
+    newton->stiffness->moved = 1;
     newton->rebuild = 1; /* should what follows fail */
     if (rebuild)
         OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->displacement));

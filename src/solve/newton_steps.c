@@ -50,11 +50,13 @@ double ost_newton_first_step(double rotation)
     return rotation > first_turn ? first_turn / rotation : 1.0;
 }
 
-/* The rows of the stiffness at u = 0, by the sums of their absolute values. */
-static OstStatus measure_stiffness(OstNewton *newton)
+/* The rows of the stiffness, by the sums of their absolute values; nobody has moved the body yet. */
+static OstStatus measure_stiffness(OstStiffnessSolver *stiffness)
 {
-    const OstBlockMatrix *matrix = newton->problem->system->matrix;
+    const OstBlockMatrix *matrix = stiffness->problem->system->matrix;
     double square = 0.0;
+    if (stiffness->size > 0.0)
+        return OST_SUCCESS;
     for (OstLocal row = 0; row < matrix->rows; row++)
         for (int i = 0; i < 3; i++) {
             double sum = 0.0;
@@ -63,8 +65,8 @@ static OstStatus measure_stiffness(OstNewton *newton)
                     sum += fabs(matrix->value[9 * (size_t)block + (size_t)(3 * i + j)]);
             square += sum * sum;
         }
-    OST_TRY(ost_sum(newton->ctx, 1, &square));
-    newton->stiffness_size = sqrt(square);
+    OST_TRY(ost_sum(matrix->ctx, 1, &square));
+    stiffness->size = sqrt(square);
     return OST_SUCCESS;
 }
 
@@ -79,7 +81,6 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
     if (status == OST_SUCCESS) {
         *made = (OstNewton){.ctx = ctx, .problem = problem, .options = stiffness->options, .stiffness = stiffness};
         made->solve = *solve;
-        made->at_zero = 1;
         made->method = solve->method;
         made->report.used = 1;
         made->report.setups = 1;
@@ -92,7 +93,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->correction, rows));
     }
     status = ost_agree(ctx, status);
-    OST_THEN(measure_stiffness(made));
+    OST_THEN(measure_stiffness(stiffness));
     if (status != OST_SUCCESS)
         ost_newton_destroy(&made);
     *newton = made;
@@ -239,28 +240,28 @@ static void accept(OstNewton *newton, double t, OstNewtonState *state)
     newton->report.change = newton->change;
 }
 
-/* Only a body that has not moved has the stiffness that the solver was made on. */
-static OstStatus look_for_motion(OstNewton *newton, const OstNewtonState *state)
-{
-    int moved = 0;
-    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++)
-        moved |= state->displacement[i] != 0.0;
-    OST_TRY(ost_max_ints(newton->ctx, 1, &moved));
-    newton->at_zero &= !moved;
-    return OST_SUCCESS;
-}
-
 static int is_at_rest(const OstNewton *newton, OstRest rest)
 {
     return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
 }
 
+/* The hierarchy of the stiffness at u = 0 serves a body that begins there. */
+static OstStatus renew_hierarchy(OstNewton *newton, const OstNewtonState *state)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++)
+        largest = fmax(largest, fabs(state->displacement[i]));
+    OST_TRY(ost_max(newton->ctx, 1, &largest));
+    newton->rebuild = newton->stiffness->moved || largest > 0.0;
+    if (newton->rebuild)
+        newton->method = OST_METHOD_AUTO;
+    return OST_SUCCESS;
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
-    OST_TRY(look_for_motion(newton, state));
-    newton->rebuild |= !newton->at_zero;
-    newton->method = newton->at_zero ? newton->method : OST_METHOD_AUTO;
+    OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
     while (state->t < to) {

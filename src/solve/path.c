@@ -123,6 +123,7 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
         path->state.slope[i] = result->displacement[i] / span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
+    ost_superposition_release(&path->linear);
     return OST_SUCCESS;
 }
 
@@ -180,6 +181,7 @@ OstStatus ost_path_advance(OstPath *path, unsigned fields, OstResult **result)
     (*result)->unknowns = ost_problem_unknowns(path->problem);
     if (!path->decided)
         OST_TRY(decide(path, *result));
+    (*result)->reached = 0; /* what was judged is no answer */
     const OstStatus solved =
         path->nonlinear ? step_by_newton(path, t, *result, &solved_for) : step_linearly(path, t, *result, &solved_for);
     if (!(*result)->reached)

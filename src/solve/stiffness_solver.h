@@ -13,6 +13,8 @@ typedef struct OstStiffnessSolver {
     OstRowGeometry rows;
     OstLinearSpace *coarse; /* of the linear tets under quadratic ones, or NULL */
     OstSolverFacts facts;
+    int moved;   /* has the solver been updated since it was made on the stiffness at u = 0? */
+    double size; /* of that stiffness: 2-norm of its rows' sums of absolute values; 0 until Newton's method asks */
     OstSolver *solver; /* NULL until ost_stiffness_solver_solver */
 } OstStiffnessSolver;
 
