@@ -28,8 +28,8 @@ static void add_force(const OstBatch *batch, int nodes, ForceKernel kernel, cons
         }
 }
 
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
-                             double *magnitude)
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                             double *force, double *magnitude)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
@@ -41,6 +41,7 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     if (magnitude)
         memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = t;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);

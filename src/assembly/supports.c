@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/supports.h"
+#include "assembly/springs.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -42,6 +42,7 @@ void ost_supports_destroy(OstSupports **supports)
         return;
     OST_FREE((*supports)->index);
     OST_FREE((*supports)->support);
+    OST_FREE((*supports)->spring);
     OST_FREE(*supports);
 }
 
@@ -175,7 +176,7 @@ static OstStatus check_anything_constrained(const OstSupports *supports)
 {
     OstGlobal constrained = supports->count;
     OST_TRY(ost_sum_numbers(supports->ctx, 1, &constrained));
-    if (constrained == 0)
+    if (constrained == 0 && !supports->spring)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is constrained: no vertex has a prescribed displacement or slides on a plane, so the "
                          "body can move away as a whole; add constraints");
@@ -186,8 +187,10 @@ OstStatus ost_supports_complete(OstSupports *supports)
 {
     ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
     OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
-    if (status == OST_SUCCESS)
-        status = share_with_ghosts(supports);
+    OST_THEN(share_with_ghosts(supports));
+    if (status == OST_SUCCESS && supports->spring)
+        status = ost_agree(supports->ctx,
+                           ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
     ost_ledger_leave(supports->ctx);
     return status;
 }
@@ -229,6 +232,8 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
         if (status == OST_SUCCESS)
             *support = quadratic->support[index];
     }
+    if (quadratic->spring)
+        OST_THEN(ost_springs_on_vertices(quadratic, node_of_vertex, made));
     if (status != OST_SUCCESS)
         ost_supports_destroy(&made);
     *supports = made;

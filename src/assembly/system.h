@@ -47,11 +47,11 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
  * 3 × matrix->rows numbers. */
 OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u);
 
-/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u is 3 × node_count, force 3 × owned_nodes.
- * `magnitude` (as force, or NULL) gets the sums of absolute values |B'| |C| |B| |u|: rounding errors of the forces are
- * a few 1e-16 of these. */
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
-                             double *magnitude);
+/* Local. Internal forces of the tets at owned nodes, K u less the forces of t times the eigenstrain, tet by tet without
+ * the matrix; u is 3 × node_count, force 3 × owned_nodes. `magnitude` (as force, or NULL) gets the sums of absolute
+ * values |B'| |C| (|B| |u| + |e0|): rounding errors of the forces are a few 1e-16 of these. */
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                             double *force, double *magnitude);
 
 /* Collective. What multigrid needs of the rows: coordinates (3 × rows), material metric (6 × rows: mean over a node's
  * tets of R' diag(sqrt(E_min/E_k)) R, with R the axes) and the six rigid body modes about the middle of all rows, times
@@ -59,9 +59,10 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
 
-/* Local. Turns the filled K into P K P + s(I - P) at nodes that are constrained in one or two directions. s is the mean
+/* Local. Adds the springs to the filled K, and turns it into P K P + s(I - P) at nodes that are constrained in one or
+ * two directions. s is the mean
  * stiffness of the node's diagonal block along its free directions, so that the added entries have the node's own
- * scale. Without such nodes it does nothing and enters no account. Booked to OST_EFFECT_SLIDING if that effect is on
+ * scale. Without such nodes it enters no account. Booked to OST_EFFECT_SLIDING if that effect is on
  * and a constrained direction is not a coordinate axis, otherwise to OST_LEDGER_SUPPORTS. */
 void ost_system_apply_supports(OstSystem *system);
 

@@ -49,7 +49,7 @@ static void check_patch(AxesOfBody axes)
         for (int i = 0; i < 3; i++)
             assert_close(u[3 * node + i], expected[i], 1e-10);
     }
-    assert_success(ost_internal_force(mesh, field, u, force, NULL));
+    assert_success(ost_internal_force(mesh, field, 0.0, u, force, NULL));
     const double size = largest(ctx, 3 * mesh->owned_nodes, force);
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         for (int i = 0; i < 3 && !is_on_surface(mesh->coordinates + 3 * node); i++)
