@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/element.h"
 #include "element/quadrature.h"
@@ -79,18 +78,18 @@ static double cone(const OstFollower *follower, OstLocal face, const double *u)
     return sum / 3.0;
 }
 
-OstStatus ost_follower_work(const OstFollower *follower, double t, const double *u, double *work)
+double ost_follower_work(const OstFollower *follower, double t, const double *u)
 {
     const int n = follower->nodes_per_face;
-    *work = 0.0;
+    double work = 0.0;
     for (OstLocal f = 0; f < follower->count; f++) {
         OstGlobal nodes[OST_MAX_FACE_NODES];
         for (int a = 0; a < n; a++)
             nodes[a] = follower->faces[(size_t)n * (size_t)f + (size_t)a];
         if (ost_mesh_owns(follower->mesh, n, nodes))
-            *work -= t * follower->pressure[f] * (cone(follower, f, u) - cone(follower, f, NULL));
+            work -= t * follower->pressure[f] * (cone(follower, f, u) - cone(follower, f, NULL));
     }
-    return ost_sum(follower->mesh->ctx, 1, work);
+    return work;
 }
 
 /* block -= scale × the matrix of v ↦ c × v */
@@ -102,8 +101,8 @@ static void subtract_cross(double scale, const double c[3], double block[9])
     }
 }
 
-/* The derivative of each node's area vector by each node's place, in blocks of nodes a and b. The area vector at a point
- * is s × r, with s and r the derivatives of the place by the face's two coordinates. */
+/* The derivative of each node's area vector by each node's place, in blocks of nodes a and b. The area vector at a
+ * point is s × r, with s and r the derivatives of the place by the face's two coordinates. */
 static void differentiate(int n, const double *x, double *blocks)
 {
     memset(blocks, 0, 9 * (size_t)(n * n) * sizeof *blocks);

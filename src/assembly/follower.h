@@ -23,10 +23,10 @@ void ost_follower_destroy(OstFollower **follower);
 /* Local. Adds t times the forces to the owned nodes' `force`. */
 void ost_follower_force(const OstFollower *follower, double t, const double *u, double *force);
 
-/* Collective. t times the work function -sum of p V, V the volume between each face and its place before, up to the
- * origin: its gradient is the force where the surface is closed, or its rim is held; elsewhere no function has that
- * gradient. 0 at u = 0. */
-OstStatus ost_follower_work(const OstFollower *follower, double t, const double *u, double *work);
+/* Local. t times the work function -sum of p V over this rank's own faces, V the volume of the cone from the origin to
+ * the face, less that before: over all ranks its gradient is the force where the surface is closed, or its rim is held;
+ * elsewhere no function has that gradient. */
+double ost_follower_work(const OstFollower *follower, double t, const double *u);
 
 /* Local. Adds the symmetric part of the load stiffness, -t d force / d u, to the filled matrix, before the supports are
  * applied. The rest is an integral over the rim of the surface alone, so that it vanishes where the work function

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
+#include "assembly/springs.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -80,7 +81,7 @@ static int touches_displaced(const OstMesh *mesh, const OstSupports *supports, O
     return 0;
 }
 
-/* Fills `force` (3 × owned_nodes, zero) with -K g, from the tets that touch a node with g != 0. */
+/* Fills `force` (3 × owned_nodes, zero) with -K g, from springs and the tets that touch a node with g != 0. */
 static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialField *field, double *force)
 {
     const OstMesh *mesh = system->mesh;
@@ -105,32 +106,62 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
             count = 0;
         }
     }
+    if (system->supports->spring)
+        ost_spring_force(system->supports, 1.0, g, force);
     OST_FREE(g);
     return OST_SUCCESS;
+}
+
+OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *field, double t, double *force)
+{
+    OstContext *ctx = mesh->ctx;
+    double *zero = NULL, *internal = NULL;
+    OstStatus status = OST_NEW(ctx, &zero, 3 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(ost_internal_force(mesh, field, t, zero, internal, NULL));
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes && status == OST_SUCCESS; i++)
+        force[i] -= internal[i];
+    OST_FREE(zero);
+    OST_FREE(internal);
+    return status;
+}
+
+/* Makes `force` (3 × owned_nodes), what prescribed displacements and eigenstrains add to the loads at t = 1; NULL if
+ * there are none. */
+static OstStatus find_other_forces(const OstSystem *system, const OstMaterialField *field, double **force)
+{
+    OstContext *ctx = system->ctx;
+    const size_t count = 3 * (size_t)system->mesh->owned_nodes;
+    OstStatus status = OST_SUCCESS;
+    if (any_displaced(system->supports)) {
+        ost_ledger_enter(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
+        status = OST_NEW(ctx, force, count);
+        OST_THEN(force_of_prescribed(system, field, *force));
+        ost_ledger_leave(ctx);
+    }
+    if (status == OST_SUCCESS && ost_field_is_eigenstrained(field)) {
+        ost_ledger_enter(ctx, OST_EFFECT_EIGENSTRAIN);
+        status = *force ? OST_SUCCESS : OST_NEW(ctx, force, count);
+        OST_THEN(ost_eigenstrain_force(system->mesh, field, 1.0, *force));
+        ost_ledger_leave(ctx);
+    }
+    return status;
 }
 
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
                                      double *rhs)
 {
-    OstContext *ctx = system->ctx;
-    double *of_prescribed = NULL;
-    OstStatus status = OST_SUCCESS;
-    if (any_displaced(system->supports)) {
-        ost_ledger_enter(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
-        status = OST_NEW(ctx, &of_prescribed, 3 * (size_t)system->mesh->owned_nodes);
-        if (status == OST_SUCCESS)
-            status = force_of_prescribed(system, field, of_prescribed);
-        ost_ledger_leave(ctx);
-    }
+    double *others = NULL;
+    const OstStatus status = find_other_forces(system, field, &others);
     for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
         const size_t node = (size_t)system->node_of_row[row];
         double total[3];
         double projector[9];
         for (size_t i = 0; i < 3; i++)
-            total[i] = force[3 * node + i] + (of_prescribed ? of_prescribed[3 * node + i] : 0.0);
+            total[i] = force[3 * node + i] + (others ? others[3 * node + i] : 0.0);
         ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
         ost_apply3(projector, total, rhs + 3 * (size_t)row);
     }
-    OST_FREE(of_prescribed);
+    OST_FREE(others);
     return status;
 }

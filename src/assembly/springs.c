@@ -51,8 +51,8 @@ void ost_supports_add_foundation(OstSupports *supports, OstLocal face_count, con
             const double size = ost_norm3(area);
             const double normal[3] = {area[0] / size, area[1] / size, area[2] / size};
             if (node < supports->mesh->owned_nodes)
-                add_stiffness(supports, node, stiffness, ost_norm3(stiffness->direction) > 0.0 ? stiffness->direction : normal,
-                              size / 6.0);
+                add_stiffness(supports, node, stiffness,
+                              ost_norm3(stiffness->direction) > 0.0 ? stiffness->direction : normal, size / 6.0);
         }
     }
 }
@@ -68,13 +68,13 @@ OstStatus ost_spring_directions(const OstSupports *supports, OstLocal node, OstS
     return OST_SUCCESS;
 }
 
-void ost_spring_force(const OstSupports *supports, const double *u, double *force)
+void ost_spring_force(const OstSupports *supports, double scale, const double *u, double *force)
 {
     for (size_t node = 0; node < (size_t)supports->mesh->owned_nodes; node++) {
         double of_node[3];
         ost_apply3(supports->spring + 9 * node, u + 3 * node, of_node);
         for (size_t i = 0; i < 3; i++)
-            force[3 * node + i] -= of_node[i];
+            force[3 * node + i] -= scale * of_node[i];
     }
 }
 

@@ -30,8 +30,8 @@ void ost_supports_add_foundation(OstSupports *supports, OstLocal face_count, con
 /* Local. The directions in which springs hold a node, in `held->direction`; returns their number. */
 OstStatus ost_spring_directions(const OstSupports *supports, OstLocal node, OstSupport *held);
 
-/* Local. Adds the springs' forces on the body, -S u, to the owned nodes' forces. */
-void ost_spring_force(const OstSupports *supports, const double *u, double *force);
+/* Local. Adds scale × the springs' forces on the body, -S u, to the owned nodes' forces. */
+void ost_spring_force(const OstSupports *supports, double scale, const double *u, double *force);
 
 /* Local. Energy of the springs at this rank's owned nodes. */
 double ost_spring_energy(const OstSupports *supports, const double *u);

@@ -189,8 +189,7 @@ OstStatus ost_supports_complete(OstSupports *supports)
     OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
     OST_THEN(share_with_ghosts(supports));
     if (status == OST_SUCCESS && supports->spring)
-        status = ost_agree(supports->ctx,
-                           ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
+        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
     ost_ledger_leave(supports->ctx);
     return status;
 }

@@ -22,7 +22,8 @@ typedef struct OstSupports {
     OstLocal *index; /* node_count: support of a node, or -1 */
     OstLocal count, capacity;
     OstSupport *support;
-    double *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
+    double
+        *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
 } OstSupports;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports);

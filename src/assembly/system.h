@@ -38,8 +38,9 @@ OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
 /* Local. Frees block_of_tet; the system cannot be filled again. */
 void ost_system_release_scatter(OstSystem *system);
 
-/* Local. Right-hand side of the rows, P (force - K g): `force` are the loads on local nodes (3 × node_count, complete
- * on owned nodes); K g is computed only on tets that touch a node with g != 0. `rhs` has 3 × matrix->rows numbers. */
+/* Local. Right-hand side of the rows at t = 1, P (force - K g + B'C e0): `force` are the loads on local nodes (3 ×
+ * node_count, complete on owned nodes); K g is computed only on tets that touch a node with g != 0, and the last term
+ * only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
                                      double *rhs);
 
@@ -52,6 +53,10 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
  * values |B'| |C| (|B| |u| + |e0|): rounding errors of the forces are a few 1e-16 of these. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                              double *force, double *magnitude);
+
+/* Local. Adds the nodal forces of t times the eigenstrain, B'C e0, to `force` (3 × owned_nodes). They add up to zero.
+ */
+OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *field, double t, double *force);
 
 /* Collective. What multigrid needs of the rows: coordinates (3 × rows), material metric (6 × rows: mean over a node's
  * tets of R' diag(sqrt(E_min/E_k)) R, with R the axes) and the six rigid body modes about the middle of all rows, times

@@ -67,18 +67,32 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
 
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
-    enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, ACCURACY, SOLVER, OUTPUT, WATCH, VERIFY, SECTIONS };
+    enum {
+        TITLE,
+        MESH,
+        ELEMENT,
+        MATERIALS,
+        CONSTRAINTS,
+        SPRINGS,
+        LOADS,
+        ACCURACY,
+        SOLVER,
+        OUTPUT,
+        WATCH,
+        VERIFY,
+        SECTIONS
+    };
     OstYamlKey keys[SECTIONS] = {
         [TITLE] = {.name = "title"},         [MESH] = {.name = "mesh", .needed = 1},  [ELEMENT] = {.name = "element"},
         [MATERIALS] = {.name = "materials"}, [CONSTRAINTS] = {.name = "constraints"}, [LOADS] = {.name = "loads"},
         [ACCURACY] = {.name = "accuracy"},   [SOLVER] = {.name = "solver"},           [OUTPUT] = {.name = "output"},
-        [WATCH] = {.name = "watch"},         [VERIFY] = {.name = "verify"},
+        [WATCH] = {.name = "watch"},         [VERIFY] = {.name = "verify"},           [SPRINGS] = {.name = "springs"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
         [MESH] = ost_read_mesh,     [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
         [LOADS] = ost_read_loads,   [CONSTRAINTS] = ost_read_constraints, [ACCURACY] = ost_read_accuracy,
         [SOLVER] = ost_read_solver, [OUTPUT] = ost_read_output,           [WATCH] = ost_read_watches,
-        [VERIFY] = ost_read_verify,
+        [VERIFY] = ost_read_verify, [SPRINGS] = ost_read_springs,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
     if (keys[TITLE].value)
@@ -131,6 +145,8 @@ static OstStatus read_vertex_files(OstCase *c)
         OST_TRY(read_vertex_file(c, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY(read_vertex_file(c, &c->springs[i].on));
     for (int i = 0; i < c->watch_count; i++)
         OST_TRY(read_vertex_file(c, &c->watches[i].on));
     for (int i = 0; c->verify && i < c->verify->quantity_count; i++)
@@ -248,6 +264,9 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
     }
+    for (int i = 0; i < (*c)->spring_count; i++)
+        ost_selection_release(&(*c)->springs[i].on);
+    OST_FREE((*c)->springs);
     for (int i = 0; i < (*c)->watch_count; i++) {
         OST_FREE((*c)->watches[i].name);
         OST_FREE((*c)->watches[i].source);

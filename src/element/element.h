@@ -36,7 +36,8 @@ typedef struct OstElement {
     /* Internal forces B'C (B u - e0), K u where there is no eigenstrain, computed without K: 3 numbers a node. */
     void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-    /* The forces' terms by their absolute values, |B'| |C| (|B| |u| + |e0|): the scale of rounding errors in the forces. */
+    /* The forces' terms by their absolute values, |B'| |C| (|B| |u| + |e0|): the scale of rounding errors in the
+     * forces. */
     void (*magnitude)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude);
 
     /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). */

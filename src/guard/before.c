@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "effect/effect.h"
@@ -133,6 +134,16 @@ static OstStatus check_balance(const OstMesh *mesh, const double *force, const c
         centre[2]);
 }
 
+static OstStatus check_loads(const OstProblem *problem, const char *where)
+{
+    double *force = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes)));
+    ost_problem_load(problem, 1.0, NULL, force);
+    const OstStatus status = check_balance(problem->mesh, force, where);
+    OST_FREE(force);
+    return status;
+}
+
 OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before)
 {
     const OstStatus status =
@@ -160,7 +171,7 @@ OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdic
     const char *name = ost_problem_name(problem);
     if (problem->free_body) {
         ost_ledger_enter(ctx, OST_EFFECT_FREE_BODY);
-        const OstStatus status = check_balance(problem->mesh, problem->force, name);
+        const OstStatus status = check_loads(problem, name);
         ost_ledger_leave(ctx);
         OST_TRY(take_objection(ctx, status, before));
     }

@@ -11,23 +11,33 @@ int ost_field_is_eigenstrained(const OstMaterialField *field)
 }
 
 /* e_ij = sum of E_ab a_i b_j over the axes a and b; shear is twice the tensor's. */
+void ost_strain_to_world(const double strain[6], const double axes[9], double world[6])
+{
+    memset(world, 0, 6 * sizeof *world);
+    for (int p = 0; p < 6; p++) {
+        const double *a = axes + 3 * (p % 3);
+        const double *b = axes + 3 * ((p < 3 ? p : p + 1) % 3);
+        for (int i = 0; i < 3; i++) {
+            const int j = (i + 1) % 3;
+            world[i] += strain[p] * a[i] * b[i];
+            world[3 + i] += strain[p] * (p < 3 ? 2.0 * a[i] * a[j] : a[i] * b[j] + a[j] * b[i]);
+        }
+    }
+}
+
 void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
                                double strain[6])
 {
-    for (int p = 0; p < 6; p++) {
-        const double *a = axes + 3 * (p % 3);
-        const double *b = p < 3 ? a : axes + 3 * ((p + 1) % 3);
-        double e = 0.0;
+    double own[6] = {0.0}, world[6];
+    for (size_t p = 0; p < 6; p++) {
         if (field->region_eigenstrain)
-            e += field->region_eigenstrain[6 * (size_t)field->tet_region[tet] + (size_t)p];
+            own[p] += field->region_eigenstrain[6 * (size_t)field->tet_region[tet] + p];
         if (field->tet_eigenstrain)
-            e += field->tet_eigenstrain[6 * (size_t)tet + (size_t)p];
-        for (int i = 0; i < 3; i++) {
-            const int j = (i + 1) % 3;
-            strain[i] += share * e * a[i] * b[i];
-            strain[3 + i] += share * e * (p < 3 ? 2.0 * a[i] * a[j] : a[i] * b[j] + a[j] * b[i]);
-        }
+            own[p] += field->tet_eigenstrain[6 * (size_t)tet + p];
     }
+    ost_strain_to_world(own, axes, world);
+    for (int p = 0; p < 6; p++)
+        strain[p] += share * world[p];
 }
 
 static OstStatus copy(OstContext *ctx, size_t count, const double *given, double **kept)

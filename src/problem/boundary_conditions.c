@@ -2,6 +2,7 @@
 #include "problem/boundary_conditions.h"
 
 #include "assembly/loads.h"
+#include "assembly/springs.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -79,6 +80,61 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     return status;
 }
 
+/* The faces of a selection; refuses none at all. */
+static OstStatus select_faces(const OstScene *scene, const OstSelection *on, OstLocal *count, int *nodes_per_face,
+                              OstLocal **faces, double *area)
+{
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, on, count, nodes_per_face, faces));
+    OST_TRY(ost_faces_area(scene->mesh, *count, *faces, *nodes_per_face, area));
+    if (*area > 0.0)
+        return OST_SUCCESS;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "the selection holds no whole face of the body's surface, and this acts on faces; select a named "
+                     "surface, or widen the selection");
+}
+
+static OstStatus add_foundation(const OstScene *scene, const OstSpring *spring, const OstSpringStiffness *stiffness,
+                                OstSupports *supports)
+{
+    OstLocal count = 0;
+    OstLocal *faces = NULL;
+    int nodes_per_face = 3;
+    double area = 0.0;
+    const OstStatus status = select_faces(scene, &spring->on, &count, &nodes_per_face, &faces, &area);
+    if (status == OST_SUCCESS)
+        ost_supports_add_foundation(supports, count, faces, nodes_per_face, stiffness);
+    OST_FREE(faces);
+    return status;
+}
+
+static OstStatus add_point_springs(const OstScene *scene, const OstSpring *spring, const OstSpringStiffness *stiffness,
+                                   OstSupports *supports)
+{
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &spring->on, &count, &nodes));
+    for (OstLocal i = 0; i < count; i++)
+        if (nodes[i] < scene->mesh->owned_nodes)
+            ost_supports_add_spring(supports, nodes[i], stiffness);
+    OST_FREE(nodes);
+    return OST_SUCCESS;
+}
+
+static OstStatus add_spring(const OstScene *scene, const OstSpring *spring, OstSupports *supports)
+{
+    const OstEffect effect = spring->kind == OST_SPRING_FOUNDATION ? OST_EFFECT_FOUNDATION : OST_EFFECT_SPRINGS;
+    OstSpringStiffness stiffness = {.along = spring->along, .across = spring->across};
+    memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
+    if (!ost_effect_on(&scene->plan.effects, effect))
+        return OST_SUCCESS;
+    ost_ledger_enter(scene->ctx, effect);
+    OstStatus status = ost_agree(scene->ctx, ost_supports_allow_springs(supports));
+    OST_THEN(effect == OST_EFFECT_FOUNDATION ? add_foundation(scene, spring, &stiffness, supports)
+                                             : add_point_springs(scene, spring, &stiffness, supports));
+    ost_ledger_leave(scene->ctx);
+    return at_line(scene->c, spring->line, status);
+}
+
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
 {
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
@@ -88,6 +144,8 @@ OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
         status = add_constraint(scene, &scene->c->constraints[i], *supports);
+    for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
+        status = add_spring(scene, &scene->c->springs[i], *supports);
     OST_THEN(ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
@@ -160,42 +218,41 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
     return ost_agree(scene->ctx, ost_load_traction(mesh, count, faces, nodes_per_face, traction, force));
 }
 
-static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, double *force)
+static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, double *force, OstFollower **follower)
 {
     OstLocal count = 0;
     OstLocal *faces = NULL;
     int nodes_per_face = 3;
     double area = 0.0;
-    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, &count, &nodes_per_face, &faces));
-    OstStatus status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
-    if (status == OST_SUCCESS && area > 0.0)
-        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
+    OstStatus status = select_faces(scene, &load->on, &count, &nodes_per_face, &faces, &area);
+    if (status == OST_SUCCESS && load->follows)
+        status = ost_agree(scene->ctx,
+                           ost_follower_add(scene->mesh, count, faces, nodes_per_face, load->pressure, follower));
     else if (status == OST_SUCCESS)
-        status = OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                           "the selection holds no whole face of the body's surface, and this load needs faces; "
-                           "select a named surface, or widen the selection");
+        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
     OST_FREE(faces);
     return status;
 }
 
-static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force)
+static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force,
+                          OstFollower **follower)
 {
     OstStatus status;
     ost_ledger_enter(scene->ctx, effect);
     if (effect == OST_EFFECT_BODY_FORCE)
         status = ost_agree(scene->ctx, add_body_load(scene, load, force));
-    else if (effect == OST_EFFECT_SURFACE_LOAD)
-        status = add_surface_load(scene, load, force);
+    else if (effect == OST_EFFECT_SURFACE_LOAD || effect == OST_EFFECT_FOLLOWER_PRESSURE)
+        status = add_surface_load(scene, load, force, follower);
     else
         status = add_vertex_load(scene, load, force);
     ost_ledger_leave(scene->ctx);
     return at_line(scene->c, load->line, status);
 }
 
-OstStatus ost_scene_loads(const OstScene *scene, double *force)
+OstStatus ost_scene_loads(const OstScene *scene, double *force, OstFollower **follower)
 {
     for (int i = 0; i < scene->c->load_count; i++)
         if (ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
-            OST_TRY(add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
+            OST_TRY(add_load(scene, &scene->c->loads[i], scene->load_effect[i], force, follower));
     return OST_SUCCESS;
 }

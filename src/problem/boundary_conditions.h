@@ -2,14 +2,16 @@
 #ifndef ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
 #define ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
 
+#include "assembly/follower.h"
 #include "assembly/supports.h"
 #include "problem/scene_data.h"
 
-/* Collective. The supports that the case's constraints make. Raises OST_INVALID_INPUT with the case's line where
- * constraints contradict each other, or if nothing is constrained. */
+/* Collective. The supports that the case's constraints and springs make. Raises OST_INVALID_INPUT with the case's line
+ * where constraints contradict each other, or if nothing is constrained. */
 OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
 
-/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). */
-OstStatus ost_scene_loads(const OstScene *scene, double *force);
+/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes), and pressures that follow the
+ * surface to *follower, which stays NULL if there are none. */
+OstStatus ost_scene_loads(const OstScene *scene, double *force, OstFollower **follower);
 
 #endif

@@ -2,11 +2,13 @@
 #include "problem/problem.h"
 
 #include "assembly/batch.h"
+#include "assembly/springs.h"
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
 
@@ -19,15 +21,37 @@ void ost_problem_destroy(OstProblem **problem)
         return;
     ost_system_destroy(&(*problem)->system);
     ost_supports_destroy(&(*problem)->supports);
+    ost_follower_destroy(&(*problem)->follower);
     OST_FREE((*problem)->force);
     OST_FREE(*problem);
+}
+
+static OstStatus add_springs(const OstProblemParts *parts, OstSupports *supports)
+{
+    for (OstLocal i = 0; i < parts->spring_count; i++) {
+        const OstNodeSpring *spring = &parts->springs[i];
+        const double length = ost_norm3(spring->direction);
+        OstSpringStiffness stiffness = {.along = spring->stiffness, .across = length > 0.0 ? 0.0 : spring->stiffness};
+        if (spring->node < 0 || spring->node >= parts->mesh->owned_nodes || !(spring->stiffness >= 0.0))
+            return OST_RAISE(
+                parts->mesh->ctx, OST_INVALID_INPUT,
+                "spring %d has stiffness %g on node %d; expected 0 or above, on one of this rank's nodes, 0 "
+                "to %d",
+                i, spring->stiffness, spring->node, parts->mesh->owned_nodes - 1);
+        for (int k = 0; k < 3 && length > 0.0; k++)
+            stiffness.direction[k] = spring->direction[k] / length;
+        ost_supports_add_spring(supports, spring->node, &stiffness);
+    }
+    return OST_SUCCESS;
 }
 
 static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
+    int springs = parts->spring_count > 0;
     if (parts->free_body)
         return ost_free_body_supports(parts->mesh, NULL, supports);
+    OST_TRY(ost_max_ints(ctx, 1, &springs));
     OstStatus status = ost_supports_create(parts->mesh, supports);
     for (OstLocal i = 0; i < parts->constraint_count && status == OST_SUCCESS; i++) {
         const OstNodeConstraint *constraint = &parts->constraints[i];
@@ -38,6 +62,9 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **sup
             status =
                 ost_supports_constrain(*supports, constraint->node, constraint->direction, constraint->displacement);
     }
+    if (status == OST_SUCCESS && springs)
+        status = ost_supports_allow_springs(*supports);
+    OST_THEN(add_springs(parts, *supports));
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(*supports);
 }
@@ -70,7 +97,11 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
             ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = constrain_nodes(parts, &made->supports);
+        if (parts->pressed_count > 0)
+            status = ost_follower_add(parts->mesh, parts->pressed_count, parts->pressed_faces,
+                                      parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, &made->follower);
+        status = ost_agree(made->ctx, status);
+        OST_THEN(constrain_nodes(parts, &made->supports));
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -91,7 +122,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
     OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, made->force));
+    OST_TRY_DONE(ost_scene_loads(scene, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
 done:
     if (status != OST_SUCCESS)
@@ -130,10 +161,20 @@ void ost_problem_set_load(OstProblem *problem, const double *force)
     memcpy(problem->force, force, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
 }
 
-void ost_problem_load(const OstProblem *problem, double t, double *force)
+void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force)
 {
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
         force[i] = t * problem->force[i];
+    if (problem->follower)
+        ost_follower_force(problem->follower, t, u, force);
+}
+
+OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work)
+{
+    *work = problem->follower ? ost_follower_work(problem->follower, t, u) : 0.0;
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        *work += t * problem->force[i] * u[i];
+    return ost_sum(problem->ctx, 1, work);
 }
 
 static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
@@ -145,16 +186,19 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
         *(double *)energy += means->energy[slot] * means->volume[slot];
 }
 
-OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
+OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
 {
-    *energy = 0.0;
-    ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
+    *energy = problem->supports->spring ? ost_spring_energy(problem->supports, u) : 0.0;
+    ost_visit_means(problem->mesh, problem->field, t, u, add_energy, energy);
     return ost_sum(problem->ctx, 1, energy);
 }
 
-OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force)
+OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u, double *force)
 {
-    return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
+    OST_TRY(ost_internal_force(problem->mesh, problem->field, t, u, force, NULL));
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0, u, force);
+    return OST_SUCCESS;
 }
 
 /* A failure names the line of the first constraint. */
@@ -167,8 +211,9 @@ static OstStatus make_pattern(OstProblem *problem)
     return ost_case_located(c, c->constraints[0].on.place, status);
 }
 
-OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+OstStatus ost_problem_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness)
 {
+    (void)t;
     (void)u; /* all elements so far are linear: their stiffness does not depend on u */
     const int may_fill = problem->system && problem->system->block_of_tet;
     if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
@@ -205,10 +250,14 @@ void ost_problem_release_stiffness(OstProblem *problem)
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs)
 {
     const OstSystem *system = problem->system;
-    OST_TRY(ost_system_right_hand_side(system, problem->field, problem->force, rhs));
+    double *force = NULL;
+    OST_TRY(OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes));
+    ost_problem_load(problem, 1.0, NULL, force);
+    const OstStatus status = ost_system_right_hand_side(system, problem->field, force, rhs);
+    OST_FREE(force);
     for (size_t i = 0; i < 3 * (size_t)system->matrix->rows; i++)
         rhs[i] *= t;
-    return OST_SUCCESS;
+    return status;
 }
 
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u)

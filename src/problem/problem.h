@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_PROBLEM_H
 #define ORTHOSTAT_PROBLEM_PROBLEM_H
 
+#include "assembly/follower.h"
 #include "assembly/system.h"
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
@@ -14,6 +15,7 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
+    OstFollower *follower;     /* pressures that follow the surface, at t = 1; NULL: there are none */
     OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
     int filled;                /* does the matrix have values? */
     int linear;                /* is the internal force linear in the displacement? */

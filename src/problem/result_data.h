@@ -31,6 +31,7 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    double t;                      /* load factor that the answer is for */
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */

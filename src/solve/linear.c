@@ -37,7 +37,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
 {
     OstContext *ctx = analysis->ctx;
     OstProblem *problem = analysis->problem;
-    OST_TRY(ost_problem_stiffness(problem, NULL, NULL));
+    OST_TRY(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     ost_problem_release_scatter(problem);
     Linear *linear = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &linear, 1)));

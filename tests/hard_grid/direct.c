@@ -47,7 +47,8 @@ static OstStatus assemble(const OstScene *scene, HardDirect *direct)
     OstContext *ctx = scene->ctx;
     OST_TRY(ost_scene_supports(scene, &direct->supports));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &direct->force, 3 * (size_t)scene->mesh->node_count)));
-    OST_TRY(ost_scene_loads(scene, direct->force));
+    OstFollower *none = NULL; /* no point of the grid has a pressure that follows the surface */
+    OST_TRY(ost_scene_loads(scene, direct->force, &none));
     OST_TRY(ost_system_create(scene->mesh, direct->supports, &direct->system));
     OstStatus status = ost_system_fill(direct->system, scene->field);
     const size_t columns = 3 * (size_t)direct->system->matrix->columns;

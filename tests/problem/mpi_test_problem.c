@@ -79,13 +79,13 @@ static void force_is_stiffness_times_displacement(void **state)
         const OstMesh *mesh = made.mesh;
         OstStiffness stiffness;
         assert_true(ost_problem_is_linear(made.problem));
-        assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+        assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
         assert_int_equal(3 * stiffness.global_rows, ost_problem_unknowns(made.problem));
         double *v = numbers(3 * (size_t)stiffness.columns), *product = numbers(3 * (size_t)stiffness.rows);
         double *u = numbers(3 * (size_t)mesh->node_count), *force = numbers(3 * (size_t)mesh->owned_nodes);
         make_displacement(&made, v, u);
         assert_success(ost_block_matrix_apply(made.problem->system->matrix, v, product));
-        assert_success(ost_problem_force(made.problem, u, force));
+        assert_success(ost_problem_force(made.problem, 1.0, u, force));
         const double size = largest(ctx, 3 * stiffness.rows, product);
         assert_true(size > 0.0);
         for (OstLocal row = 0; row < stiffness.rows; row++) {
@@ -96,7 +96,7 @@ static void force_is_stiffness_times_displacement(void **state)
                 assert_close(product[3 * row + i], along[i], 1e-12 * size);
         }
         double energy;
-        assert_success(ost_problem_energy(made.problem, u, &energy));
+        assert_success(ost_problem_energy(made.problem, 1.0, u, &energy));
         const double work = dot(ctx, 3 * mesh->owned_nodes, u, force);
         assert_true(energy > 0.0);
         assert_close(0.5 * work / energy, 1.0, 1e-12);
@@ -113,18 +113,18 @@ static void values_filled_again_are_the_same(void **state)
     (void)state;
     Made made = make(1, 0.0);
     OstStiffness first, again;
-    assert_success(ost_problem_stiffness(made.problem, NULL, &first));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &first));
     const size_t bytes = 9 * (size_t)first.row_start[first.rows] * sizeof(double);
     double *values = malloc(bytes + 1);
     memcpy(values, first.value, bytes);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_ptr_equal(again.value, first.value);
     assert_memory_equal(again.value, values, bytes);
     ost_problem_release_scatter(made.problem); /* a linear problem keeps its values without it */
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_ptr_equal(again.value, first.value);
     ost_problem_release_stiffness(made.problem);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_memory_equal(again.value, values, bytes);
     free(values);
     destroy(&made);
@@ -137,9 +137,9 @@ static void a_nonlinear_problem_fills_again_without_its_map(void **state)
     Made made = make(1, 0.0);
     OstStiffness stiffness;
     made.problem->linear = 0;
-    assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
     ost_problem_release_scatter(made.problem);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
     assert_non_null(made.problem->system->block_of_tet);
     destroy(&made);
 }
@@ -149,14 +149,14 @@ static void loads_and_prescribed_displacements_scale_with_t(void **state)
     (void)state;
     Made made = make(1, 0.3);
     const OstMesh *mesh = made.mesh;
-    assert_success(ost_problem_stiffness(made.problem, NULL, NULL));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, NULL));
     const OstLocal numbers_of_rows = 3 * made.problem->system->matrix->rows, size = 3 * mesh->owned_nodes;
     double *whole = numbers((size_t)size), *part = numbers((size_t)size);
     double *rhs = numbers((size_t)numbers_of_rows), *rhs_part = numbers((size_t)numbers_of_rows);
     double *zero = numbers((size_t)numbers_of_rows);
     double *u = numbers(3 * (size_t)mesh->node_count), *u_part = numbers(3 * (size_t)mesh->node_count);
-    ost_problem_load(made.problem, 1.0, whole);
-    ost_problem_load(made.problem, 0.25, part);
+    ost_problem_load(made.problem, 1.0, NULL, whole);
+    ost_problem_load(made.problem, 0.25, NULL, part);
     for (OstLocal i = 0; i < size; i++)
         assert_close(part[i], 0.25 * whole[i], 0.0);
     assert_success(ost_problem_right_hand_side(made.problem, 1.0, rhs));
