@@ -3,6 +3,7 @@
 #define ORTHOSTAT_PROBLEM_H
 
 #include "orthostat/field.h"
+#include "orthostat/formulation.h"
 #include "orthostat/mesh.h"
 
 OST_API_BEGIN
@@ -44,6 +45,7 @@ typedef struct OstProblemParts {
     const OstLocal *pressed_faces;
     OstLocal pressed_count;
     double pressure;
+    OstFormulation formulation; /* 0: linear */
 } OstProblemParts;
 
 /* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
@@ -59,6 +61,11 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
 /* Local. Is the internal force linear in the displacement? Then the stiffness is the same at every u, and the energy is
  * half the work of the internal force. */
 int ost_problem_is_linear(const OstProblem *problem);
+
+/* Local. How strain follows from displacements. A new formulation may be set at any time, on all ranks alike: energy,
+ * force and stiffness are of the one set last. */
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation);
+OstFormulation ost_problem_formulation(const OstProblem *problem);
 
 /* Local. */
 const OstMesh *ost_problem_mesh(const OstProblem *problem);
@@ -76,7 +83,8 @@ void ost_problem_load(const OstProblem *problem, double t, const double *u, doub
  * follows a surface with a rim that is free to move there is none, and the result is no more than a measure. */
 OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work);
 
-/* Collective. The strain energy of the body under u, with t times its eigenstrain, and the energy of the springs. */
+/* Collective. The strain energy of the body under u, with t times its eigenstrain, and the energy of the springs. (The
+ * classical formulation's force is not its gradient.) */
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy);
 
 /* Local. The internal force, of tets and springs: the gradient of the energy by u, summed without the stiffness matrix.
@@ -94,10 +102,29 @@ typedef struct OstStiffness {
     const OstLocal *node;      /* columns: the local node of each row and ghost column */
 } OstStiffness;
 
-/* Collective. Fills the values of the stiffness at t and u (NULL: at u = 0; a linear problem looks at neither), on a
- * pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made where a library
- * below could not number the unknowns. `stiffness` may be NULL. */
+/* Collective. Fills the values of the stiffness at t and u (NULL: at t = 0 and u = 0; a linear problem looks at
+ * neither): the derivative of force - load by u, but that of a pressure that follows the surface by its symmetric part
+ * alone, on a pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made
+ * where a library below could not number the unknowns. `stiffness` may be NULL. */
 OstStatus ost_problem_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness);
+
+/* Collective. The same, made positive semidefinite tet by tet: where the energy of a point of a tet has negative
+ * curvature, that is set to 0; elsewhere the stiffness stays as it is. A linear problem's is definite already. The part
+ * of a pressure that follows the surface is left out. */
+OstStatus ost_problem_definite_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness);
+
+/* The most compressed tet at a displacement: at one of its points, of all tets, a line of the undeformed body is
+ * shortened the most, to `stretch` times its length; the stretch is negative where the tet is inverted. */
+typedef struct OstWorstTet {
+    double stretch;
+    OstGlobal tet;      /* its label */
+    int region;         /* index into the mesh's regions */
+    double place[3];    /* its centroid before the deformation */
+    OstGlobal inverted; /* how many tets are inverted at a point */
+} OstWorstTet;
+
+/* Collective. The same on all ranks. */
+OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst);
 
 /* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
  * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
