@@ -54,8 +54,8 @@ enum {
     SUM_SQUARE,      /* of u */
     SUM_DEFORMATION, /* squares of u less the mean displacement */
     SUM_DOUBLE_WORK, /* (f + r)·u, less the integral of stress on the eigenstrain */
-    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component */
-    SUM_WORK_TERMS,  /* of |f·u| + |r·u| */
+    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component, and of that integral */
+    SUM_WORK_TERMS,  /* of |f·u| + |r·u| likewise */
     SUM_FREE_LOAD,   /* squares of P f, the load on unconstrained components */
     SUM_NOT_FINITE,
     SUM_COUNT
@@ -378,6 +378,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     ost_visit_means(mesh, problem->field, result->t, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
     sums[SUM_DOUBLE_WORK] = -tets.eigen;
+    sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));

@@ -93,45 +93,37 @@ static OstStatus select_faces(const OstScene *scene, const OstSelection *on, Ost
                      "surface, or widen the selection");
 }
 
-static OstStatus add_foundation(const OstScene *scene, const OstSpring *spring, const OstSpringStiffness *stiffness,
-                                OstSupports *supports)
+/* Adds the springs of the case's entry to the selected nodes, or faces. */
+static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, OstLocal count, const OstLocal *selected,
+                             int nodes_per_face, OstSupports *supports)
 {
-    OstLocal count = 0;
-    OstLocal *faces = NULL;
-    int nodes_per_face = 3;
-    double area = 0.0;
-    const OstStatus status = select_faces(scene, &spring->on, &count, &nodes_per_face, &faces, &area);
-    if (status == OST_SUCCESS)
-        ost_supports_add_foundation(supports, count, faces, nodes_per_face, stiffness);
-    OST_FREE(faces);
-    return status;
-}
-
-static OstStatus add_point_springs(const OstScene *scene, const OstSpring *spring, const OstSpringStiffness *stiffness,
-                                   OstSupports *supports)
-{
-    OstLocal count = 0;
-    OstLocal *nodes = NULL;
-    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &spring->on, &count, &nodes));
-    for (OstLocal i = 0; i < count; i++)
-        if (nodes[i] < scene->mesh->owned_nodes)
-            ost_supports_add_spring(supports, nodes[i], stiffness);
-    OST_FREE(nodes);
+    OstSpringStiffness stiffness = {.along = spring->along, .across = spring->across};
+    memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
+    OST_TRY(ost_agree(scene->ctx, ost_supports_allow_springs(supports)));
+    if (spring->kind == OST_SPRING_FOUNDATION)
+        ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness);
+    for (OstLocal i = 0; i < count && spring->kind == OST_SPRING_POINT; i++)
+        if (selected[i] < scene->mesh->owned_nodes)
+            ost_supports_add_spring(supports, selected[i], &stiffness);
     return OST_SUCCESS;
 }
 
 static OstStatus add_spring(const OstScene *scene, const OstSpring *spring, OstSupports *supports)
 {
     const OstEffect effect = spring->kind == OST_SPRING_FOUNDATION ? OST_EFFECT_FOUNDATION : OST_EFFECT_SPRINGS;
-    OstSpringStiffness stiffness = {.along = spring->along, .across = spring->across};
-    memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
+    OstLocal count = 0;
+    OstLocal *selected = NULL;
+    int nodes_per_face = 3;
+    double area = 0.0;
     if (!ost_effect_on(&scene->plan.effects, effect))
         return OST_SUCCESS;
+    OstStatus status = effect == OST_EFFECT_FOUNDATION
+                           ? select_faces(scene, &spring->on, &count, &nodes_per_face, &selected, &area)
+                           : ost_select_nodes(scene->c, scene->mesh, &spring->on, &count, &selected);
     ost_ledger_enter(scene->ctx, effect);
-    OstStatus status = ost_agree(scene->ctx, ost_supports_allow_springs(supports));
-    OST_THEN(effect == OST_EFFECT_FOUNDATION ? add_foundation(scene, spring, &stiffness, supports)
-                                             : add_point_springs(scene, spring, &stiffness, supports));
+    OST_THEN(add_springs(scene, spring, count, selected, nodes_per_face, supports));
     ost_ledger_leave(scene->ctx);
+    OST_FREE(selected);
     return at_line(scene->c, spring->line, status);
 }
 
