@@ -5,13 +5,15 @@
 #include "orthostat/field.h"
 #include "orthostat/formulation.h"
 #include "orthostat/mesh.h"
+#include "orthostat/time_table.h"
 
 OST_API_BEGIN
 
-/* The discrete problem: mesh, materials, supports and loads as functions of the load factor t and the displacement u.
- * At rest, force(t, u) = load(t, u) in every direction that the supports leave free, and u is the prescribed
- * displacement, times t, in the others. The force depends on t where an eigenstrain grows with it, the load on u where
- * a pressure follows the surface. How that is solved is no concern of the problem (orthostat/analysis.h).
+/* The discrete problem: mesh, materials, supports and loads as functions of the pseudo-time t and the displacement u.
+ * At rest, force(t, u) = load(t, u) in every direction that the supports leave free, and u is the displacement
+ * prescribed at t in the others. Loads, prescribed displacements and eigenstrains grow with t, unless they follow a
+ * time table; the load depends on u where a pressure follows the surface. How that is solved is no concern of the
+ * problem (orthostat/analysis.h).
  *
  * Displacements have 3 numbers for each local node, ghosts included; forces 3 for each owned node. */
 typedef struct OstProblem OstProblem;
@@ -29,6 +31,12 @@ typedef struct OstNodeSpring {
     double direction[3];
     double stiffness; /* force per length, not negative */
 } OstNodeSpring;
+/* What follows a time table, at factor 1. */
+typedef struct OstTimedParts {
+    OstTimeTable table;
+    const double *force;        /* 3 × owned_nodes, or NULL for none */
+    const double *displacement; /* one along each of the constraints, or NULL for none */
+} OstTimedParts;
 
 /* A problem from the caller's own parts. Mesh and field outlive the problem; the arrays are copied. */
 typedef struct OstProblemParts {
@@ -45,7 +53,9 @@ typedef struct OstProblemParts {
     const OstLocal *pressed_faces;
     OstLocal pressed_count;
     double pressure;
-    OstFormulation formulation; /* 0: linear */
+    OstFormulation formulation; /* of the answer; 0: linear */
+    int timed_count;            /* the same on all ranks, as are the tables */
+    const OstTimedParts *timed;
 } OstProblemParts;
 
 /* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
@@ -72,11 +82,11 @@ const OstMesh *ost_problem_mesh(const OstProblem *problem);
 const OstMaterialField *ost_problem_field(const OstProblem *problem);
 OstGlobal ost_problem_unknowns(const OstProblem *problem); /* 0 until the stiffness has been asked for */
 
-/* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's. */
+/* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's that grows with t. */
 void ost_problem_set_load(OstProblem *problem, const double *force);
 
-/* Local. load(t, u): t times the load at t = 1, and times the pressures that follow the surface as u moves it (NULL: as
- * it is undeformed, which is what linear theory takes). */
+/* Local. load(t, u): t times the load that grows with t, and what follows time tables; and the pressures that follow
+ * the surface as u moves it (NULL: as it is undeformed, which is what linear theory takes). */
 void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force);
 
 /* Collective. A work function of the load: its gradient by u is load(t, u), and it is 0 at u = 0. Where a pressure
@@ -127,7 +137,7 @@ typedef struct OstWorstTet {
 OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst);
 
 /* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
- * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
+ * stiffness of a linear problem then stays as it is; that of a nonlinear one makes the map anew when asked for.
  */
 void ost_problem_release_scatter(OstProblem *problem);
 

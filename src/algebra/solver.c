@@ -20,6 +20,8 @@ struct OstSolver {
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
+    OstSolverAim aim;
+    int aged; /* have the matrix's values changed since the current strategy was built? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -75,6 +77,7 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
     solver->method = status == OST_SUCCESS ? options->method : OST_METHOD_AUTO;
+    solver->aged = 0;
     return status;
 }
 
@@ -113,7 +116,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
         solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
-        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
+        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status) || solver->aim.probing)
             return status;
         note_step(step, steps, method, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
         if (method == OST_METHOD_DIRECT)
@@ -173,6 +176,8 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
     OstStatus status = OST_SUCCESS;
     solver->steps = 0;
     ost_solver_plan(options, &facts, &solver->plan);
+    if (may_change(solver) && solver->aim.first > solver->plan.first)
+        solver->plan.first = solver->aim.first;
     tell_plan(solver);
     if (solver->matrix->global_rows > 0)
         status = build_first(solver, options);
@@ -205,10 +210,17 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
     /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
     const int may_stay = solver->method >= OST_METHOD_METRIC && solver->method <= OST_METHOD_TWO_LEVEL;
-    if (how == OST_UPDATE_KEEP && may_stay)
+    if (how == OST_UPDATE_KEEP && may_stay) {
+        solver->aged = 1;
         return OST_SUCCESS;
+    }
     destroy_strategy(solver);
     return start(solver, &solver->options);
+}
+
+void ost_solver_aim(OstSolver *solver, OstSolverAim aim)
+{
+    solver->aim = aim;
 }
 
 void ost_solver_destroy(OstSolver **solver)
@@ -264,9 +276,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 /* Is there a next strategy that could succeed? */
 static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
-    const int mendable =
-        goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return may_change(solver) && mendable && solver->method < OST_METHOD_DIRECT;
+    const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
+    const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
+    return may_change(solver) && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
@@ -316,11 +328,15 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
             solver->ctx, OST_NOT_CONVERGED,
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
+    if (solver->aim.relative_residual > 0.0)
+        goal.target = solver->aim.relative_residual * goal.start;
+    goal.crude = solver->aim.crude;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     report->iterations = goal.iterations;
+    report->indefinite = goal.indefinite;
     if (goal.start > 0.0) {
         report->relative_residual = goal.norm / goal.start;
         report->attainable_residual = ost_goal_attainable(&goal);
@@ -330,6 +346,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
+    if (goal.crude)
+        return OST_SUCCESS;
     return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
 
+#include "element/large_rotation.h"
+
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered)
 {
     for (int a = 0; a < nodes; a++)
@@ -41,6 +43,12 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data)
 {
+    ost_visit_means_of(mesh, field, OST_FORMULATION_LINEAR, t, u, visit, data);
+}
+
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
+                        const double *u, OstMeansVisit visit, void *data)
+{
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
@@ -50,7 +58,10 @@ void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double 
         OstMeans means;
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
         ost_batch_gather_vectors(&batch, element->nodes, u, of_nodes);
-        element->means(batch.x, &batch.elasticity, of_nodes, &means);
+        if (formulation == OST_FORMULATION_LINEAR)
+            element->means(batch.x, &batch.elasticity, of_nodes, &means);
+        else
+            ost_large_rotation_means(element, batch.x, &batch.elasticity, of_nodes, &means);
         visit(data, &batch, element, of_nodes, &means);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "element/element.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/formulation.h"
 
 /* OST_SIMD_WIDTH tets side by side, with what the kernels read of them. If only `count` tets are left, the last one
  * fills the other slots; only the first `count` results mean something. */
@@ -61,5 +62,9 @@ typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElemen
  * and t times the eigenstrain, batch by batch. */
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data);
+
+/* Local. The same of any formulation: with large rotations the strain is U - I, and the stress is conjugate to it. */
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
+                        const double *u, OstMeansVisit visit, void *data);
 
 #endif

@@ -129,7 +129,7 @@ OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *fie
         return status;
     if (tangent && tangent->follower) {
         ost_ledger_enter(ctx, OST_EFFECT_FOLLOWER_PRESSURE);
-        ost_follower_stiffen(tangent->follower, tangent->t, tangent->u, system);
+        ost_follower_stiffen(tangent->follower, tangent->factor, tangent->u, system);
         ost_ledger_leave(ctx);
     }
     ost_system_apply_supports(system);

@@ -139,9 +139,9 @@ OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *fie
     return status;
 }
 
-/* Makes `force` (3 × owned_nodes), what prescribed displacements and eigenstrains add to the loads at t = 1; NULL if
+/* Makes `force` (3 × owned_nodes), what prescribed displacements and eigenstrains add to the loads; NULL if
  * there are none. */
-static OstStatus find_other_forces(const OstSystem *system, const OstMaterialField *field, double **force)
+static OstStatus find_other_forces(const OstSystem *system, const OstMaterialField *field, double share, double **force)
 {
     OstContext *ctx = system->ctx;
     const size_t count = 3 * (size_t)system->mesh->owned_nodes;
@@ -152,20 +152,20 @@ static OstStatus find_other_forces(const OstSystem *system, const OstMaterialFie
         OST_THEN(force_of_prescribed(system, field, *force));
         ost_ledger_leave(ctx);
     }
-    if (status == OST_SUCCESS && ost_field_is_eigenstrained(field)) {
+    if (status == OST_SUCCESS && share != 0.0 && ost_field_is_eigenstrained(field)) {
         ost_ledger_enter(ctx, OST_EFFECT_EIGENSTRAIN);
         status = *force ? OST_SUCCESS : OST_NEW(ctx, force, count);
-        OST_THEN(ost_eigenstrain_force(system->mesh, field, 1.0, *force));
+        OST_THEN(ost_eigenstrain_force(system->mesh, field, share, *force));
         ost_ledger_leave(ctx);
     }
     return status;
 }
 
-OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
-                                     double *rhs)
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
+                                     const double *force, double *rhs)
 {
     double *others = NULL;
-    const OstStatus status = find_other_forces(system, field, &others);
+    const OstStatus status = find_other_forces(system, field, share, &others);
     for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
         const size_t node = (size_t)system->node_of_row[row];
         double total[3];

@@ -214,6 +214,17 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
     return constrained;
 }
 
+void ost_supports_add(const OstSupports *supports, double factor, double *u)
+{
+    for (OstLocal node = 0; node < supports->mesh->node_count; node++) {
+        const OstLocal index = supports->index[node];
+        const OstSupport *support = index < 0 ? NULL : &supports->support[index];
+        for (int k = 0; support && k < support->constrained; k++)
+            for (int i = 0; i < 3; i++)
+                u[3 * (size_t)node + (size_t)i] += factor * support->prescribed[k] * support->direction[3 * k + i];
+    }
+}
+
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                    OstSupports **supports)
 {

@@ -41,23 +41,25 @@ struct OstFollower;
 /* Where and how the stiffness of large rotations is taken. */
 typedef struct OstTangent {
     OstFormulation formulation;         /* consistent or classical */
-    double t;                           /* the share of the eigenstrain, and of pressures that follow the surface */
+    double t;                           /* the share of the eigenstrain */
     const double *u;                    /* 3 × node_count */
     int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
     const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
+    const double *factor;               /* of its loads, one for each function of time */
 } OstTangent;
 
 /* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
 OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent);
 
-/* Local. Frees block_of_tet; the system cannot be filled again. */
+/* Local. Frees block_of_tet; the system cannot be filled again until it is restored. */
 void ost_system_release_scatter(OstSystem *system);
+OstStatus ost_system_restore_scatter(OstSystem *system);
 
-/* Local. Right-hand side of the rows at t = 1, P (force - K g + B'C e0): `force` are the loads on local nodes (3 ×
+/* Local. Right-hand side of the rows, P (force - K g + share × B'C e0): `force` are the loads on local nodes (3 ×
  * node_count, complete on owned nodes); K g is computed only on tets that touch a node with g != 0, and the last term
  * only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
-OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
-                                     double *rhs);
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
+                                     const double *force, double *rhs);
 
 /* Collective. Displacement of every local node, u = P v + t g, ghosts included, g what the supports prescribe; v has
  * 3 × matrix->rows numbers. */
@@ -96,6 +98,9 @@ void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const
  * P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
+
+/* Collective. The modes alone, of the shape that `displacement` (3 × node_count; NULL: none) gives the body. */
+OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes);
 
 /* Local. Adds the springs to the filled K, and turns it into P K P + s(I - P) at nodes that are constrained in one or
  * two directions. s is the mean

@@ -15,6 +15,7 @@
     X(OST_EFFECT_GRADIENT_AXES, "gradient axes", gradient_axes)                               \
     X(OST_EFFECT_REGIONS, "several materials", several_materials)                             \
     X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
+    X(OST_EFFECT_LARGE_ROTATION, "large rotation", large_rotation)                            \
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
@@ -26,6 +27,7 @@
     X(OST_EFFECT_EIGENSTRAIN, "eigenstrain", eigenstrain)                                     \
     X(OST_EFFECT_FOUNDATION, "elastic foundation", foundation)                                \
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
+    X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)
 
 #define OST_EFFECT_ENUM(name, label, rule) name,
@@ -49,6 +51,10 @@ typedef struct OstEffectFacts {
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides;
     int free_body;
+    int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
+    double accuracy;    /* relative */
+    const char *formulation;
+    int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads;
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */

@@ -6,6 +6,7 @@
 #include "effect/effect.h"
 #include "guard/guard.h"
 #include "guard/rigid_motion.h"
+#include "problem/timed.h"
 
 #include <math.h>
 
@@ -134,11 +135,11 @@ static OstStatus check_balance(const OstMesh *mesh, const double *force, const c
         centre[2]);
 }
 
-static OstStatus check_loads(const OstProblem *problem, const char *where)
+static OstStatus check_function(const OstProblem *problem, int function, const char *where)
 {
     double *force = NULL;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes)));
-    ost_problem_load(problem, 1.0, NULL, force);
+    ost_problem_add_load(problem, function, 1.0, NULL, force);
     const OstStatus status = check_balance(problem->mesh, force, where);
     OST_FREE(force);
     return status;
@@ -165,13 +166,13 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
-OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdict *before)
+OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
     const char *name = ost_problem_name(problem);
     if (problem->free_body) {
         ost_ledger_enter(ctx, OST_EFFECT_FREE_BODY);
-        const OstStatus status = check_loads(problem, name);
+        const OstStatus status = check_function(problem, function, name);
         ost_ledger_leave(ctx);
         OST_TRY(take_objection(ctx, status, before));
     }

@@ -11,6 +11,7 @@
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
+#include "problem/timed.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -73,6 +74,7 @@ static const double moves_as_a_whole = 10.0;
 
 typedef struct Body {
     const OstSupports *supports;
+    int turns; /* are rotations large? Moments are then those of the current shape */
     double centre[3];
     int moved;      /* is any prescribed displacement not zero? */
     double mean[3]; /* if so, the mean displacement; else zero */
@@ -114,7 +116,7 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
         const double residual = out_of_balance[i] - of_constraints[i];
         const double deformation = u[i] - body->mean[i];
         whole[i] = loaded[i] + r[i];
-        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] - body->centre[i];
+        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] + (body->turns ? u[i] : 0.0) - body->centre[i];
         sums[SUM_RESIDUAL] += residual * residual;
         sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
         sums[SUM_LOAD + i] += f[i];
@@ -139,6 +141,7 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
 /* Strain energy from strains and stresses, not from nodal forces, so that it checks their work; and the largest strain
  * and rotation, found on the way. */
 typedef struct TetSums {
+    OstFormulation formulation;
     double energy, eigen;
     OstLinearity largest;
 } TetSums;
@@ -147,7 +150,7 @@ static void add_tets(void *data, const OstBatch *batch, const OstElement *elemen
                      const OstMeans *means)
 {
     TetSums *tets = data;
-    ost_linearity_add(batch, element, u, means, &tets->largest);
+    ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
     for (int slot = 0; slot < batch->count; slot++) {
         tets->energy += means->energy[slot] * means->volume[slot];
         tets->eigen += means->eigen[slot] * means->volume[slot];
@@ -330,7 +333,7 @@ static void judge(OstResult *result, double requested, Explained explained)
 }
 
 /* Centre, mean displacement, and whether supports move the body. */
-static OstStatus look_at_body(const OstResult *result, Body *body)
+static OstStatus look_at_body(const OstProblem *problem, const OstResult *result, Body *body)
 {
     const OstMesh *mesh = result->mesh;
     double low[3], high[3];
@@ -339,9 +342,7 @@ static OstStatus look_at_body(const OstResult *result, Body *body)
     for (int i = 0; i < 3; i++)
         body->centre[i] = 0.5 * (low[i] + high[i]);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        double projector[9], prescribed[3];
-        if (ost_supports_get(body->supports, n, projector, prescribed) > 0)
-            sums[3] += prescribed[0] != 0.0 || prescribed[1] != 0.0 || prescribed[2] != 0.0;
+        sums[3] += ost_problem_moves(problem, n);
         for (int i = 0; i < 3; i++)
             sums[i] += result->displacement[3 * (size_t)n + (size_t)i];
     }
@@ -360,28 +361,31 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstChecks *checks = &result->checks;
     double *internal = NULL, *magnitude = NULL, *eigen = NULL;
     double sums[SUM_COUNT] = {0.0};
-    Body body = {.supports = problem->supports};
-    TetSums tets = {0.0, 0.0, {0.0, 0.0}};
+    Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
+    TetSums tets = {.formulation = problem->formulation};
     if (result->solve.rounding_limited) /* then the user accepts what double precision attained */
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(ost_internal_force(mesh, problem->field, result->t, result->displacement, internal, magnitude));
+    OST_THEN(ost_internal_force_of(mesh, problem->field, problem->formulation, result->t, result->displacement,
+                                   internal, magnitude));
     if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
         status = OST_NEW(ctx, &eigen, 3 * (size_t)mesh->owned_nodes);
         OST_THEN(ost_eigenstrain_force(mesh, problem->field, result->t, eigen));
     }
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(look_at_body(result, &body));
-    ost_visit_means(mesh, problem->field, result->t, result->displacement, add_tets, &tets);
+    OST_TRY_DONE(look_at_body(problem, result, &body));
+    ost_visit_means_of(mesh, problem->field, problem->formulation, result->t, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
     sums[SUM_DOUBLE_WORK] = -tets.eigen;
     sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
+    if (body.turns)
+        OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)

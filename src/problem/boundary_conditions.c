@@ -47,9 +47,10 @@ static OstStatus prescribed_displacement(const OstScene *scene, const OstConstra
     return OST_SUCCESS;
 }
 
-static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node,
+static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, int table, OstLocal node,
                                 OstSupports *supports)
 {
+    const double factor = constraint->table == table ? 1.0 : 0.0;
     double prescribed[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
         return ost_supports_constrain(supports, node, constraint->normal, 0.0);
@@ -58,12 +59,13 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->constrained[component])
-            OST_TRY(ost_supports_constrain(supports, node, direction, prescribed[component]));
+            OST_TRY(ost_supports_constrain(supports, node, direction, factor * prescribed[component]));
     }
     return OST_SUCCESS;
 }
 
-static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
+static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, int table,
+                                OstSupports *supports)
 {
     const OstAccount account = constraint->kind == OST_CONSTRAIN_SLIDE ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS;
     OstLocal count = 0;
@@ -73,7 +75,7 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = constrain_node(scene, constraint, nodes[i], supports);
+            status = constrain_node(scene, constraint, table, nodes[i], supports);
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
@@ -127,7 +129,7 @@ static OstStatus add_spring(const OstScene *scene, const OstSpring *spring, OstS
     return at_line(scene->c, spring->line, status);
 }
 
-OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
+OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports)
 {
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
         return ost_free_body_supports(scene->mesh, &scene->plan.effects, supports);
@@ -135,7 +137,7 @@ OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
     if (status == OST_SUCCESS)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
-        status = add_constraint(scene, &scene->c->constraints[i], *supports);
+        status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
     for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
         status = add_spring(scene, &scene->c->springs[i], *supports);
     OST_THEN(ost_supports_complete(*supports));
@@ -218,8 +220,8 @@ static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, do
     double area = 0.0;
     OstStatus status = select_faces(scene, &load->on, &count, &nodes_per_face, &faces, &area);
     if (status == OST_SUCCESS && load->follows)
-        status = ost_agree(scene->ctx,
-                           ost_follower_add(scene->mesh, count, faces, nodes_per_face, load->pressure, follower));
+        status = ost_agree(scene->ctx, ost_follower_add(scene->mesh, count, faces, nodes_per_face, load->pressure,
+                                                        load->table, follower));
     else if (status == OST_SUCCESS)
         status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
     OST_FREE(faces);
@@ -241,10 +243,10 @@ static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect 
     return at_line(scene->c, load->line, status);
 }
 
-OstStatus ost_scene_loads(const OstScene *scene, double *force, OstFollower **follower)
+OstStatus ost_scene_loads(const OstScene *scene, int table, double *force, OstFollower **follower)
 {
     for (int i = 0; i < scene->c->load_count; i++)
-        if (ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
+        if (scene->c->loads[i].table == table && ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
             OST_TRY(add_load(scene, &scene->c->loads[i], scene->load_effect[i], force, follower));
     return OST_SUCCESS;
 }

@@ -6,12 +6,13 @@
 #include "assembly/supports.h"
 #include "problem/scene_data.h"
 
-/* Collective. The supports that the case's constraints and springs make. Raises OST_INVALID_INPUT with the case's line
- * where constraints contradict each other, or if nothing is constrained. */
-OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
+/* Collective. The supports that the case's constraints and springs make; displacements that do not follow the function
+ * of time `table` (0: t itself, 1 + k: table k of the case) are prescribed as zero. Raises OST_INVALID_INPUT with the
+ * case's line where constraints contradict each other, or if nothing is constrained. */
+OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports);
 
-/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes), and pressures that follow the
- * surface to *follower, which stays NULL if there are none. */
-OstStatus ost_scene_loads(const OstScene *scene, double *force, OstFollower **follower);
+/* Collective. Adds the case's loads that follow this function of time to `force` (3 × node_count, complete on owned
+ * nodes), and pressures that follow the surface to *follower, which stays NULL if there are none. */
+OstStatus ost_scene_loads(const OstScene *scene, int table, double *force, OstFollower **follower);
 
 #endif

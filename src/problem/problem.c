@@ -11,6 +11,7 @@
 #include "core/small.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
+#include "problem/timed.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,6 +21,7 @@ void ost_problem_destroy(OstProblem **problem)
     if (!*problem)
         return;
     ost_system_destroy(&(*problem)->system);
+    ost_problem_release_timed(*problem);
     ost_supports_destroy(&(*problem)->supports);
     ost_follower_destroy(&(*problem)->follower);
     OST_FREE((*problem)->force);
@@ -45,7 +47,8 @@ static OstStatus add_springs(const OstProblemParts *parts, OstSupports *supports
     return OST_SUCCESS;
 }
 
-static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
+/* `displacement`: one for each constraint, in place of its own; or NULL. */
+static OstStatus constrain_nodes(const OstProblemParts *parts, const double *displacement, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
     int springs = parts->spring_count > 0;
@@ -59,8 +62,8 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **sup
             status = OST_RAISE(ctx, OST_INVALID_INPUT, "constraint %d is on node %d, but this rank owns nodes 0 to %d",
                                i, constraint->node, parts->mesh->owned_nodes - 1);
         else
-            status =
-                ost_supports_constrain(*supports, constraint->node, constraint->direction, constraint->displacement);
+            status = ost_supports_constrain(*supports, constraint->node, constraint->direction,
+                                            displacement ? displacement[i] : constraint->displacement);
     }
     if (status == OST_SUCCESS && springs)
         status = ost_supports_allow_springs(*supports);
@@ -85,6 +88,26 @@ static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstL
     return ost_agree(ctx, status);
 }
 
+/* Displacements that follow a table: zero unless the caller gives them. */
+static OstStatus make_timed(const OstProblemParts *parts, OstProblem *problem)
+{
+    OstContext *ctx = problem->ctx;
+    for (int k = 0; k < parts->timed_count; k++) {
+        const OstTimedParts *given = &parts->timed[k];
+        double *zero = NULL;
+        OST_TRY(ost_problem_add_timed(problem, &given->table));
+        OstTimed *timed = &problem->timed[k];
+        if (given->force)
+            memcpy(timed->force, given->force, 3 * (size_t)parts->mesh->owned_nodes * sizeof(double));
+        OST_TRY(ost_agree(ctx, OST_NEW(ctx, &zero, given->displacement ? 0 : parts->constraint_count)));
+        const OstStatus status =
+            constrain_nodes(parts, given->displacement ? given->displacement : zero, &timed->supports);
+        OST_FREE(zero);
+        OST_TRY(status);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
 {
     OstProblem *made = NULL;
@@ -98,16 +121,30 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
             ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        if (parts->pressed_count > 0)
+        int pressed = parts->pressed_count > 0;
+        status = ost_max_ints(made->ctx, 1, &pressed);
+        if (status == OST_SUCCESS && pressed)
             status = ost_follower_add(parts->mesh, parts->pressed_count, parts->pressed_faces,
-                                      parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, &made->follower);
+                                      parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, 0, &made->follower);
         status = ost_agree(made->ctx, status);
-        OST_THEN(constrain_nodes(parts, &made->supports));
+        OST_THEN(constrain_nodes(parts, NULL, &made->supports));
+        OST_THEN(make_timed(parts, made));
+        OST_THEN(ost_follower_conserves(made->follower, made->supports, &made->conservative));
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
     *problem = made;
     return status;
+}
+
+static OstStatus make_timed_of_scene(const OstScene *scene, OstProblem *problem)
+{
+    for (int k = 0; k < scene->c->table_count; k++) {
+        OST_TRY(ost_problem_add_timed(problem, &scene->c->tables[k]));
+        OST_TRY(ost_scene_supports(scene, 1 + k, &problem->timed[k].supports));
+        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].force, &problem->follower));
+    }
+    return OST_SUCCESS;
 }
 
 OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
@@ -122,9 +159,15 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
-    OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, made->force, &made->follower));
+    if (ost_effect_on(made->effects, OST_EFFECT_LARGE_ROTATION))
+        made->beyond_linear = scene->c->formulation;
+    made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
+    made->accuracy = scene->c->relative_error;
+    OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
+    OST_TRY_DONE(ost_scene_loads(scene, 0, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
+    OST_TRY_DONE(make_timed_of_scene(scene, made));
+    OST_TRY_DONE(ost_follower_conserves(made->follower, made->supports, &made->conservative));
 done:
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -158,12 +201,19 @@ int ost_problem_is_linear(const OstProblem *problem)
 }
 
 /* Values of the matrix are of the formulation that was: they do not count. */
-void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation)
 {
     if (problem->formulation != formulation)
         problem->filled = 0;
     problem->formulation = formulation;
     problem->linear = formulation == OST_FORMULATION_LINEAR && ost_element_of(problem->mesh->nodes_per_tet)->linear;
+}
+
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+{
+    ost_problem_take_formulation(problem, formulation);
+    problem->beyond_linear = formulation;
+    problem->automatic = 0;
 }
 
 OstFormulation ost_problem_formulation(const OstProblem *problem)
@@ -178,17 +228,16 @@ void ost_problem_set_load(OstProblem *problem, const double *force)
 
 void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force)
 {
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        force[i] = t * problem->force[i];
-    if (problem->follower)
-        ost_follower_force(problem->follower, t, u, force);
+    memset(force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
+    for (int k = 0; k < ost_problem_functions(problem); k++)
+        ost_problem_add_load(problem, k, ost_problem_factor(problem, k, t), u, force);
 }
 
 OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work)
 {
-    *work = problem->follower ? ost_follower_work(problem->follower, t, u) : 0.0;
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        *work += t * problem->force[i] * u[i];
+    *work = 0.0;
+    for (int k = 0; k < ost_problem_functions(problem); k++)
+        *work += ost_problem_work(problem, k, ost_problem_factor(problem, k, t), u);
     return ost_sum(problem->ctx, 1, work);
 }
 
@@ -232,23 +281,31 @@ static OstStatus make_pattern(OstProblem *problem)
 /* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
 static OstStatus fill(const OstProblem *problem, double t, const double *u, int definite)
 {
-    const OstTangent tangent = {.formulation = problem->formulation,
-                                .t = t,
-                                .u = u,
-                                .definite = definite,
-                                .follower = definite ? NULL : problem->follower};
-    const int at_zero = problem->formulation == OST_FORMULATION_LINEAR || !u; /* where all formulations agree */
-    return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
+    OstTangent tangent = {.formulation = problem->formulation, .t = t, .u = u, .definite = definite};
+    double *factor = NULL;
+    if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
+        return ost_system_fill_tangent(problem->system, problem->field, NULL);
+    if (problem->follower && !definite) {
+        OST_TRY(OST_NEW(problem->ctx, &factor, ost_problem_functions(problem)));
+        for (int k = 0; k < ost_problem_functions(problem); k++)
+            factor[k] = ost_problem_factor(problem, k, t);
+        tangent.follower = problem->follower;
+        tangent.factor = factor;
+    }
+    const OstStatus status = ost_system_fill_tangent(problem->system, problem->field, &tangent);
+    OST_FREE(factor);
+    return status;
 }
 
+/* The matrix stays where it is, so that a solver on it can be kept. */
 static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, int definite, OstStiffness *stiffness)
 {
-    const int may_fill = problem->system && problem->system->block_of_tet;
-    if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
-        ost_problem_release_stiffness(problem);
+    if (!problem->system)
         OST_TRY(make_pattern(problem));
-    }
-    if (problem->system->block_of_tet)
+    const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
+    if (fills && !problem->system->block_of_tet)
+        OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
+    if (fills)
         OST_TRY(ost_agree(problem->ctx, fill(problem, t, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;
@@ -313,20 +370,29 @@ void ost_problem_release_stiffness(OstProblem *problem)
 
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs)
 {
-    const OstSystem *system = problem->system;
-    double *force = NULL;
-    OST_TRY(OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes));
-    ost_problem_load(problem, 1.0, NULL, force);
-    const OstStatus status = ost_system_right_hand_side(system, problem->field, force, rhs);
-    OST_FREE(force);
-    for (size_t i = 0; i < 3 * (size_t)system->matrix->rows; i++)
+    const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
+    double *timed = NULL;
+    OST_TRY(ost_problem_function_right_hand_side(problem, 0, rhs));
+    for (size_t i = 0; i < unknowns; i++)
         rhs[i] *= t;
+    if (problem->timed_count > 0)
+        OST_TRY(OST_NEW(problem->ctx, &timed, unknowns));
+    OstStatus status = OST_SUCCESS;
+    for (int k = 1; k <= problem->timed_count && status == OST_SUCCESS; k++) {
+        status = ost_problem_function_right_hand_side(problem, k, timed);
+        for (size_t i = 0; i < unknowns; i++)
+            rhs[i] += ost_problem_factor(problem, k, t) * timed[i];
+    }
+    OST_FREE(timed);
     return status;
 }
 
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u)
 {
-    return ost_system_displacement(problem->system, t, v, u);
+    OST_TRY(ost_system_displacement(problem->system, t, v, u));
+    for (int k = 0; k < problem->timed_count; k++)
+        ost_supports_add(problem->timed[k].supports, ost_time_factor(&problem->timed[k].table, t), u);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts)

@@ -7,6 +7,13 @@
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
 
+/* What follows a time table, at factor 1. */
+typedef struct OstTimed {
+    OstTimeTable table;
+    double *force;         /* 3 × node_count, complete on owned nodes */
+    OstSupports *supports; /* those of the problem, with the displacements that follow this table */
+} OstTimed;
+
 struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
@@ -15,11 +22,17 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
-    OstFollower *follower;     /* pressures that follow the surface, at t = 1; NULL: there are none */
-    OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
-    int filled;                /* does the matrix have values? */
-    int linear;                /* is the internal force linear in the displacement? */
-    OstFormulation formulation;
+    int timed_count;           /* time tables of further loads and displacements (problem/timed.h) */
+    OstTimed *timed;
+    OstFollower *follower;        /* pressures that follow the surface, of all functions; NULL: there are none */
+    int conservative;             /* is the load the gradient of a work function? */
+    OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
+    int filled;                   /* does the matrix have values? */
+    int linear;                   /* is the internal force linear in the displacement? */
+    OstFormulation formulation;   /* of energy, force and stiffness now */
+    OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
+    int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */
+    double accuracy;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */
@@ -28,11 +41,14 @@ struct OstProblem {
 /* Local. What messages begin with: the case's file, or "the problem". */
 const char *ost_problem_name(const OstProblem *problem);
 
-/* Local. The right-hand side P (load(t) - K t g) of a linear problem, g the prescribed displacements, after
+/* Local. Goes on with another formulation on the way to the answer, whose formulation stays. */
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation);
+
+/* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs);
 
-/* Collective. The displacement u = P v + t g of every local node, from v of the rows. */
+/* Collective. The displacement u = P v + g(t) of every local node, from v of the rows. */
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u);
 
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.

@@ -4,6 +4,7 @@
 
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/problem.h"
 #include "orthostat/result.h"
 
 /* Estimated relative error of linear theory, which takes strains and rotations as small. Rotated by an angle, a part
@@ -31,7 +32,8 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
-    double t;                      /* load factor that the answer is for */
+    double t;                      /* pseudo-time that the answer is for */
+    OstFormulation formulation;    /* by which strain follows from the displacement */
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
@@ -42,6 +44,8 @@ struct OstResult {
     double largest_displacement;
     double largest_at[3];
     OstSolveReport solve;
+    OstNewtonReport newton;
+    OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */

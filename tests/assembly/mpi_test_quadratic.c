@@ -93,7 +93,7 @@ static void solve_pose(Pose *pose, void (*at)(const double *, double *))
     double *rhs = numbers(3 * (size_t)pose->system->matrix->rows);
     double *v = numbers(3 * (size_t)pose->system->matrix->rows);
     pose->u = numbers(3 * (size_t)mesh->node_count);
-    assert_success(ost_system_right_hand_side(pose->system, pose->field, pose->force, rhs));
+    assert_success(ost_system_right_hand_side(pose->system, pose->field, 0.0, pose->force, rhs));
     solve_directly(pose->system->matrix, rhs, v);
     assert_success(ost_system_displacement(pose->system, 1.0, v, pose->u));
     free(rhs);

@@ -13,8 +13,9 @@ typedef struct Made {
     double *u;
 } Made;
 
-/* Pressed on its whole surface, or but for x = 0, where all nodes are held; or without pressure. */
-typedef enum { CLOSED, HELD_RIM, UNPRESSED } Pressed;
+/* Pressed on its whole surface, or but for x = 0, where all nodes are held; without pressure; on a part with a rim that
+ * may move. */
+typedef enum { CLOSED, HELD_RIM, UNPRESSED, FREE_RIM } Pressed;
 
 static int holds(const OstMesh *mesh, OstLocal node)
 {
@@ -48,7 +49,8 @@ static Made make(int order, Pressed pressed)
         int held = 0;
         for (size_t a = 0; a < n; a++)
             held += holds(mesh, surface->nodes[n * (size_t)f + a]);
-        if (pressed == CLOSED || held < (int)n)
+        const int before = mesh->coordinates[3 * (size_t)surface->nodes[n * (size_t)f]] < 1.0;
+        if (pressed == CLOSED || (held < (int)n && (pressed == HELD_RIM || before)))
             memcpy(faces + n * (size_t)parts.pressed_count++, surface->nodes + n * (size_t)f, n * sizeof *faces);
     }
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
@@ -165,6 +167,17 @@ static void load_and_stiffness_are_derivatives_of_the_work(void **state)
         }
 }
 
+static void a_rim_that_moves_leaves_no_work_function(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++)
+        for (Pressed pressed = CLOSED; pressed <= FREE_RIM; pressed++) {
+            Made made = make(order, pressed);
+            assert_int_equal(made.problem->conservative, pressed != FREE_RIM);
+            destroy(&made);
+        }
+}
+
 static void undeformed_it_is_the_ordinary_pressure(void **state)
 {
     (void)state;
@@ -188,6 +201,7 @@ static void undeformed_it_is_the_ordinary_pressure(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(on_a_closed_surface_it_balances_in_any_shape),
     cmocka_unit_test(load_and_stiffness_are_derivatives_of_the_work),
+    cmocka_unit_test(a_rim_that_moves_leaves_no_work_function),
     cmocka_unit_test(undeformed_it_is_the_ordinary_pressure),
 };
 

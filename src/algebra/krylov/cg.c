@@ -100,7 +100,7 @@ static OstStatus report_error(Cg *cg, const double *f, const double *u, const Os
     cg->largest = fmax(cg->largest, largest);
     cg->run.lanczos.count = 0;
     cg->run.runs = 0;
-    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
+    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER && !goal->crude)
         OST_TRY(
             ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
     const int known = !isnan(error.whole) && !isnan(error.rounding);
