@@ -56,7 +56,7 @@ static void a_ring_widens_under_its_growing_surface(void **state)
              "1}}}\nelement: {order: 2}\nlarge_rotation: on\n"
              "materials: [{region: all, youngs_modulus: %g, poissons_ratio: %g}]\n"
              "constraints:\n  - {on: {boundary: [bottom, top]}, slide: [0, 0, 1]}\n"
-             "  - {on: {boundary: start}, slide: [0, 1, 0]}\n  - {on: {boundary: finish}, slide: [1, 0, 0]}\n"
+             "  - {on: {boundary: start}, slide: [1, 0, 0]}\n  - {on: {boundary: finish}, slide: [0, 1, 0]}\n"
              "loads: [{on: {boundary: inner}, pressure: %g, follows: true}]\n",
              e, nu, p);
     OstResult *result = solve(text, &c, &scene);
