@@ -22,7 +22,10 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
 static OstStatus judge(const OstProblem *problem, OstResult *result)
 {
     OstLinearity largest;
-    OST_TRY(ost_linearity_of(problem->mesh, problem->field, result->displacement, &largest));
+    ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
+    const OstStatus status = ost_linearity_of(problem->mesh, problem->field, result->displacement, &largest);
+    ost_ledger_leave(problem->ctx);
+    OST_TRY(status);
     const OstChecks as_linear = {.largest_strain = largest.strain, .largest_rotation = largest.rotation};
     result->newton.judged = 1;
     result->newton.linear_strain = largest.strain;
