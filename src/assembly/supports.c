@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/springs.h"
+#include "assembly/supports.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -242,8 +242,6 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
         if (status == OST_SUCCESS)
             *support = quadratic->support[index];
     }
-    if (quadratic->spring)
-        OST_THEN(ost_springs_on_vertices(quadratic, node_of_vertex, made));
     if (status != OST_SUCCESS)
         ost_supports_destroy(&made);
     *supports = made;

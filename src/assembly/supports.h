@@ -37,8 +37,8 @@ OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const dou
  * OST_INVALID_INPUT if no node of any rank is constrained and there are no springs. */
 OstStatus ost_supports_complete(OstSupports *supports);
 
-/* Local. The same supports on the linear mesh of a quadratic one's vertices; node_of_vertex as ost_mesh_linear gives
- * it. */
+/* Local. The same supports, but for springs (ost_springs_on_vertices), on the linear mesh of a quadratic one's
+ * vertices; node_of_vertex as ost_mesh_linear gives it. */
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                    OstSupports **supports);
 

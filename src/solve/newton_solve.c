@@ -36,7 +36,7 @@ static OstStatus update(OstNewton *newton, int definite)
     newton->at_zero = 0;
     newton->rebuild = 1; /* should what follows fail */
     if (rebuild)
-        OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->displacement));
+        OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->t, newton->displacement));
     else
         OST_TRY(ost_solver_update(newton->stiffness->solver, OST_UPDATE_KEEP));
     newton->rebuild = 0;
