@@ -52,7 +52,7 @@ static void springs_say_what_is_wrong(void **state)
     assert_refused(SPRING("on: {all: true}, foundation: {normal: 0}"),
                    "4:35: the stiffness is 0, so this spring holds nothing; leave it out");
     assert_refused(SPRING("on: {all: true}, foundation: {normal: 1}, direction: [1, 0, 0]"),
-                   "4:58: 'direction' and {normal, tangential} exclude each other; give one number "
+                   "4:59: 'direction' and {normal, tangential} exclude each other; give one number "
                    "with it");
     assert_refused(SPRING("on: {all: true}, spring: {normal: 1}"), "4:31: ...");
 }

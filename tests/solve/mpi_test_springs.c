@@ -54,7 +54,7 @@ static void a_column_sinks_into_its_foundation(void **state)
             OstResult *result;
             snprintf(
                 text, sizeof text,
-                "mesh: {block: {size: [1, 2, 3], divisions: [2, 3, 3]}}\nelement: {order: %d}\n"
+                "large_rotation: off\nmesh: {block: {size: [1, 2, 3], divisions: [2, 3, 3]}}\nelement: {order: %d}\n"
                 "materials: [{region: all, youngs_modulus: 60, poissons_ratio: 0}]\n"
                 "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]}]\n"
                 "springs: [{on: {boundary: zmin}, %s}]\n"
@@ -77,7 +77,7 @@ static void springs_at_a_vertex_add_up(void **state)
     OstScene *scene;
     OstResult *result;
     assert_success(
-        solve("mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+        solve("large_rotation: off\nmesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
               "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
               "constraints: [{on: {boundary: ymin}, slide: [0, 1, 0]}, {on: {boundary: zmin}, slide: [0, 0, 1]}]\n"
               "springs: [{on: {nearest: [0, 0, 0]}, spring: 2, direction: [1, 0, 0]},\n"
@@ -102,7 +102,7 @@ static void a_beam_on_a_foundation_bends_as_hetenyi_says(void **state)
     OstScene *scene;
     OstResult *result;
     snprintf(text, sizeof text,
-             "mesh: {block: {size: [20, 1, 1], divisions: [20, 1, 1]}}\nelement: {order: 2}\n"
+             "large_rotation: off\nmesh: {block: {size: [20, 1, 1], divisions: [20, 1, 1]}}\nelement: {order: 2}\n"
              "materials: [{region: all, youngs_modulus: %g, poissons_ratio: 0}]\n"
              "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]}]\n"
              "springs: [{on: {boundary: zmin}, foundation: %.17g, direction: [0, 0, 1]}]\n"
@@ -117,7 +117,7 @@ static void a_beam_on_a_foundation_bends_as_hetenyi_says(void **state)
 static void springs_hold_the_directions_they_have(void **state)
 {
     (void)state;
-    static const char body[] = "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+    static const char body[] = "large_rotation: off\nmesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
                                "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
                                "loads: [{on: {boundary: xmax}, total_force: [1, 0, 0]}]\n";
     static const struct {
@@ -164,7 +164,7 @@ static void multigrid_solves_a_body_on_springs(void **state)
         OstScene *scene;
         OstResult *result;
         snprintf(text, sizeof text,
-                 "mesh: {block: {size: [4, 1, 1], divisions: [8, 2, 2]}}\nelement: {order: 2}\n"
+                 "large_rotation: off\nmesh: {block: {size: [4, 1, 1], divisions: [8, 2, 2]}}\nelement: {order: 2}\n"
                  "materials: [{region: all, youngs_modulus: [1e3, 1e2, 1e2], poissons_ratio: 0.3}]\n"
                  "springs: [{on: {boundary: xmin}, foundation: 0.1}]\nsolver: {method: %s}\n"
                  "loads: [{on: {boundary: xmax}, total_force: [0, 0, 1e-3]}]\naccuracy: {relative_residual: 1e-9}\n",

@@ -1,50 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "../case/case_text.h"
-#include "core/memory.h"
-#include "problem/scene_data.h"
-
-#include "orthostat/orthostat.h"
+#include "two_layers.h"
 
 /* Eigenstrains of a case, against formulas; cases/verify/swelling and heated-bar are two more. */
-
-/* The upper half of a block, z > 1, becomes a region of its own. */
-static void add_upper(OstMeshChunk *chunk)
-{
-    char **names = NULL;
-    assert_success(OST_NEW(ctx, &names, 2));
-    names[0] = chunk->regions.name[0];
-    assert_success(ost_copy_string(ctx, "upper", &names[1]));
-    OST_FREE(chunk->regions.name);
-    chunk->regions = (OstNames){2, names};
-    for (OstLocal t = 0; t < chunk->tet_count; t++)
-        chunk->tet_region[t] = (int32_t)(chunk->first_tet + t) / 6 % 2; /* hexes are numbered along z first */
-}
-
-/* A displacement at (x, 0, 1), on the interface of the layers. */
-static double displacement_at(const OstResult *result, double x, int component)
-{
-    const OstMesh *mesh = result->mesh;
-    double found = 0.0;
-    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
-        const double *at = mesh->coordinates + 3 * node;
-        if (fabs(at[0] - x) + fabs(at[1]) + fabs(at[2] - 1.0) < 1e-9)
-            found += result->displacement[3 * node + component];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx));
-    return found;
-}
-
-static OstResult *solve_layers(const char *text, OstCase **c, OstScene **scene)
-{
-    OstMeshChunk *chunk = NULL;
-    OstResult *result = NULL;
-    assert_success(read_text(text, c));
-    assert_success(ost_chunk_create_block(ctx, &(*c)->block, &chunk));
-    add_upper(chunk);
-    assert_success(ost_scene_create_on(*c, &chunk, scene));
-    assert_success(ost_scene_solve(*scene, &result));
-    return result;
-}
 
 /* S. Timoshenko, Analysis of Bi-metal Thermostats, 1925, eq. 4: the curvature of a strip of two layers, here of equal
  * thickness, moduli E1 and E2, that lengthen by different strains. They swell along the strip alone, which isotropic
@@ -79,29 +36,6 @@ static void a_strip_of_two_layers_bends_as_timoshenko_says(void **state)
     }
 }
 
-/* The same curvature, 3/2 of the difference over the height for equal moduli, bends a long strip into half a circle. */
-static void a_long_strip_of_two_layers_closes_half_a_circle(void **state)
-{
-    (void)state;
-    const double length = 60.0, height = 2.0, half = M_PI * height / (3.0 * length), radius = length / M_PI;
-    char text[1024];
-    OstCase *c = NULL;
-    OstScene *scene = NULL;
-    snprintf(text, sizeof text,
-             "mesh: {block: {size: [60, 1, 2], divisions: [30, 1, 2]}}\nelement: {order: 2}\nlarge_rotation: "
-             "on\nmaterials:\n"
-             "  - {region: block, youngs_modulus: 100, poissons_ratio: 0, eigenstrain: [%.17g, 0, 0]}\n"
-             "  - {region: upper, youngs_modulus: 100, poissons_ratio: 0, eigenstrain: [%.17g, 0, 0]}\n"
-             "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n",
-             half, -half);
-    OstResult *result = solve_layers(text, &c, &scene);
-    assert_close((length + displacement_at(result, 60, 0)) / radius, 0.0, 0.01);
-    assert_close(displacement_at(result, 60, 2) / (2.0 * radius), 1.0, 0.01);
-    ost_result_destroy(&result);
-    ost_scene_destroy(&scene);
-    ost_case_destroy(&c);
-}
-
 /* Incompressible rubber that is kept from growing: the pressure is that of its bulk modulus, E / (3 (1 - 2 nu)), times
  * three strains; and stress at the nodes is that of the tets. */
 static void nearly_incompressible_rubber_presses(void **state)
@@ -133,7 +67,6 @@ static void nearly_incompressible_rubber_presses(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_strip_of_two_layers_bends_as_timoshenko_says),
-    cmocka_unit_test(a_long_strip_of_two_layers_closes_half_a_circle),
     cmocka_unit_test(nearly_incompressible_rubber_presses),
 };
 

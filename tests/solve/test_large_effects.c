@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "../case/case_text.h"
-#include "problem/scene_data.h"
+#include "two_layers.h"
 
-#include "orthostat/orthostat.h"
-
-/* Pressure that follows the surface, with large displacements, against formulas. */
+/* Pressure that follows the surface, and eigenstrains, with large displacements, against formulas. */
 
 static OstResult *solve(const char *text, OstCase **c, OstScene **scene)
 {
@@ -23,7 +20,7 @@ static void destroy(OstCase *c, OstScene *scene, OstResult *result)
 }
 
 /* The displacement of the vertex at a place, on every rank. */
-static void displacement_at(const OstResult *result, double x, double y, double z, double u[3])
+static void displacement_of(const OstResult *result, double x, double y, double z, double u[3])
 {
     const OstMesh *mesh = result->mesh;
     memset(u, 0, 3 * sizeof *u);
@@ -60,7 +57,7 @@ static void a_ring_widens_under_its_growing_surface(void **state)
              "loads: [{on: {boundary: inner}, pressure: %g, follows: true}]\n",
              e, nu, p);
     OstResult *result = solve(text, &c, &scene);
-    displacement_at(result, 1.0, 0.0, 0.0, u);
+    displacement_of(result, 1.0, 0.0, 0.0, u);
     assert_true(inner > 0.23); /* by linear theory 0.19 */
     assert_close(u[0] / inner, 1.0, 5e-4);
     destroy(c, scene, result);
@@ -111,16 +108,40 @@ static void a_strip_under_pressure_is_an_elastica(void **state)
                               "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
                               "loads: [{on: {boundary: zmin}, pressure: 6, follows: true}]\n",
                               &c, &scene);
-    displacement_at(result, 10.0, 0.0, 0.0, u);
+    displacement_of(result, 10.0, 0.0, 0.0, u);
     assert_true(tip[1] > 4.0);
     assert_close(u[2] / tip[1], 1.0, 0.01);
     assert_close((10.0 + u[0]) / tip[0], 1.0, 0.01);
     destroy(c, scene, result);
 }
 
+/* The same curvature, 3/2 of the difference over the height for equal moduli, bends a long strip into half a circle. */
+static void a_long_strip_of_two_layers_closes_half_a_circle(void **state)
+{
+    (void)state;
+    const double length = 60.0, height = 2.0, half = M_PI * height / (3.0 * length), radius = length / M_PI;
+    char text[1024];
+    OstCase *c = NULL;
+    OstScene *scene = NULL;
+    snprintf(text, sizeof text,
+             "mesh: {block: {size: [60, 1, 2], divisions: [30, 1, 2]}}\nelement: {order: 2}\nlarge_rotation: "
+             "on\nmaterials:\n"
+             "  - {region: block, youngs_modulus: 100, poissons_ratio: 0, eigenstrain: [%.17g, 0, 0]}\n"
+             "  - {region: upper, youngs_modulus: 100, poissons_ratio: 0, eigenstrain: [%.17g, 0, 0]}\n"
+             "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n",
+             half, -half);
+    OstResult *result = solve_layers(text, &c, &scene);
+    assert_close((length + displacement_at(result, 60, 0)) / radius, 0.0, 0.01);
+    assert_close(displacement_at(result, 60, 2) / (2.0 * radius), 1.0, 0.01);
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_ring_widens_under_its_growing_surface),
     cmocka_unit_test(a_strip_under_pressure_is_an_elastica),
+    cmocka_unit_test(a_long_strip_of_two_layers_closes_half_a_circle),
 };
 
 OST_TEST_MAIN(tests)
