@@ -111,10 +111,11 @@ static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
     const OstNewtonReport *newton = &result->newton;
     if (newton->jumps == 0)
         return 0;
-    snprintf(text, OST_LONGEST_WARNING,
-             "beyond load factor %.6g the body jumps to another state at rest (it buckles, or snaps through)%s: the "
-             "state beyond is stable, but which one is reached may depend on what is not in the scene",
-             newton->jump_at, newton->jumps > 1 ? ", as it has done before" : "");
+    snprintf(
+        text, OST_LONGEST_WARNING,
+        "on the way to load factor %.6g the body jumps to another state at rest (it buckles, or snaps through)%s: the "
+        "state beyond is stable, but which one is reached may depend on what is not in the scene",
+        newton->jump_at, newton->jumps > 1 ? ", as it has done before" : "");
     return 1;
 }
 

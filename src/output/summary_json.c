@@ -87,9 +87,10 @@ static json_t *large_rotation_json(const OstNewtonReport *newton)
         newton->jumps > 0 ? ost_json_number(newton->jump_at) : json_null(), "newton_seconds", newton->seconds);
 }
 
-static json_t *warnings_json(const OstResult *result)
+/* What standard error warned of, and what the summary does. */
+static json_t *warnings_json(const OstContext *ctx, const OstResult *result)
 {
-    json_t *warnings = json_array();
+    json_t *warnings = ost_json_warnings(ctx);
     char text[OST_LONGEST_WARNING];
     for (int w = 0; w < OST_WARNINGS; w++)
         if (ost_result_warning(result, w, text))
@@ -149,13 +150,13 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
     return json_pack(
         "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
         scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
-        ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings", warnings_json(result),
-        "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes, "tets",
-        (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver", solver_json(&result->solve),
-        "large_rotation", large_rotation_json(&result->newton), "checks", checks_json(&result->checks),
-        "largest_displacement", ost_json_number(result->largest_displacement), "largest_at",
-        vector_json(result->largest_at), "watched", watched_json(watched, scene->c->watch_count), "effects",
-        ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
+        ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
+        warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
+        "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
+        solver_json(&result->solve), "large_rotation", large_rotation_json(&result->newton), "checks",
+        checks_json(&result->checks), "largest_displacement", ost_json_number(result->largest_displacement),
+        "largest_at", vector_json(result->largest_at), "watched", watched_json(watched, scene->c->watch_count),
+        "effects", ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,

@@ -10,7 +10,8 @@ typedef enum {
     OST_REST_ROUNDING, /* rounding allows no smaller residual */
     OST_REST_SLOW,     /* too many iterations */
     OST_REST_STALLED,  /* no step along the correction lowers the energy */
-    OST_REST_NO_STEP   /* the linear solver found no correction */
+    OST_REST_NO_STEP,  /* the linear solver found no correction */
+    OST_REST_UNSTABLE  /* at rest, but not stable, and nothing stable was found near by */
 } OstRest;
 
 struct OstNewton {
@@ -31,6 +32,7 @@ struct OstNewton {
     double energy_size;               /* the sum of their sizes, for rounding */
     double norm;                      /* of the residual */
     double driving;                   /* the largest residual with which a load step began, before its prediction */
+    double stiffness_size;            /* 2-norm of the sums of absolute values of the rows of the stiffness at u = 0 */
     double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */
@@ -67,6 +69,10 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
 /* Collective. Goes along newton->direction until the energy (without one, the residual) is low enough; evaluates there.
  * *length: of the step, 0 if none helps. */
 OstStatus ost_newton_search(OstNewton *newton, double *length);
+
+/* Collective. Looks whether the state at rest is stable: is the exact stiffness definite? If not, the body is pushed
+ * along its softest motion, and a stable state is looked for from there. */
+OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest);
 
 /* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where.
  */

@@ -11,7 +11,8 @@
  * in an inexact Newton method, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard). */
 static const double loosest = 1e-2, tightest = 1e-8, forcing_share = 0.9, guard_above = 1e-3;
 
-/* Back to the exact stiffness once the residual has fallen by this since it was found indefinite. */
+/* Back to the exact stiffness once the residual has fallen by this since it was found indefinite, and every few
+ * iterations (RETRIED). */
 static const double recovered = 0.1;
 
 /* The last correction may be this large, relative to the displacement, and the state still be taken for that at rest:
@@ -21,8 +22,12 @@ static const double settled = 1e-2;
 /* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
 static const double rounding_change = 1e-9;
 
+/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
+ * are many, and do not count as those of a slow search. */
+enum { MOST_DESCENTS = 100, RETRIED = 3 };
+
 /* Sums over the rows and nodes of this rank. */
-enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUMS };
+enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
 
 /* What the supports take of a node's load and internal force is reaction. */
 static void add_node(const OstNewton *newton, OstLocal node, double sums[SUMS])
@@ -60,13 +65,18 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         add_node(newton, node, sums);
         sums[SUM_WORK] += ost_dot3(newton->load + 3 * (size_t)node, displacement + 3 * (size_t)node);
+        sums[SUM_DISPLACEMENT] += ost_dot3(displacement + 3 * (size_t)node, displacement + 3 * (size_t)node);
     }
     OST_TRY(ost_sum(newton->ctx, SUMS, sums));
     work = problem->follower ? work : sums[SUM_WORK];
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
-    newton->energy = strain_energy - work;
+    newton->energy = ost_newton_has_energy(newton) ? strain_energy - work : 0.0;
     newton->energy_size = fabs(strain_energy) + fabs(work);
-    newton->size = fmax(fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), newton->driving), DBL_MIN);
+    /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
+     */
+    const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);
+    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness_size / newton->options.relative_residual;
+    newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, fmax(rounding, DBL_MIN)));
     return OST_SUCCESS;
 }
 
@@ -133,23 +143,24 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
 
 OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest)
 {
-    int definite = 0;
+    int definite = 0, descents = 0;
     double forcing = loosest, fallen_from = 0.0, before = 0.0;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         *rest = newton->norm <= target && newton->change <= settled ? OST_REST_FOUND : OST_REST_SLOW;
-        if (*rest == OST_REST_FOUND || k == most_iterations)
+        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
             return OST_SUCCESS;
         if (k > 0)
             forcing = next_forcing(newton, forcing, before);
-        if (definite && newton->norm < recovered * fallen_from)
+        if (definite && (newton->norm < recovered * fallen_from || descents % RETRIED == 0))
             definite = 0;
         const int was_definite = definite;
         double length;
         before = newton->norm;
         OST_TRY(iterate(newton, &definite, forcing, &length, rest));
+        descents += definite;
         if (definite && !was_definite)
             fallen_from = before;
         const int hidden = newton->change <= rounding_change && !(newton->norm < 0.5 * before);

@@ -14,13 +14,19 @@ static const double share = 1e-4;
  * SIAM J. Optim. 16, 2005). */
 static const double drowned = 1e-11;
 
+/* There, and without an energy, the slope must fall to this share. */
+static const double flatter = 0.9;
+
 /* A step is cut to between these shares of itself. */
 static const double least_cut = 0.1, most_cut = 0.5;
 
-enum { MOST_CUTS = 20 };
+/* A step is doubled where the slope at its end is more than this share of that at its beginning. */
+static const double steep = 0.5;
 
-/* What the search goes by, at one step length: the energy and its slope, or, without an energy, the squared residual
- * and its slope, twice its negative. */
+enum { MOST_CUTS = 20, MOST_EXTENSIONS = 10 };
+
+/* What the search goes by, at one step length: the energy and its slope, or, without an energy, the slope alone: the
+ * residual along the direction. */
 typedef struct Point {
     double length, value, slope;
 } Point;
@@ -33,23 +39,19 @@ static OstStatus measure(const OstNewton *newton, double length, Point *point)
         slope -= newton->residual[i] * newton->correction[i];
     OST_TRY(ost_sum(newton->ctx, 1, &slope));
     *point = (Point){length, newton->energy, slope};
-    if (!ost_newton_has_energy(newton)) {
-        point->value = newton->norm * newton->norm;
-        point->slope = -2.0 * point->value;
-    }
     return OST_SUCCESS;
 }
 
 static int is_low_enough(const OstNewton *newton, const Point *start, const Point *point)
 {
-    if (!isfinite(point->value))
+    if (!isfinite(point->value) || !isfinite(point->slope))
         return 0;
+    if (!ost_newton_has_energy(newton))
+        return fabs(point->slope) <= flatter * fabs(start->slope);
     if (point->value <= start->value + share * point->length * start->slope)
         return 1;
-    if (!ost_newton_has_energy(newton))
-        return 0;
     const double hidden = drowned * newton->energy_size;
-    return point->value <= start->value + hidden && fabs(point->slope) <= 0.9 * fabs(start->slope);
+    return point->value <= start->value + hidden && fabs(point->slope) <= flatter * fabs(start->slope);
 }
 
 /* The minimiser of the cubic with the values and slopes of both ends, within bounds. */
@@ -59,28 +61,49 @@ static double shorten(const Point *start, const Point *point)
     const double secant = 3.0 * (start->value - point->value) / length + start->slope + point->slope;
     const double root = sqrt(fmax(secant * secant - start->slope * point->slope, 0.0));
     double found = length * (1.0 - (point->slope + root - secant) / (point->slope - start->slope + 2.0 * root));
+    if (point->value == 0.0 && start->value == 0.0) /* no energy: the zero of the slope */
+        found = length * start->slope / (start->slope - point->slope);
     if (!isfinite(found) || !isfinite(point->value))
         found = least_cut * length;
     return fmin(fmax(found, least_cut * length), most_cut * length);
 }
 
+static OstStatus go_to(OstNewton *newton, double length, Point *point)
+{
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+        newton->candidate[i] = newton->displacement[i] + length * newton->direction[i];
+    OST_TRY(ost_newton_evaluate(newton, newton->candidate));
+    return measure(newton, length, point);
+}
+
+/* Twice as far, as long as the energy falls there nearly as steeply as at first: so it does along a direction of
+ * negative curvature, of which the definite stiffness knows nothing. */
+static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
+{
+    for (int times = 0; times < MOST_EXTENSIONS && point->slope < steep * start->slope; times++) {
+        Point next;
+        OST_TRY(go_to(newton, 2.0 * point->length, &next));
+        if (!(next.value < point->value))
+            return go_to(newton, point->length, point);
+        *point = next;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_search(OstNewton *newton, double *length)
 {
-    const size_t count = 3 * (size_t)newton->problem->mesh->node_count;
     Point start, point;
+    double next = 1.0;
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
-    if (!(start.slope < 0.0))
-        return OST_SUCCESS;
-    double next = 1.0;
-    for (int cut = 0; cut <= MOST_CUTS; cut++) {
-        for (size_t i = 0; i < count; i++)
-            newton->candidate[i] = newton->displacement[i] + next * newton->direction[i];
-        OST_TRY(ost_newton_evaluate(newton, newton->candidate));
-        OST_TRY(measure(newton, next, &point));
+    for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
+        OST_TRY(go_to(newton, next, &point));
         if (is_low_enough(newton, &start, &point)) {
-            memcpy(newton->displacement, newton->candidate, count * sizeof(double));
-            *length = next;
+            if (cut == 0 && ost_newton_has_energy(newton))
+                OST_TRY(extend(newton, &start, &point));
+            memcpy(newton->displacement, newton->candidate,
+                   3 * (size_t)newton->problem->mesh->node_count * sizeof(double));
+            *length = point.length;
             return OST_SUCCESS;
         }
         newton->report.cuts++;

@@ -17,11 +17,16 @@ static int can_go_on(OstStatus status)
     return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT;
 }
 
+/* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. */
 static OstStatus fill(OstNewton *newton, int definite)
 {
-    if (definite)
-        return ost_problem_definite_stiffness(newton->problem, newton->t, newton->displacement, NULL);
-    return ost_problem_stiffness(newton->problem, newton->t, newton->displacement, NULL);
+    OstProblem *problem = newton->problem;
+    const OstFormulation formulation = problem->formulation;
+    ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
+    const OstStatus status = definite ? ost_problem_definite_stiffness(problem, newton->t, newton->displacement, NULL)
+                                      : ost_problem_stiffness(problem, newton->t, newton->displacement, NULL);
+    ost_problem_take_formulation(problem, formulation);
+    return status;
 }
 
 /* Fills the stiffness at the displacement, and brings the solver up to date with it. */

@@ -12,16 +12,23 @@
 /* A first load step turns the body by about this much, in radians, as far as the tangent tells. */
 static const double first_turn = 1.0;
 
-/* Iterations: of a load step that may be cut back; of the least one; up to which the next step is twice as large, and
+/* Iterations: of a load step that may be cut back; of the least one; on the way from an unstable
+ * state to a stable one; up to which the next step is twice as large, and
  * from which it is half as large. */
-enum { MOST_ITERATIONS = 15, LAST_ITERATIONS = 60, FEW_ITERATIONS = 6, MANY_ITERATIONS = 11 };
+enum {
+    MOST_ITERATIONS = 15,
+    LAST_ITERATIONS = 60,
+    SETTLING_ITERATIONS = 200,
+    FEW_ITERATIONS = 6,
+    MANY_ITERATIONS = 11
+};
 
 /* The least load step, as a share of what an advance is asked for. */
 static const double least_step = 1.0 / 4096.0;
 
 /* Where the stiffness turned indefinite and the state found is farther from the predicted one than that is from the
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
-static const double jump_step = 1.0 / 256.0;
+static const double jump_step = 1.0 / 16.0;
 
 OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state)
 {
@@ -41,6 +48,24 @@ void ost_newton_state_release(OstNewtonState *state)
 double ost_newton_first_step(double rotation)
 {
     return rotation > first_turn ? first_turn / rotation : 1.0;
+}
+
+/* The rows of the stiffness at u = 0, by the sums of their absolute values. */
+static OstStatus measure_stiffness(OstNewton *newton)
+{
+    const OstBlockMatrix *matrix = newton->problem->system->matrix;
+    double square = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        for (int i = 0; i < 3; i++) {
+            double sum = 0.0;
+            for (OstLocal block = matrix->row_start[row]; block < matrix->row_start[row + 1]; block++)
+                for (int j = 0; j < 3; j++)
+                    sum += fabs(matrix->value[9 * (size_t)block + (size_t)(3 * i + j)]);
+            square += sum * sum;
+        }
+    OST_TRY(ost_sum(newton->ctx, 1, &square));
+    newton->stiffness_size = sqrt(square);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport *solve, OstNewton **newton)
@@ -67,6 +92,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->correction, rows));
     }
     status = ost_agree(ctx, status);
+    OST_THEN(measure_stiffness(made));
     if (status != OST_SUCCESS)
         ost_newton_destroy(&made);
     *newton = made;
@@ -213,6 +239,11 @@ static void accept(OstNewton *newton, double t, OstNewtonState *state)
     newton->report.change = newton->change;
 }
 
+static int is_at_rest(const OstNewton *newton, OstRest rest)
+{
+    return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
@@ -229,9 +260,13 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         OstRest rest;
         int jumps = 0;
         OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
-        const int found = rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
+        const int found = is_at_rest(newton, rest);
         if (found)
             OST_TRY(find_jump(newton, state, step, &jumps));
+        if (found && t == to)
+            OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));
+        if (found && !is_at_rest(newton, rest))
+            return ost_newton_give_up(newton, state, t, rest);
         ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
                 t,
                 !found  ? "given up"
@@ -240,7 +275,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
                 newton->step_iterations);
         if (found && !(jumps && step > jump_step * span)) {
             newton->report.jumps += jumps;
-            newton->report.jump_at = jumps ? state->t : newton->report.jump_at;
+            newton->report.jump_at = jumps ? t : newton->report.jump_at;
             newton->report.rounding_limited |= rest == OST_REST_ROUNDING;
             accept(newton, t, state);
             ost_progress(newton->ctx, "load", state->t);

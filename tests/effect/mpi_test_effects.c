@@ -35,7 +35,7 @@
 #define SWOLLEN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
 #define FOUNDED "springs: [{on: {boundary: xmin}, foundation: 1e6}]\n"
 #define SPRUNG "springs: [{on: {boundary: xmin}, spring: 1e6}]\n"
-#define ALL_FIELDS "output: {fields: [displacement, strain, stress, node_stress, strain_energy_density]}\n"
+#define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {
