@@ -34,8 +34,9 @@ OstStatus ost_path_create(OstProblem *problem, const OstSolverOptions *options, 
 OstStatus ost_scene_path(const OstScene *scene, OstPath **path);
 void ost_path_destroy(OstPath **path);
 
-/* Collective. Takes the next step; fields and result as in ost_analysis_solve. After a failure the path stands where it
- * stood before. */
+/* Collective. Takes the next step; fields and result as in ost_analysis_solve. After a failure the step
+ * is not done; where Newton's method could not follow the load, the result is the last state at rest that it reached.
+ */
 OstStatus ost_path_advance(OstPath *path, unsigned fields, OstResult **result);
 
 /* Local. Steps of the whole path, and those taken; a step that was taken (from 0), whose notes may be changed. */
@@ -49,7 +50,7 @@ OstStatus ost_path_save(const OstPath *path, const char *file);
 
 /* Collective. Goes on from a checkpoint: on the same number of ranks the steps that follow have the same bits as
  * without the interruption. Without a file the path stays at its beginning. Raises OST_INVALID_INPUT for a damaged
- * file, or one of another case, mesh or number of ranks. */
+ * file, or one of another case, mesh or number of ranks; the path can then only be destroyed. */
 OstStatus ost_path_resume(OstPath *path, const char *file);
 
 OST_API_END

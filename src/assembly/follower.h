@@ -13,7 +13,7 @@ typedef struct OstFollower {
     OstLocal count;  /* of faces */
     OstLocal *faces; /* count × nodes_per_face local nodes, outward, as assembly/loads.h lists them */
     double pressure; /* at factor 1; positive pushes inwards */
-    int function;    /* the function of time that is its factor (problem/timed.h) */
+    int function;    /* the function of time that is its factor (problem/problem.h) */
     struct OstFollower *next;
 } OstFollower;
 

@@ -7,7 +7,6 @@
 #include "effect/effect.h"
 #include "guard/guard.h"
 #include "guard/rigid_motion.h"
-#include "problem/timed.h"
 
 #include <math.h>
 

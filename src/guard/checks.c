@@ -11,7 +11,6 @@
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
-#include "problem/timed.h"
 
 #include <float.h>
 #include <stdio.h>

@@ -22,7 +22,7 @@ OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before);
  * multigrid is given. `resistance` becomes the largest such force, over |K| |motion|. */
 OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, double *resistance, OstVerdict *before);
 
-/* Collective, before each solve. Objects to loads of a free body, those of one function of time (problem/timed.h), that
+/* Collective, before each solve. Objects to loads of a free body, those of one function of time, that
  * do not balance, and to a right-hand side (3 × rows) out of range. */
 OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before);
 

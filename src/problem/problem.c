@@ -11,7 +11,6 @@
 #include "core/small.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
-#include "problem/timed.h"
 
 #include <math.h>
 #include <string.h>
@@ -252,17 +251,19 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
 
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
 {
+    const double grown = ost_problem_factor(problem, 0, t);
     *energy = problem->supports->spring ? ost_spring_energy(problem->supports, u) : 0.0;
     if (problem->formulation == OST_FORMULATION_LINEAR)
-        ost_visit_means(problem->mesh, problem->field, t, u, add_energy, energy);
+        ost_visit_means(problem->mesh, problem->field, grown, u, add_energy, energy);
     else
-        *energy += ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, t, u);
+        *energy += ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, grown, u);
     return ost_sum(problem->ctx, 1, energy);
 }
 
 OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u, double *force)
 {
-    OST_TRY(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, t, u, force, NULL));
+    const double grown = ost_problem_factor(problem, 0, t);
+    OST_TRY(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, grown, u, force, NULL));
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, u, force);
     return OST_SUCCESS;
@@ -281,7 +282,8 @@ static OstStatus make_pattern(OstProblem *problem)
 /* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
 static OstStatus fill(const OstProblem *problem, double t, const double *u, int definite)
 {
-    OstTangent tangent = {.formulation = problem->formulation, .t = t, .u = u, .definite = definite};
+    OstTangent tangent = {
+        .formulation = problem->formulation, .t = ost_problem_factor(problem, 0, t), .u = u, .definite = definite};
     double *factor = NULL;
     if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
         return ost_system_fill_tangent(problem->system, problem->field, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/timed.h"
+#include "problem/problem.h"
 
 #include "core/error.h"
 #include "core/memory.h"

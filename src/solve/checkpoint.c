@@ -12,15 +12,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The file: a header, the steps done, the arrays of each rank in turn, and the hash of all that. In the byte order of
- * the machine: only the program that wrote it, on such a machine, takes the same bits from it. */
+/* The file: a header, the steps done, what the answers are made of (of arrays, that of each rank in turn), and the hash
+ * of all that. In the byte order of the machine: only the program that wrote it, on such a machine, takes the same bits
+ * from it. */
 typedef struct Header {
     char magic[16];
     int32_t version, ranks;
     uint64_t case_hash;    /* of the text; 0 without a case */
     uint64_t problem_hash; /* of mesh, partition, materials, loads, supports and times */
     int32_t count, done;
-    int64_t has_state; /* of Newton's method */
+    int32_t parts;     /* of linear answers; 0 if the steps are Newton's */
+    int32_t nonlinear; /* then the state's displacement and slope follow */
     double t, step;
 } Header;
 
@@ -83,7 +85,8 @@ static OstStatus describe(const OstPath *path, Header *header)
                        .case_hash = path->problem->c ? path->problem->c->text_hash : 0,
                        .count = path->count,
                        .done = path->done,
-                       .has_state = path->state.displacement != NULL,
+                       .parts = path->nonlinear ? 0 : path->linear.count,
+                       .nonlinear = path->nonlinear,
                        .t = path->state.t,
                        .step = path->state.step};
     memcpy(header->magic, magic, sizeof magic);
@@ -109,14 +112,14 @@ static void put(Writer *writer, size_t size, const void *bytes)
     writer->hash = ost_hash(writer->hash, size, bytes);
 }
 
-/* The largest number of numbers that a rank has in a state's array. */
+/* The most numbers that a rank has in an array. */
 static OstStatus find_largest(const OstPath *path, OstGlobal *largest)
 {
     *largest = 3 * (OstGlobal)path->problem->mesh->node_count;
     return ost_max_numbers(path->ctx, 1, largest);
 }
 
-/* An array of the state, of all ranks; `room` (rank 0) takes the largest. */
+/* An array of all ranks; `room` (rank 0) takes the largest. */
 static OstStatus put_array(OstContext *ctx, Writer *writer, OstGlobal count, const double *values, double *room)
 {
     const MPI_Comm comm = ost_comm(ctx);
@@ -136,20 +139,36 @@ static OstStatus put_array(OstContext *ctx, Writer *writer, OstGlobal count, con
     return OST_SUCCESS;
 }
 
-static OstStatus put_state(const OstPath *path, Writer *writer)
+/* What the next step is made from: the parts of linear answers, or the state of Newton's method. */
+static OstStatus put_arrays(const OstPath *path, Writer *writer)
 {
     OstContext *ctx = path->ctx;
+    const OstSuperposition *linear = &path->linear;
     const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
     OstGlobal largest = 0;
     double *room = NULL;
-    if (!path->state.displacement)
-        return OST_SUCCESS;
     OST_TRY(find_largest(path, &largest));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
-    OstStatus status = put_array(ctx, writer, count, path->state.displacement, room);
-    OST_THEN(put_array(ctx, writer, count, path->state.slope, room));
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < linear->count && !path->nonlinear; k++)
+        OST_THEN(put_array(ctx, writer, count, linear->part[k], room));
+    if (path->nonlinear) {
+        status = put_array(ctx, writer, count, path->state.displacement, room);
+        OST_THEN(put_array(ctx, writer, count, path->state.slope, room));
+    }
     OST_FREE(room);
     return status;
+}
+
+/* The rest that is the same on all ranks. */
+static void put_reports(const OstPath *path, Writer *writer)
+{
+    const OstSuperposition *linear = &path->linear;
+    put(writer, (size_t)path->done * sizeof *path->steps, path->steps);
+    put(writer, sizeof path->judged, &path->judged);
+    put(writer, sizeof linear->solve, &linear->solve);
+    if (!path->nonlinear)
+        put(writer, (size_t)linear->count * sizeof *linear->norm, linear->norm);
 }
 
 static OstStatus open_writer(OstContext *ctx, const OstAside *aside, Writer *writer)
@@ -185,9 +204,9 @@ static OstStatus write_file(const OstPath *path, const OstAside *aside)
     OST_TRY(ost_agree(ctx, open_writer(ctx, aside, &writer)));
     if (ost_rank(ctx) == 0) {
         put(&writer, sizeof header, &header);
-        put(&writer, (size_t)path->done * sizeof *path->steps, path->steps);
+        put_reports(path, &writer);
     }
-    const OstStatus status = put_state(path, &writer);
+    const OstStatus status = put_arrays(path, &writer);
     const OstStatus closed = close_writer(ctx, aside, &writer);
     return ost_agree(ctx, status == OST_SUCCESS ? closed : status);
 }
@@ -257,7 +276,12 @@ static OstStatus get(OstContext *ctx, const char *name, FILE *file, size_t size,
     return fread(bytes, 1, size, file) == size ? OST_SUCCESS : raise_damaged(ctx, name, "it ends too early");
 }
 
-/* An array of the state to all ranks, which each has the room it needs; `room` is rank 0's. */
+static OstStatus share(OstContext *ctx, size_t size, void *bytes)
+{
+    return OST_MPI(ctx, MPI_Bcast(bytes, (int)size, MPI_BYTE, 0, ost_comm(ctx)));
+}
+
+/* An array to all ranks, which each has the room it needs; `room` is rank 0's. */
 static OstStatus get_array(OstContext *ctx, const char *name, FILE *file, OstGlobal count, double *values, double *room)
 {
     const MPI_Comm comm = ost_comm(ctx);
@@ -279,7 +303,41 @@ static OstStatus get_array(OstContext *ctx, const char *name, FILE *file, OstGlo
     return ost_agree(ctx, status);
 }
 
-static OstStatus get_state(OstPath *path, const char *name, FILE *file)
+/* Room for what `header` says will come. */
+static OstStatus make_room(OstPath *path, const Header *header)
+{
+    path->decided = header->nonlinear || header->parts > 0; /* not before the first step */
+    path->nonlinear = header->nonlinear;
+    if (header->parts > 0)
+        return ost_superposition_make_room(path->problem, &path->linear);
+    if (!header->nonlinear)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(path->ctx, ost_newton_state_create(path->problem, &path->state)));
+    path->state.t = header->t;
+    path->state.step = header->step;
+    return OST_SUCCESS;
+}
+
+/* The same on all ranks: rank 0 reads, and tells the others. */
+static OstStatus get_reports(OstPath *path, const char *name, FILE *file)
+{
+    OstContext *ctx = path->ctx;
+    OstSuperposition *linear = &path->linear;
+    struct {
+        size_t size;
+        void *bytes;
+    } const items[] = {{(size_t)path->done * sizeof *path->steps, path->steps},
+                       {sizeof path->judged, &path->judged},
+                       {sizeof linear->solve, &linear->solve},
+                       {(size_t)linear->count * sizeof *linear->norm, linear->norm}};
+    for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
+        OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, items[i].size, items[i].bytes) : OST_SUCCESS));
+        OST_TRY(share(ctx, items[i].size, items[i].bytes));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus get_arrays(OstPath *path, const char *name, FILE *file)
 {
     OstContext *ctx = path->ctx;
     const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
@@ -287,19 +345,23 @@ static OstStatus get_state(OstPath *path, const char *name, FILE *file)
     double *room = NULL;
     OST_TRY(find_largest(path, &largest));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
-    OstStatus status = get_array(ctx, name, file, count, path->state.displacement, room);
-    OST_THEN(get_array(ctx, name, file, count, path->state.slope, room));
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < path->linear.count; k++)
+        OST_THEN(get_array(ctx, name, file, count, path->linear.part[k], room));
+    if (path->nonlinear) {
+        status = get_array(ctx, name, file, count, path->state.displacement, room);
+        OST_THEN(get_array(ctx, name, file, count, path->state.slope, room));
+    }
     OST_FREE(room);
     return status;
 }
 
-static OstStatus get_head(OstPath *path, const char *name, FILE *file, const Header *expected, Header *header)
+static OstStatus get_head(const OstPath *path, const char *name, FILE *file, const Header *expected, Header *header)
 {
     OstContext *ctx = path->ctx;
     OST_TRY(check_whole(ctx, name, file));
     OST_TRY(get(ctx, name, file, sizeof *header, header));
-    OST_TRY(check_header(path, name, header, expected));
-    return get(ctx, name, file, (size_t)header->done * sizeof *path->steps, path->steps);
+    return check_header(path, name, header, expected);
 }
 
 static OstStatus read_file(OstPath *path, const char *name, FILE *file)
@@ -308,15 +370,11 @@ static OstStatus read_file(OstPath *path, const char *name, FILE *file)
     Header expected, header;
     OST_TRY(describe(path, &expected));
     OST_TRY(ost_agree(ctx, file ? get_head(path, name, file, &expected, &header) : OST_SUCCESS));
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(&header, (int)sizeof header, MPI_BYTE, 0, ost_comm(ctx))));
-    OST_TRY(OST_MPI(
-        ctx, MPI_Bcast(path->steps, (int)((size_t)header.done * sizeof *path->steps), MPI_BYTE, 0, ost_comm(ctx))));
-    if (header.has_state)
-        OST_TRY(get_state(path, name, file));
-    path->state.t = header.t;
-    path->state.step = header.step;
+    OST_TRY(share(ctx, sizeof header, &header));
+    OST_TRY(make_room(path, &header));
     path->done = header.done;
-    return OST_SUCCESS;
+    OST_TRY(get_reports(path, name, file));
+    return get_arrays(path, name, file);
 }
 
 OstStatus ost_path_resume(OstPath *path, const char *name)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/linear.h"
+
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
-#include "problem/timed.h"
 
 static void release(OstAnalysis *analysis)
 {

@@ -13,7 +13,7 @@ typedef struct OstLinear {
     double rigid_motion;
 } OstLinear;
 
-/* Solves with one function of time at a time (problem/timed.h), on a prepared linear analysis. */
+/* Solves with one function of time at a time (problem/problem.h), on a prepared linear analysis. */
 
 /* Collective. Takes the function's load for the next solve, checks it, and tells the norm of its right-hand side. */
 OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm);

@@ -239,6 +239,17 @@ static void accept(OstNewton *newton, double t, OstNewtonState *state)
     newton->report.change = newton->change;
 }
 
+/* Only a body that has not moved has the stiffness that the solver was made on. */
+static OstStatus look_for_motion(OstNewton *newton, const OstNewtonState *state)
+{
+    int moved = 0;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++)
+        moved |= state->displacement[i] != 0.0;
+    OST_TRY(ost_max_ints(newton->ctx, 1, &moved));
+    newton->at_zero &= !moved;
+    return OST_SUCCESS;
+}
+
 static int is_at_rest(const OstNewton *newton, OstRest rest)
 {
     return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
@@ -247,6 +258,7 @@ static int is_at_rest(const OstNewton *newton, OstRest rest)
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
+    OST_TRY(look_for_motion(newton, state));
     newton->rebuild |= !newton->at_zero;
     newton->method = newton->at_zero ? newton->method : OST_METHOD_AUTO;
     if (!(state->step > 0.0))

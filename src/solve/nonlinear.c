@@ -18,8 +18,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     return ost_linear_strategy.prepare(analysis, before);
 }
 
-/* How far is linear theory off? */
-static OstStatus judge(const OstProblem *problem, OstResult *result)
+OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
 {
     OstLinearity largest;
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
@@ -75,7 +74,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
 {
     const OstProblem *problem = analysis->problem;
     OST_TRY(ost_linear_strategy.solve(analysis, result, solved_for));
-    OST_TRY(judge(problem, result));
+    OST_TRY(ost_nonlinear_judge(problem, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         return OST_SUCCESS;
     return go_on(analysis, result, solved_for);

@@ -3,13 +3,8 @@
 #define ORTHOSTAT_SOLVE_PATH_DATA_H
 
 #include "orthostat/path.h"
+#include "solve/newton.h"
 #include "solve/superposition.h"
-
-/* Where Newton's method stands; without arrays where linear theory serves. */
-typedef struct OstPathState {
-    double t, step;
-    double *displacement, *slope; /* 3 × node_count */
-} OstPathState;
 
 struct OstPath {
     OstContext *ctx;
@@ -18,8 +13,11 @@ struct OstPath {
     int count, done;
     double *times;
     OstPathStep *steps;      /* count */
-    OstSuperposition linear; /* solved by the first step that needs it */
-    OstPathState state;
+    OstSuperposition linear; /* solved by the first step that needs it, or read from a checkpoint */
+    int decided;             /* is it known which of the two the steps are? */
+    int nonlinear;           /* Newton's method takes them, from `state` */
+    OstNewtonState state;
+    OstNewtonReport judged;    /* how far linear theory is off at most, and with what that was compared */
     OstStatus solved_linearly; /* how that ended */
 };
 

@@ -50,6 +50,7 @@ OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, 
     const OstProblem *problem = stiffness->problem;
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
-        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT, t, displacement));
+        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT,
+                                      ost_problem_factor(problem, 0, t), displacement));
     return ost_solver_update(stiffness->solver, OST_UPDATE_REBUILD);
 }

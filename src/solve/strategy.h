@@ -30,6 +30,9 @@ struct OstAnalysis {
 extern const OstStrategy ost_linear_strategy;    /* linear.c */
 extern const OstStrategy ost_nonlinear_strategy; /* nonlinear.c */
 
+/* Collective. How far is linear theory off in this linear result? Fills that part of result->newton. */
+OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
+
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 

@@ -4,10 +4,10 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "problem/timed.h"
 #include "solve/linear.h"
 
 #include <math.h>
+#include <string.h>
 
 void ost_superposition_release(OstSuperposition *all)
 {
@@ -18,7 +18,7 @@ void ost_superposition_release(OstSuperposition *all)
     all->count = 0;
 }
 
-static OstStatus make_room(const OstProblem *problem, OstSuperposition *all)
+OstStatus ost_superposition_make_room(const OstProblem *problem, OstSuperposition *all)
 {
     OstContext *ctx = problem->ctx;
     const int functions = ost_problem_functions(problem);
@@ -69,7 +69,7 @@ static OstStatus solve_function(OstAnalysis *analysis, int function, OstSuperpos
 OstStatus ost_superposition_create(OstAnalysis *analysis, OstSuperposition *all)
 {
     int unfinished = 0;
-    OstStatus status = make_room(analysis->problem, all);
+    OstStatus status = ost_superposition_make_room(analysis->problem, all);
     for (int k = 0; k < all->count && status == OST_SUCCESS; k++)
         status = solve_function(analysis, k, all, &unfinished);
     if (status != OST_SUCCESS)
@@ -86,6 +86,7 @@ OstStatus ost_superposition_at(const OstSuperposition *all, const OstAnalysis *a
     const size_t count = 3 * (size_t)problem->mesh->node_count;
     double *u = result->displacement;
     double work = 0.0;
+    memset(u, 0, count * sizeof *u);
     *solved_for = (OstSolvedFor){0.0, 0.0};
     ost_ledger_enter(problem->ctx, OST_EFFECT_PATH);
     for (int k = 0; k < all->count; k++) {

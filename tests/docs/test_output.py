@@ -47,6 +47,18 @@ for command in ("check", "explain"):
     missing = sorted(key for key in keys_of(report) if not has_word(code, key))
     check(not missing, f"docs/output.md says nothing of {command}'s JSON keys {missing}")
 
+with open(os.path.join(folder, "path.yaml"), "w") as stream:
+    stream.write(CASE + "path: {steps: 2}\nlarge_rotation: off\n")
+finished = run("solve", "path.yaml", "--json", "path.json", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+with open(os.path.join(folder, "path.json")) as stream:
+    keys = keys_of(json.load(stream)["steps"])
+with open(os.path.join(folder, "path_history.csv")) as stream:
+    keys |= {name.strip('"') for name in stream.readline().split(",")[:-1]}
+check({"newton_iterations", "load_factor"} <= keys, f"keys: {sorted(keys)}")
+missing = sorted(key for key in keys if not has_word(code, key))
+check(not missing, f"docs/output.md says nothing of {missing}, which solve writes of a path")
+
 from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
 
 reader = vtkHDFReader()

@@ -56,6 +56,12 @@ finished = run("solve", "plank.yaml", "-q", "--json", "plank.json", folder=folde
 check(finished.exit_code == 0 and not finished.errors, finished.errors)
 check_drawn("plank.png", pictures.numbers_of_solve(report_of("plank.json")), 0.02, "plank")
 
+# A path.
+finished = run("solve", os.path.join(SOURCE, "cases", "bent-bar", "pull.yaml"), "-q", "--json", "pull.json", "--output", "pull.vtkhdf",
+               folder=folder)
+check(finished.exit_code == 0, finished.errors)
+check_drawn("history.png", pictures.numbers_of_path(report_of("pull.json")), 1e-5, "history")
+
 # What the effects of a tube change.
 check(run("effects", os.path.join(SOURCE, pictures.EFFECTS), "-q", "--json", "effects.json", folder=folder).exit_code == 0,
       "orthostat effects failed")

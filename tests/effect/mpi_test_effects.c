@@ -35,6 +35,8 @@
 #define SWOLLEN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
 #define FOUNDED "springs: [{on: {boundary: xmin}, foundation: 1e6}]\n"
 #define SPRUNG "springs: [{on: {boundary: xmin}, spring: 1e6}]\n"
+#define ALONG "path: {times: [0.5, 1]}\n"
+#define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
@@ -64,6 +66,7 @@ static const struct {
     ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_FOUNDATION) = {BLOCK SOFT FOUNDED PULLED NO_FIELDS, BLOCK SOFT SPRUNG PULLED NO_FIELDS},
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
+    ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
 #undef ROW
 };
