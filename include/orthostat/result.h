@@ -11,10 +11,9 @@ typedef struct OstChecks {
     double relative_residual;  /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
     double rounding;           /* what of it rounding may explain: a few 1e-16 of || |K| |u| || / ||f_rhs|| */
     double rigid_motion;       /* most that a tet, or a row of the matrix, resisted rigid motion, over |K| |motion| */
-    double displacement_error; /* relative error of the displacement in the equations: the solver's error_estimate,
-                                  or energy_imbalance if that is larger and no support moves; NAN if not known */
-    double force_error;        /* the same of reactions and stresses, about: the largest of the imbalances below and of
-                                  the displacement's error relative to what strains the body; NAN if not known */
+    double displacement_error; /* relative error of the displacement in the equations, 2-norm; NAN if not known */
+    double force_error;        /* the same of reactions and stresses: the larger of them, or of the imbalances of force
+                                  and moment; NAN if not known */
     double load[3], reaction[3];
     double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
     double moment_imbalance; /* likewise about the body's centre */

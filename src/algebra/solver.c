@@ -29,6 +29,7 @@ struct OstSolver {
     OstMetric *metric;
     OstDirect *direct;
     OstEpetraMap *map;
+    double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
     int steps;               /* strategies that could not be built before the current one */
@@ -81,6 +82,16 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
     return status;
 }
 
+static void current_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner)
+{
+    *system = (OstCgSystem){.matrix = solver->matrix};
+    *preconditioner = (OstPreconditioner){.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
+    if (solver->metric)
+        ost_metric_system(solver->metric, system, preconditioner);
+    if (solver->direct)
+        ost_direct_system(solver->direct, system, preconditioner);
+}
+
 /* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
 static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
@@ -88,8 +99,9 @@ static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal 
         return ost_metric_improve(solver->metric, f, u, goal, report);
     if (solver->direct)
         return ost_direct_solve(solver->direct, f, u, goal, report);
-    const OstPreconditioner cycle = {.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
-    const OstCgSystem system = {.matrix = solver->matrix};
+    OstPreconditioner cycle;
+    OstCgSystem system;
+    current_system(solver, &system, &cycle);
     ost_smoothed_aggregation_report(solver->plain, report);
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML V-cycle of %d levels of its own", report->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
@@ -336,6 +348,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     report->iterations = goal.iterations;
+    solver->smallest = goal.smallest;
     report->indefinite = goal.indefinite;
     if (goal.start > 0.0) {
         report->relative_residual = goal.norm / goal.start;
@@ -381,6 +394,21 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     const OstStatus status = solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    *found = 0;
+    if (solver->method == OST_METHOD_AUTO || !(solver->smallest > 0.0))
+        return OST_SUCCESS;
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    current_system(solver, &system, &preconditioner);
+    const OstStatus status =
+        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_SOLVER_H
 #define ORTHOSTAT_ALGEBRA_SOLVER_H
 
+#include "algebra/krylov/error_of_residual.h"
 #include "algebra/matrix/geometry.h"
 #include "orthostat/solver.h"
 
@@ -50,5 +51,10 @@ void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
  * smaller residual (report.attainable_residual), where another strategy cannot help. u and the report are filled either
  * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
+/* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
+ * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.
+ */
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
 
 #endif

@@ -22,7 +22,7 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const OstLocal tet = tets[slot < count ? slot : count - 1];
         batch->tet[slot] = tet;
-        ost_order_nodes(nodes, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[slot]);
+        ost_order_nodes(nodes, mesh->node_label, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[slot]);
     }
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
     if (field->region_formula && element->points > 0)

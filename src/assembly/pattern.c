@@ -32,7 +32,7 @@ static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
     OstLocal *start = incidence->tet_start;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         OstLocal ordered[OST_MAX_TET_NODES];
-        ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
+        ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
         for (OstLocal a = 0; a < n; a++) {
             const OstLocal row = system->row_of_node[ordered[a]];
             incidence->row[n * t + a] = row;
@@ -194,7 +194,7 @@ OstStatus ost_system_restore_scatter(OstSystem *system)
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
         OstLocal ordered[OST_MAX_TET_NODES];
         OstLocal *block = system->block_of_tet + pairs * (size_t)tet;
-        ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)tet, ordered);
+        ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)tet, ordered);
         for (int a = 0; a < n; a++)
             for (int b = a; b < n; b++, block++) {
                 const OstLocal of_a = system->row_of_node[ordered[a]], of_b = system->row_of_node[ordered[b]];

@@ -9,8 +9,11 @@
 
 #include <string.h>
 
-/* A direction counts as dependent on the constrained ones if less than this of it is left, and displacements agree if
- * they differ by no more than this, relative to the largest. */
+/* A direction counts as dependent on the constrained ones if less than this of it is left: normals of one plane that
+ * come from rounded coordinates must not hold the tangent too. */
+static const double parallel = 1e-6;
+
+/* Displacements agree if they differ by no more than this, relative to the largest. */
 static const double same = 1e-10;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports)
@@ -113,7 +116,7 @@ OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const dou
     double rest[3] = {unit[0], unit[1], unit[2]};
     const double earlier = remove_constrained_part(support, rest);
     const double rest_length = ost_norm3(rest);
-    if (rest_length <= same || support->constrained == 3) {
+    if (rest_length <= parallel || support->constrained == 3) {
         if (fabs(prescribed - earlier) > same * largest_prescribed(support, prescribed))
             return raise_contradiction(supports, node, unit, earlier, prescribed);
         return OST_SUCCESS;

@@ -196,14 +196,15 @@ static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, O
         add_mean_blocks(x, elasticity, blocks);
 }
 
+/* From differences of displacements, which rounding harms far less than displacements where the body moves far. */
 static inline void strain_at(const OstPoint *point, const OstSimd *u, OstSimd strain[6])
 {
-    OstSimd slope[3][3];
+    OstSimd slope[3][3] = {{{0}}};
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            slope[i][j] = u[i] * point->gradient[0][j];
-            for (int a = 1; a < NODES; a++)
-                slope[i][j] += u[3 * a + i] * point->gradient[a][j];
+        for (int a = 1; a < NODES; a++) {
+            const OstSimd difference = u[3 * a + i] - u[i];
+            for (int j = 0; j < 3; j++)
+                slope[i][j] += difference * point->gradient[a][j];
         }
     ost_strain_of_slope(slope, strain);
 }
@@ -223,8 +224,8 @@ static inline void add_force(const OstPoint *point, const OstSimd stress[6], Ost
 static void mean_of_mode(const MeanMode *mode, const OstSimd *u, OstSimd *mean)
 {
     *mean = -mode->eigen;
-    for (int n = 0; n < NUMBERS; n++)
-        *mean += mode->columns[n] * u[n];
+    for (int n = 3; n < NUMBERS; n++)
+        *mean += mode->columns[n] * (u[n] - u[n % 3]);
     *mean /= mode->volume;
 }
 

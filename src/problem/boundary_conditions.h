@@ -12,7 +12,9 @@
 OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports);
 
 /* Collective. Adds the case's loads that follow this function of time to `force` (3 × node_count, complete on owned
- * nodes), and pressures that follow the surface to *follower, which stays NULL if there are none. */
-OstStatus ost_scene_loads(const OstScene *scene, int table, double *force, OstFollower **follower);
+ * nodes), and pressures that follow the surface to *follower, which stays NULL if there are none. Warns of a load that
+ * these supports take up whole, so that it strains nothing; they may be NULL. */
+OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
+                          OstFollower **follower);
 
 #endif

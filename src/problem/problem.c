@@ -141,7 +141,7 @@ static OstStatus make_timed_of_scene(const OstScene *scene, OstProblem *problem)
     for (int k = 0; k < scene->c->table_count; k++) {
         OST_TRY(ost_problem_add_timed(problem, &scene->c->tables[k]));
         OST_TRY(ost_scene_supports(scene, 1 + k, &problem->timed[k].supports));
-        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].force, &problem->follower));
+        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].supports, problem->timed[k].force, &problem->follower));
     }
     return OST_SUCCESS;
 }
@@ -163,7 +163,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
     made->accuracy = scene->c->relative_error;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, 0, made->force, &made->follower));
+    OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
     OST_TRY_DONE(make_timed_of_scene(scene, made));
     OST_TRY_DONE(ost_follower_conserves(made->follower, made->supports, &made->conservative));

@@ -47,6 +47,8 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
     result->formulation = ost_problem_formulation(analysis->problem);
     OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, solved_for, result));
+    if (solved_for->errors.known) /* one error of the displacement is stated */
+        result->solve.error_estimate = solved_for->errors.displacement;
     OST_TRY(ost_result_find_largest(result));
     OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
     return result->unfinished ? OST_RAISE(ctx, solved, "%s", result->verdict.text[0])
@@ -55,10 +57,12 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
-    OstSolvedFor solved_for = {0.0, 0.0};
+    OstSolvedFor solved_for = {0};
     OST_TRY(ost_analysis_prepare(analysis));
     result->unknowns = ost_problem_unknowns(analysis->problem);
-    const OstStatus solved = analysis->strategy->solve(analysis, result, &solved_for);
+    result->asked = fields;
+    const OstStatus solved =
+        ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)
         return solved;
     ost_result_take_outcome(result, solved);

@@ -6,6 +6,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
+#include "solve/error.h"
 
 static void release(OstAnalysis *analysis)
 {
@@ -54,7 +55,7 @@ static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t u
         sums[1] += linear->rhs[i] * linear->v[i];
     }
     OST_TRY(ost_sum(ctx, 2, sums));
-    *solved_for = (OstSolvedFor){sqrt(sums[0]), sums[1]};
+    *solved_for = (OstSolvedFor){.norm = sqrt(sums[0]), .work = sums[1]};
     return OST_SUCCESS;
 }
 
@@ -74,6 +75,8 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    if (solved == OST_SUCCESS)
+        OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, &solved_for->errors));
     return solved;
 }
 

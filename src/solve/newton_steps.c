@@ -332,6 +332,6 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
     result->solve.energy_error = result->solve.error_estimate;
     result->solve.rounding_error = result->solve.rounding_spread = 0.0;
     result->reached = 1;
-    *solved_for = (OstSolvedFor){newton->size, 0.0};
+    *solved_for = (OstSolvedFor){.norm = newton->size};
     return OST_SUCCESS;
 }

@@ -170,7 +170,7 @@ static void record(const OstResult *result, double t, OstPathStep *step)
 
 OstStatus ost_path_advance(OstPath *path, unsigned fields, OstResult **result)
 {
-    OstSolvedFor solved_for = {0.0, 0.0};
+    OstSolvedFor solved_for = {0};
     *result = NULL;
     if (path->done == path->count)
         return OST_RAISE(path->ctx, OST_INVALID_USAGE, "all %d steps of the path are done", path->count);

@@ -87,7 +87,7 @@ OstStatus ost_superposition_at(const OstSuperposition *all, const OstAnalysis *a
     double *u = result->displacement;
     double work = 0.0;
     memset(u, 0, count * sizeof *u);
-    *solved_for = (OstSolvedFor){0.0, 0.0};
+    *solved_for = (OstSolvedFor){0};
     ost_ledger_enter(problem->ctx, OST_EFFECT_PATH);
     for (int k = 0; k < all->count; k++) {
         const double factor = ost_problem_factor(problem, k, t);

@@ -48,7 +48,7 @@ static OstStatus assemble(const OstScene *scene, HardDirect *direct)
     OST_TRY(ost_scene_supports(scene, 0, &direct->supports));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &direct->force, 3 * (size_t)scene->mesh->node_count)));
     OstFollower *none = NULL; /* no point of the grid has a pressure that follows the surface */
-    OST_TRY(ost_scene_loads(scene, 0, direct->force, &none));
+    OST_TRY(ost_scene_loads(scene, 0, NULL, direct->force, &none));
     OST_TRY(ost_system_create(scene->mesh, direct->supports, &direct->system));
     OstStatus status = ost_system_fill(direct->system, scene->field);
     const size_t columns = 3 * (size_t)direct->system->matrix->columns;

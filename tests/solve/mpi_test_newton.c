@@ -33,7 +33,7 @@ static void make_beam(double width, double height, int divisions, const double f
              "materials: [{region: all, youngs_modulus: %g, poissons_ratio: 0}]\n"
              "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
              "loads: [{on: {boundary: xmax}, total_force: [%.17g, %.17g, %.17g]}]\n"
-             "output: {fields: [displacement, strain, stress, node_stress, strain_energy_density]}\n%s",
+             "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n%s",
              width, height, divisions, modulus, force[0], force[1], force[2], more);
     *solved = (Solved){0};
     assert_success(read_text(text, &solved->c));

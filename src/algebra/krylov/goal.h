@@ -31,6 +31,7 @@ typedef struct OstGoal {
     int accept_attainable; /* a norm at the rounding limit is accepted even above the target */
     double settled; /* also iterate until a correction changes u by no more than this, relative to u; 0: do not */
     double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
+    double smallest; /* eigenvalue of M^-1 A, about, as the last strategy's iterations show it; 0 if not known */
     OstConvergence convergence;
     int indefinite; /* p·Ap < 0 was found */
     OstEnd end;

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/batch.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "guard/guard.h"
+
+#include <string.h>
+
+/* Reactions may balance each other or be none: their error is over no less than this share of the loads. */
+static const double least_reaction = 1e-3;
+
+/* As is that of stresses over no less than this share of those that an eigenstrain would cause if nothing gave way. */
+static const double least_stress = 1e-3;
+
+/* Squares, of the answer and of its error. */
+enum { DISPLACEMENT, DISPLACEMENT_ERROR, REACTION, REACTION_ERROR, STRESS, STRESS_ERROR, EIGENSTRESS, LOAD, SUMS };
+
+static void add_stresses(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                         const OstMeans *means)
+{
+    (void)element;
+    (void)u;
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int p = 0; p < 6; p++)
+            *(double *)sum += means->stress[p][slot] * means->stress[p][slot];
+}
+
+static double square_of(const double vector[3])
+{
+    return ost_dot3(vector, vector);
+}
+
+/* `internal` and `of_error` are the internal forces at the node, of the answer and of its error; `straining` is the
+ * load with the forces of the eigenstrain. */
+static void add_node(const OstProblem *problem, OstLocal node, const double *internal, const double *of_error,
+                     const double *load, const double *straining, double *sums)
+{
+    double projector[9], free_force[3], free_error[3], free_load[3], force[3];
+    const int constrained = ost_supports_get(problem->supports, node, projector, NULL);
+    for (int i = 0; i < 3; i++)
+        force[i] = internal[i] - load[i];
+    ost_apply3(projector, straining, free_load);
+    sums[LOAD] += square_of(free_load);
+    if (constrained == 0)
+        return;
+    ost_apply3(projector, force, free_force);
+    ost_apply3(projector, of_error, free_error);
+    for (int i = 0; i < 3; i++) {
+        sums[REACTION] += (force[i] - free_force[i]) * (force[i] - free_force[i]);
+        sums[REACTION_ERROR] += (of_error[i] - free_error[i]) * (of_error[i] - free_error[i]);
+    }
+}
+
+/* Relative to the root of `square`; zero is relative to zero. */
+static double relative(double square_of_error, double square)
+{
+    return square_of_error > 0.0 ? sqrt(square_of_error) / sqrt(square) : 0.0;
+}
+
+/* Stresses of the answer, of its error, and of the eigenstrain alone. */
+static OstStatus add_all_stresses(const OstProblem *problem, const double *displacement, const double *error,
+                                  double *sums)
+{
+    double *zero = NULL;
+    ost_visit_means(problem->mesh, problem->field, 1.0, displacement, add_stresses, &sums[STRESS]);
+    ost_visit_means(problem->mesh, problem->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
+    if (!ost_field_is_eigenstrained(problem->field))
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
+    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_stresses, &sums[EIGENSTRESS]);
+    OST_FREE(zero);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement, const double *error,
+                           OstErrors *errors)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
+    double *internal = NULL, *of_error = NULL, *load = NULL, *straining = NULL;
+    double sums[SUMS] = {0.0};
+    OstStatus status = OST_NEW(ctx, &internal, n);
+    OST_THEN(OST_NEW(ctx, &of_error, n));
+    OST_THEN(OST_NEW(ctx, &load, n));
+    OST_THEN(OST_NEW(ctx, &straining, n));
+    OST_THEN(ost_problem_force(problem, 1.0, displacement, internal));
+    OST_THEN(ost_problem_force(problem, 0.0, error, of_error));
+    OST_THEN(add_all_stresses(problem, displacement, error, sums));
+    if (status == OST_SUCCESS) {
+        ost_problem_load(problem, 1.0, NULL, load);
+        memcpy(straining, load, n * sizeof *load);
+        if (ost_field_is_eigenstrained(problem->field))
+            status = ost_eigenstrain_force(problem->mesh, problem->field, 1.0, straining);
+    }
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (size_t i = 0; i < n; i++) {
+        sums[DISPLACEMENT] += displacement[i] * displacement[i];
+        sums[DISPLACEMENT_ERROR] += error[i] * error[i];
+    }
+    for (size_t k = 0; k < n; k += 3)
+        add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, load + k, straining + k, sums);
+    OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
+    const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
+    const double stress = fmax(sums[STRESS], least_stress * least_stress * sums[EIGENSTRESS]);
+    *errors = (OstErrors){.known = 1,
+                          .displacement = relative(sums[DISPLACEMENT_ERROR], sums[DISPLACEMENT]),
+                          .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
+                          .stress = relative(sums[STRESS_ERROR], stress)};
+done:
+    OST_FREE(internal);
+    OST_FREE(of_error);
+    OST_FREE(load);
+    OST_FREE(straining);
+    return status;
+}
