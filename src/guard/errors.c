@@ -11,11 +11,23 @@
 /* Reactions may balance each other or be none: their error is over no less than this share of the loads. */
 static const double least_reaction = 1e-3;
 
-/* As is that of stresses over no less than this share of those that an eigenstrain would cause if nothing gave way. */
-static const double least_stress = 1e-3;
+/* Where an eigenstrain acts, stress or displacement may be none: their errors are over no less than this share of the
+ * stress if nothing gave way, and of the displacement if nothing were held. */
+static const double least_of_eigenstrain = 1e-3;
 
 /* Squares, of the answer and of its error. */
-enum { DISPLACEMENT, DISPLACEMENT_ERROR, REACTION, REACTION_ERROR, STRESS, STRESS_ERROR, EIGENSTRESS, LOAD, SUMS };
+enum {
+    DISPLACEMENT,
+    DISPLACEMENT_ERROR,
+    REACTION,
+    REACTION_ERROR,
+    STRESS,
+    STRESS_ERROR,
+    EIGENSTRESS,
+    EIGENSTRAIN,
+    LOAD,
+    SUMS
+};
 
 static void add_stresses(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                          const OstMeans *means)
@@ -25,6 +37,16 @@ static void add_stresses(void *sum, const OstBatch *batch, const OstElement *ele
     for (int slot = 0; slot < batch->count; slot++)
         for (int p = 0; p < 6; p++)
             *(double *)sum += means->stress[p][slot] * means->stress[p][slot];
+}
+
+static void add_eigenstrains(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                             const OstMeans *means)
+{
+    double *sums = data;
+    add_stresses(&sums[EIGENSTRESS], batch, element, u, means);
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int p = 0; p < 6; p++)
+            sums[EIGENSTRAIN] += batch->elasticity.e0[0][p][slot] * batch->elasticity.e0[0][p][slot];
 }
 
 static double square_of(const double vector[3])
@@ -69,8 +91,22 @@ static OstStatus add_all_stresses(const OstProblem *problem, const double *displ
     if (!ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
-    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_stresses, &sums[EIGENSTRESS]);
+    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_eigenstrains, sums);
     OST_FREE(zero);
+    return OST_SUCCESS;
+}
+
+/* Collective. About the squared displacement of all nodes under this sum of squared eigenstrains of the tets. */
+static OstStatus free_displacement(const OstMesh *mesh, double squares, double *displacement)
+{
+    double low[3], high[3], size[3];
+    *displacement = 0.0;
+    if (squares == 0.0)
+        return OST_SUCCESS;
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        size[i] = high[i] - low[i];
+    *displacement = squares / (double)mesh->global_tets * square_of(size) * (double)mesh->global_nodes;
     return OST_SUCCESS;
 }
 
@@ -80,7 +116,7 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
     double *internal = NULL, *of_error = NULL, *load = NULL, *straining = NULL;
-    double sums[SUMS] = {0.0};
+    double sums[SUMS] = {0.0}, swollen = 0.0;
     OstStatus status = OST_NEW(ctx, &internal, n);
     OST_THEN(OST_NEW(ctx, &of_error, n));
     OST_THEN(OST_NEW(ctx, &load, n));
@@ -102,10 +138,13 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
     for (size_t k = 0; k < n; k += 3)
         add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, load + k, straining + k, sums);
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
+    OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
+    const double least = least_of_eigenstrain * least_of_eigenstrain;
+    const double moved = fmax(sums[DISPLACEMENT], least * swollen);
     const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
-    const double stress = fmax(sums[STRESS], least_stress * least_stress * sums[EIGENSTRESS]);
+    const double stress = fmax(sums[STRESS], least * sums[EIGENSTRESS]);
     *errors = (OstErrors){.known = 1,
-                          .displacement = relative(sums[DISPLACEMENT_ERROR], sums[DISPLACEMENT]),
+                          .displacement = relative(sums[DISPLACEMENT_ERROR], moved),
                           .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
                           .stress = relative(sums[STRESS_ERROR], stress)};
 done:
