@@ -68,7 +68,7 @@ static OstStatus run(OstContext *ctx, const char *path, int repetitions)
     OST_TRY_DONE(ost_case_read(ctx, path, &c));
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(ost_scene_problem(scene, &problem));
-    OST_TRY_DONE(ost_problem_stiffness(problem, NULL, NULL));
+    OST_TRY_DONE(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     OST_TRY_DONE(time_product(ctx, problem->system->matrix, repetitions));
 done:
     ost_problem_destroy(&problem);

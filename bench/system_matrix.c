@@ -36,7 +36,7 @@ static OstStatus assemble(OstContext *ctx, const char *case_path, Writing *w)
     OST_TRY(ost_case_read(ctx, case_path, &w->c));
     OST_TRY(ost_scene_create(w->c, &w->scene));
     OST_TRY(ost_scene_problem(w->scene, &w->problem));
-    OST_TRY(ost_problem_stiffness(w->problem, NULL, NULL));
+    OST_TRY(ost_problem_stiffness(w->problem, 1.0, NULL, NULL));
     w->system = w->problem->system;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &w->right_side, 3 * (size_t)w->system->matrix->rows)));
     return ost_agree(ctx, ost_problem_right_hand_side(w->problem, 1.0, w->right_side));

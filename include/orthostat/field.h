@@ -35,6 +35,15 @@ void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
  * OST_EFFECT_MEAN_DILATATION. */
 OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions);
 
+/* Local. Eigenstrains: what the material would strain by if nothing held it, as by swelling, heat or the contraction of
+ * a muscle. Stress is C (strain - t e0), t the load factor (orthostat/problem.h). Six numbers, 11 22 33 12 23 31 with
+ * engineering shear, along the material axes: of each region (6 × regions, or NULL), and of each of `tet_count` tets,
+ * ghosts included (6 × tet_count, or NULL), which are added up; copied. Both NULL: none any more. An isotropic material
+ * keeps no axes, unless its OstMaterial.isotropic is set to 0; without, its eigenstrain is along the world's.
+ * OST_EFFECT_EIGENSTRAIN. */
+OstStatus ost_field_set_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
+                                    const double *of_tets);
+
 void ost_field_destroy(OstMaterialField **field);
 
 OST_API_END

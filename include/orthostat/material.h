@@ -25,7 +25,8 @@ typedef struct OstOrthotropic {
 typedef struct OstMaterial {
     char name[64];
     double density; /* mass per volume; 0 if the scene has no use for it */
-    int isotropic;  /* all nine constants those of an isotropic body: axes do not matter */
+    int isotropic;  /* all nine constants those of an isotropic body: axes do not matter. Set it to 0 to keep the axes
+                       for  an eigenstrain (ost_field_set_eigenstrain) */
     OstOrthotropic constants;
     double stiffness[36];  /* C in material axes: 3×3 normal block, diagonal shear block */
     double compliance[36]; /* S = C^-1, eq. 4 */
@@ -68,6 +69,9 @@ void ost_material_rotate_stiffness(const double stiffness[36], const double axes
 
 /* Local. S in world axes, so that it stays the inverse of the rotated C. */
 void ost_material_rotate_compliance(const double compliance[36], const double axes[9], double rotated[36]);
+
+/* Local. A strain in world axes, from one along the axes e1, e2, e3 (rows). */
+void ost_strain_to_world(const double strain[6], const double axes[9], double world[6]);
 
 /* How near constants are to losing definiteness. Of any constants with positive Young's moduli; Local. */
 

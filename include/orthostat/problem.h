@@ -9,10 +9,11 @@
 
 OST_API_BEGIN
 
-/* The discrete problem: mesh, materials, supports and loads as functions of the displacement u and the pseudo-time t.
- * At rest, force(u) = load(t) in every direction that the supports leave free, and u is the displacement prescribed at
- * t in the others. Loads and prescribed displacements grow with t, unless they follow a time table. How that is solved
- * is no concern of the problem (orthostat/analysis.h).
+/* The discrete problem: mesh, materials, supports and loads as functions of the pseudo-time t and the displacement u.
+ * At rest, force(t, u) = load(t, u) in every direction that the supports leave free, and u is the displacement
+ * prescribed at t in the others. Loads, prescribed displacements and eigenstrains grow with t, unless they follow a
+ * time table; the load depends on u where a pressure follows the surface. How that is solved is no concern of the
+ * problem (orthostat/analysis.h).
  *
  * Displacements have 3 numbers for each local node, ghosts included; forces 3 for each owned node. */
 typedef struct OstProblem OstProblem;
@@ -24,6 +25,12 @@ typedef struct OstNodeConstraint {
     double displacement;
 } OstNodeConstraint;
 
+/* A spring between an owned node and the ground, along a direction (of any length; 0: in every direction). */
+typedef struct OstNodeSpring {
+    OstLocal node;
+    double direction[3];
+    double stiffness; /* force per length, not negative */
+} OstNodeSpring;
 /* What follows a time table, at factor 1. */
 typedef struct OstTimedParts {
     OstTimeTable table;
@@ -36,9 +43,16 @@ typedef struct OstProblemParts {
     const OstMesh *mesh;
     const OstMaterialField *field;
     const OstNodeConstraint *constraints;
-    OstLocal constraint_count;  /* on this rank; directions of one node may repeat, but not contradict each other */
-    int free_body;              /* nothing holds the body, its loads balance, and there are no constraints */
-    const double *force;        /* 3 × owned_nodes: the load at t = 1, or NULL for none */
+    OstLocal constraint_count; /* on this rank; directions of one node may repeat, but not contradict each other */
+    int free_body;             /* nothing holds the body, its loads balance, and there are no constraints */
+    const double *force;       /* 3 × owned_nodes: the load at t = 1, or NULL for none */
+    const OstNodeSpring *springs;
+    OstLocal spring_count; /* on this rank */
+    /* Faces of the surface under a pressure that follows them: outward, 3 vertices and on quadratic tets 3 mid-edge
+     * nodes each, local numbers; every one that touches an owned node. Positive pushes inwards. */
+    const OstLocal *pressed_faces;
+    OstLocal pressed_count;
+    double pressure;
     OstFormulation formulation; /* of the answer; 0: linear */
     int timed_count;            /* the same on all ranks, as are the tables */
     const OstTimedParts *timed;
@@ -71,14 +85,21 @@ OstGlobal ost_problem_unknowns(const OstProblem *problem); /* 0 until the stiffn
 /* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's that grows with t. */
 void ost_problem_set_load(OstProblem *problem, const double *force);
 
-/* Local. load(t): t times the load that grows with t, and what follows time tables. */
-void ost_problem_load(const OstProblem *problem, double t, double *force);
+/* Local. load(t, u): t times the load that grows with t, and what follows time tables; and the pressures that follow
+ * the surface as u moves it (NULL: as it is undeformed, which is what linear theory takes). */
+void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force);
 
-/* Collective. The strain energy of the body under u. (The classical formulation's force is not its gradient.) */
-OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy);
+/* Collective. A work function of the load: its gradient by u is load(t, u), and it is 0 at u = 0. Where a pressure
+ * follows a surface with a rim that is free to move there is none, and the result is no more than a measure. */
+OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work);
 
-/* Local. The internal force of u, the gradient of the energy, summed tet by tet without the stiffness matrix. */
-OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force);
+/* Collective. The strain energy of the body under u, with t times its eigenstrain, and the energy of the springs. (The
+ * classical formulation's force is not its gradient.) */
+OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy);
+
+/* Local. The internal force, of tets and springs: the gradient of the energy by u, summed without the stiffness matrix.
+ */
+OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u, double *force);
 
 /* This rank's rows of the stiffness, by 3×3 blocks: P K P + s(I - P), P the projector on what the supports leave free
  * and s of the node's own stiffness. Nodes constrained in all directions have no row. The arrays are the problem's. */
@@ -91,14 +112,16 @@ typedef struct OstStiffness {
     const OstLocal *node;      /* columns: the local node of each row and ghost column */
 } OstStiffness;
 
-/* Collective. Fills the values of the stiffness at u (NULL: at u = 0; a linear problem does not look at it), on a
- * pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made where a library
- * below could not number the unknowns. `stiffness` may be NULL. */
-OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
+/* Collective. Fills the values of the stiffness at t and u (NULL: at t = 0 and u = 0; a linear problem looks at
+ * neither): the derivative of force - load by u, but that of a pressure that follows the surface by its symmetric part
+ * alone, on a pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made
+ * where a library below could not number the unknowns. `stiffness` may be NULL. */
+OstStatus ost_problem_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness);
 
 /* Collective. The same, made positive semidefinite tet by tet: where the energy of a point of a tet has negative
- * curvature, that is set to 0; elsewhere the stiffness stays as it is. A linear problem's is definite already. */
-OstStatus ost_problem_definite_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
+ * curvature, that is set to 0; elsewhere the stiffness stays as it is. A linear problem's is definite already. The part
+ * of a pressure that follows the surface is left out. */
+OstStatus ost_problem_definite_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness);
 
 /* The most compressed tet at a displacement: at one of its points, of all tets, a line of the undeformed body is
  * shortened the most, to `stretch` times its length; the stretch is negative where the tet is inverted. */

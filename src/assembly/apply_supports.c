@@ -61,9 +61,21 @@ static int is_supported(const OstSystem *system, OstLocal row)
     return index >= 0 && is_partly_constrained(&system->supports->support[index]);
 }
 
+/* Springs add to the diagonal. */
+static void add_springs(OstSystem *system)
+{
+    const double *spring = system->supports->spring;
+    for (OstLocal row = 0; row < system->matrix->rows && spring; row++) {
+        double *block = system->matrix->value + 9 * (size_t)system->matrix->diagonal[row];
+        for (size_t i = 0; i < 9; i++)
+            block[i] += spring[9 * (size_t)system->node_of_row[row] + i];
+    }
+}
+
 void ost_system_apply_supports(OstSystem *system)
 {
     const OstBlockMatrix *matrix = system->matrix;
+    add_springs(system);
     const OstAccount account = account_of(system->supports);
     if (account == OST_LEDGER_ACCOUNTS)
         return;

@@ -40,18 +40,19 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
     ost_batch_gather(batch, element, mesh, field, left < OST_SIMD_WIDTH ? (int)left : OST_SIMD_WIDTH, tets);
 }
 
-void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
+void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data)
 {
-    ost_visit_means_of(mesh, field, OST_FORMULATION_LINEAR, u, visit, data);
+    ost_visit_means_of(mesh, field, OST_FORMULATION_LINEAR, t, u, visit, data);
 }
 
-void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, const double *u,
-                        OstMeansVisit visit, void *data)
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
+                        const double *u, OstMeansVisit visit, void *data)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = t;
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstMeans means;

@@ -65,13 +65,13 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
 typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                               const OstMeans *means);
 
-/* Local. Computes the means of strain, stress and energy of the owned tets under the displacement u (3 × node_count),
- * batch by batch. */
-void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
+/* Local. Computes the means of strain, stress and energy of the owned tets under the displacement u (3 × node_count)
+ * and t times the eigenstrain, batch by batch. */
+void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data);
 
 /* Local. The same of any formulation: with large rotations the strain is U - I, and the stress is conjugate to it. */
-void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, const double *u,
-                        OstMeansVisit visit, void *data);
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
+                        const double *u, OstMeansVisit visit, void *data);
 
 #endif

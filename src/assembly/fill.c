@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
+#include "assembly/follower.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -93,6 +94,7 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field, const Ost
     OstSimd blocks[BLOCK_NUMBERS];
     double numbers[BLOCK_NUMBERS * OST_SIMD_WIDTH];
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = tangent ? tangent->t : 0.0;
     batch.elasticity.stretch_suffices = element->points == 0 && !tangent; /* only the linear stiffness does without C */
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_SIMD_WIDTH, mesh->tet_count),
@@ -123,8 +125,14 @@ OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *fie
     sum_tets(system, field, tangent);
     const OstStatus status = ost_triangle_mirror(system->matrix);
     ost_ledger_leave(ctx);
-    if (status == OST_SUCCESS)
-        ost_system_apply_supports(system);
+    if (status != OST_SUCCESS)
+        return status;
+    if (tangent && tangent->follower) {
+        ost_ledger_enter(ctx, OST_EFFECT_FOLLOWER_PRESSURE);
+        ost_follower_stiffen(tangent->follower, tangent->factor, tangent->u, system);
+        ost_ledger_leave(ctx);
+    }
+    ost_system_apply_supports(system);
     return status;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
+#include "assembly/springs.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -22,14 +23,14 @@ static void scatter(const OstBatch *batch, int nodes, const OstSimd *of_tets, do
         }
 }
 
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
-                             double *magnitude)
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                             double *force, double *magnitude)
 {
-    return ost_internal_force_of(mesh, field, OST_FORMULATION_LINEAR, u, force, magnitude);
+    return ost_internal_force_of(mesh, field, OST_FORMULATION_LINEAR, t, u, force, magnitude);
 }
 
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
-                                const double *u, double *force, double *magnitude)
+                                double t, const double *u, double *force, double *magnitude)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
@@ -43,6 +44,7 @@ OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *fie
     if (magnitude)
         memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = t;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         ost_batch_gather_vectors(&batch, element->nodes, u, displacement);
@@ -88,7 +90,7 @@ static int touches_displaced(const OstMesh *mesh, const OstSupports *supports, O
     return 0;
 }
 
-/* Fills `force` (3 × owned_nodes, zero) with -K g, from the tets that touch a node with g != 0. */
+/* Fills `force` (3 × owned_nodes, zero) with -K g, from springs and the tets that touch a node with g != 0. */
 static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialField *field, double *force)
 {
     const OstMesh *mesh = system->mesh;
@@ -117,32 +119,62 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
             count = 0;
         }
     }
+    if (system->supports->spring)
+        ost_spring_force(system->supports, 1.0, g, force);
     OST_FREE(g);
     return OST_SUCCESS;
 }
 
-OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
-                                     double *rhs)
+OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *field, double t, double *force)
+{
+    OstContext *ctx = mesh->ctx;
+    double *zero = NULL, *internal = NULL;
+    OstStatus status = OST_NEW(ctx, &zero, 3 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(ost_internal_force(mesh, field, t, zero, internal, NULL));
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes && status == OST_SUCCESS; i++)
+        force[i] -= internal[i];
+    OST_FREE(zero);
+    OST_FREE(internal);
+    return status;
+}
+
+/* Makes `force` (3 × owned_nodes), what prescribed displacements and eigenstrains add to the loads; NULL if
+ * there are none. */
+static OstStatus find_other_forces(const OstSystem *system, const OstMaterialField *field, double share, double **force)
 {
     OstContext *ctx = system->ctx;
-    double *of_prescribed = NULL;
+    const size_t count = 3 * (size_t)system->mesh->owned_nodes;
     OstStatus status = OST_SUCCESS;
     if (any_displaced(system->supports)) {
         ost_ledger_enter(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
-        status = OST_NEW(ctx, &of_prescribed, 3 * (size_t)system->mesh->owned_nodes);
-        if (status == OST_SUCCESS)
-            status = force_of_prescribed(system, field, of_prescribed);
+        status = OST_NEW(ctx, force, count);
+        OST_THEN(force_of_prescribed(system, field, *force));
         ost_ledger_leave(ctx);
     }
+    if (status == OST_SUCCESS && share != 0.0 && ost_field_is_eigenstrained(field)) {
+        ost_ledger_enter(ctx, OST_EFFECT_EIGENSTRAIN);
+        status = *force ? OST_SUCCESS : OST_NEW(ctx, force, count);
+        OST_THEN(ost_eigenstrain_force(system->mesh, field, share, *force));
+        ost_ledger_leave(ctx);
+    }
+    return status;
+}
+
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
+                                     const double *force, double *rhs)
+{
+    double *others = NULL;
+    const OstStatus status = find_other_forces(system, field, share, &others);
     for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
         const size_t node = (size_t)system->node_of_row[row];
         double total[3];
         double projector[9];
         for (size_t i = 0; i < 3; i++)
-            total[i] = force[3 * node + i] + (of_prescribed ? of_prescribed[3 * node + i] : 0.0);
+            total[i] = force[3 * node + i] + (others ? others[3 * node + i] : 0.0);
         ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
         ost_apply3(projector, total, rhs + 3 * (size_t)row);
     }
-    OST_FREE(of_prescribed);
+    OST_FREE(others);
     return status;
 }

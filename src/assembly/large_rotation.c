@@ -14,21 +14,23 @@ static void gather(OstBatch *batch, const OstMesh *mesh, const OstMaterialField 
     ost_batch_gather_vectors(batch, element->nodes, u, of_nodes);
 }
 
-void ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
-                                  const double *u, double *energy)
+double ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                    double t, const double *u)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
-    *energy = 0.0;
+    double energy = 0.0;
     ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = t;
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstSimd of_tets;
         gather(&batch, mesh, field, u, first, of_nodes);
         ost_large_rotation_energy(element, formulation, batch.x, &batch.elasticity, of_nodes, &of_tets);
         for (int slot = 0; slot < batch.count; slot++)
-            *energy += of_tets[slot];
+            energy += of_tets[slot];
     }
+    return energy;
 }
 
 void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLeastStretch *least)

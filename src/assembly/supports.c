@@ -45,6 +45,7 @@ void ost_supports_destroy(OstSupports **supports)
         return;
     OST_FREE((*supports)->index);
     OST_FREE((*supports)->support);
+    OST_FREE((*supports)->spring);
     OST_FREE(*supports);
 }
 
@@ -178,7 +179,7 @@ static OstStatus check_anything_constrained(const OstSupports *supports)
 {
     OstGlobal constrained = supports->count;
     OST_TRY(ost_sum_numbers(supports->ctx, 1, &constrained));
-    if (constrained == 0)
+    if (constrained == 0 && !supports->spring)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is constrained: no vertex has a prescribed displacement or slides on a plane, so the "
                          "body can move away as a whole; add constraints");
@@ -189,8 +190,9 @@ OstStatus ost_supports_complete(OstSupports *supports)
 {
     ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
     OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
-    if (status == OST_SUCCESS)
-        status = share_with_ghosts(supports);
+    OST_THEN(share_with_ghosts(supports));
+    if (status == OST_SUCCESS && supports->spring)
+        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
     ost_ledger_leave(supports->ctx);
     return status;
 }

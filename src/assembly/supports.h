@@ -22,6 +22,8 @@ typedef struct OstSupports {
     OstLocal *index; /* node_count: support of a node, or -1 */
     OstLocal count, capacity;
     OstSupport *support;
+    double
+        *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
 } OstSupports;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports);
@@ -32,11 +34,11 @@ void ost_supports_destroy(OstSupports **supports);
 OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const double direction[3], double prescribed);
 
 /* Collective. Call it once all owned nodes are constrained: gives ghosts their owners' supports. Raises
- * OST_INVALID_INPUT if no node of any rank is constrained. */
+ * OST_INVALID_INPUT if no node of any rank is constrained and there are no springs. */
 OstStatus ost_supports_complete(OstSupports *supports);
 
-/* Local. The same supports on the linear mesh of a quadratic one's vertices; node_of_vertex as ost_mesh_linear gives
- * it. */
+/* Local. The same supports, but for springs (ost_springs_on_vertices), on the linear mesh of a quadratic one's
+ * vertices; node_of_vertex as ost_mesh_linear gives it. */
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                    OstSupports **supports);
 

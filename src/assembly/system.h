@@ -36,11 +36,16 @@ OstStatus ost_system_make_pattern(OstSystem *system);
  * or OST_EFFECT_SLIDING). */
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
 
+struct OstFollower;
+
 /* Where and how the stiffness of large rotations is taken. */
 typedef struct OstTangent {
-    OstFormulation formulation; /* consistent or classical */
-    const double *u;            /* 3 × node_count */
-    int definite;               /* made positive semidefinite, tet by tet, where it is not? */
+    OstFormulation formulation;         /* consistent or classical */
+    double t;                           /* the share of the eigenstrain */
+    const double *u;                    /* 3 × node_count */
+    int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
+    const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
+    const double *factor;               /* of its loads, one for each function of time */
 } OstTangent;
 
 /* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
@@ -50,29 +55,34 @@ OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *fie
 void ost_system_release_scatter(OstSystem *system);
 OstStatus ost_system_restore_scatter(OstSystem *system);
 
-/* Local. Right-hand side of the rows, P (force - K g): `force` are the loads on local nodes (3 × node_count, complete
- * on owned nodes); K g is computed only on tets that touch a node with g != 0. `rhs` has 3 × matrix->rows numbers. */
-OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, const double *force,
-                                     double *rhs);
+/* Local. Right-hand side of the rows, P (force - K g + share × B'C e0): `force` are the loads on local nodes (3 ×
+ * node_count, complete on owned nodes); K g is computed only on tets that touch a node with g != 0, and the last term
+ * only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
+OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
+                                     const double *force, double *rhs);
 
 /* Collective. Displacement of every local node, u = P v + t g, ghosts included, g what the supports prescribe; v has
  * 3 × matrix->rows numbers. */
 OstStatus ost_system_displacement(const OstSystem *system, double t, const double *v, double *u);
 
-/* Local. Internal forces K u at owned nodes, tet by tet without the matrix; u is 3 × node_count, force 3 × owned_nodes.
- * `magnitude` (as force, or NULL) gets the sums of absolute values |B'| |C| |B| |u|: rounding errors of the forces are
- * a few 1e-16 of these. */
-OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
-                             double *magnitude);
+/* Local. Internal forces of the tets at owned nodes, K u less the forces of t times the eigenstrain, tet by tet without
+ * the matrix; u is 3 × node_count, force 3 × owned_nodes. `magnitude` (as force, or NULL) gets the sums of absolute
+ * values |B'| |C| (|B| |u| + |e0|): rounding errors of the forces are a few 1e-16 of these. */
+OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                             double *force, double *magnitude);
+
+/* Local. Adds the nodal forces of t times the eigenstrain, B'C e0, to `force` (3 × owned_nodes). They add up to zero.
+ */
+OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *field, double t, double *force);
 
 /* Local. The same of any formulation. Its rounding errors are a few 1e-16 of the same magnitudes as the linear one's.
  */
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
-                                const double *u, double *force, double *magnitude);
+                                double t, const double *u, double *force, double *magnitude);
 
-/* Local. Strain energy of this rank's own tets under u, with large rotations. */
-void ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
-                                  const double *u, double *energy);
+/* Local. Strain energy of this rank's own tets under t and u, with large rotations. */
+double ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                    double t, const double *u);
 
 /* Local. Of this rank's own tets at u: how many are inverted at one of their points, and the one whose principal
  * stretch is the least at any point (-1 without tets; then the stretch is DBL_MAX). */
@@ -92,9 +102,10 @@ OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *f
 /* Collective. The modes alone, of the shape that `displacement` (3 × node_count; NULL: none) gives the body. */
 OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes);
 
-/* Local. Turns the filled K into P K P + s(I - P) at nodes that are constrained in one or two directions. s is the mean
+/* Local. Adds the springs to the filled K, and turns it into P K P + s(I - P) at nodes that are constrained in one or
+ * two directions. s is the mean
  * stiffness of the node's diagonal block along its free directions, so that the added entries have the node's own
- * scale. Without such nodes it does nothing and enters no account. Booked to OST_EFFECT_SLIDING if that effect is on
+ * scale. Without such nodes it enters no account. Booked to OST_EFFECT_SLIDING if that effect is on
  * and a constrained direction is not a coordinate axis, otherwise to OST_LEDGER_SUPPORTS. */
 void ost_system_apply_supports(OstSystem *system);
 

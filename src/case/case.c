@@ -101,6 +101,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         ELEMENT,
         MATERIALS,
         CONSTRAINTS,
+        SPRINGS,
         LOADS,
         ACCURACY,
         SOLVER,
@@ -118,6 +119,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [ELEMENT] = {.name = "element"},
         [MATERIALS] = {.name = "materials"},
         [CONSTRAINTS] = {.name = "constraints"},
+        [SPRINGS] = {.name = "springs"},
         [LOADS] = {.name = "loads"},
         [ACCURACY] = {.name = "accuracy"},
         [SOLVER] = {.name = "solver"},
@@ -132,6 +134,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [MESH] = ost_read_mesh,
         [ELEMENT] = ost_read_element,
         [MATERIALS] = ost_read_materials,
+        [SPRINGS] = ost_read_springs,
         [LOADS] = ost_read_loads,
         [CONSTRAINTS] = ost_read_constraints,
         [ACCURACY] = ost_read_accuracy,
@@ -196,6 +199,8 @@ static OstStatus read_vertex_files(OstCase *c)
         OST_TRY(read_vertex_file(c, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY(read_vertex_file(c, &c->springs[i].on));
     for (int i = 0; i < c->watch_count; i++)
         OST_TRY(read_vertex_file(c, &c->watches[i].on));
     for (int i = 0; c->verify && i < c->verify->quantity_count; i++)
@@ -316,6 +321,9 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
     }
+    for (int i = 0; i < (*c)->spring_count; i++)
+        ost_selection_release(&(*c)->springs[i].on);
+    OST_FREE((*c)->springs);
     for (int i = 0; i < (*c)->watch_count; i++) {
         OST_FREE((*c)->watches[i].name);
         OST_FREE((*c)->watches[i].source);

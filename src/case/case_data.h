@@ -70,17 +70,31 @@ typedef struct OstLoad {
     OstPlace region_place;
     double vector[3];
     double pressure;
+    int follows;    /* PRESSURE: does it follow the surface? */
     int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */
     int table;      /* 0 if it grows with t, or 1 + its place in the case's tables */
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
 
+typedef enum { OST_SPRING_FOUNDATION, OST_SPRING_POINT } OstSpringKind;
+
+/* Springs between vertices, or a surface, and the ground. */
+typedef struct OstSpring {
+    OstSpringKind kind;
+    int line;
+    OstSelection on;
+    double along, across; /* stiffness along `direction` and across it: per area, or of each vertex */
+    double direction[3];  /* unit; zero: the surface's normal, or none where along = across */
+} OstSpring;
+
 typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
     int line;
     OstMaterial material;
+    double eigenstrain[6]; /* in material axes, 11 22 33 12 23 31, engineering shear; one that has directions makes the
+                              material count as not isotropic, so that its axes are kept */
     OstAxesSpec axes;
 } OstCaseMaterial;
 
@@ -136,6 +150,8 @@ struct OstCase {
     OstConstraint *constraints;
     int load_count;
     OstLoad *loads;
+    int spring_count;
+    OstSpring *springs;
     OstLargeRotation large_rotation;
     OstFormulation formulation; /* of large rotations */
     int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
@@ -161,6 +177,9 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. Does a strain differ from direction to direction? */
+int ost_strain_has_directions(const double strain[6]);
 
 /* Collective. The selected nodes (local numbers, owned and ghosts alike; account OST_LEDGER_SELECTION) in memory from
  * the context, the caller's to free. Raises OST_INVALID_INPUT with the case's line if a name does not exist (naming

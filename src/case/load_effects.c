@@ -11,8 +11,9 @@ OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
     case OST_LOAD_GRAVITY:
     case OST_LOAD_BODY_FORCE:
         return OST_EFFECT_BODY_FORCE;
-    case OST_LOAD_TRACTION:
     case OST_LOAD_PRESSURE:
+        return load->follows ? OST_EFFECT_FOLLOWER_PRESSURE : OST_EFFECT_SURFACE_LOAD;
+    case OST_LOAD_TRACTION:
         return OST_EFFECT_SURFACE_LOAD;
     case OST_LOAD_POINT_FORCE:
         return OST_EFFECT_POINT_FORCE;

@@ -41,11 +41,13 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
  * has any, and else on vertices. */
 int ost_loads_need_mesh(const OstCase *c);
 
-/* Collective. The effect of each load: OST_EFFECT_POINT_FORCE, OST_EFFECT_SURFACE_LOAD or OST_EFFECT_BODY_FORCE;
- * `effect` has load_count items. `mesh` may be NULL if ost_loads_need_mesh is 0. Raises as ost_select_faces does. */
+/* Collective. The effect of each load: OST_EFFECT_POINT_FORCE, OST_EFFECT_SURFACE_LOAD,
+ * OST_EFFECT_FOLLOWER_PRESSURE or OST_EFFECT_BODY_FORCE; `effect` has load_count items. `mesh` may be NULL if
+ * ost_loads_need_mesh is 0. Raises as ost_select_faces does. */
 OstStatus ost_load_effects(const OstCase *c, const OstMesh *mesh, OstEffect *effect);
 
-/* Local. Does anything act on the body: a load, or a prescribed displacement that is not zero? */
+/* Local. Does anything act on the body: a load, a prescribed displacement that is not zero, or an
+ * eigenstrain? */
 int ost_plan_acts(const OstCase *c, const OstPlan *plan);
 
 /* Local. Nodes and tets of a shape, from its divisions; 0 and 0 for a mesh file. Counts are limited to OST_PLAN_MOST.

@@ -29,7 +29,15 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
         facts->surface_loads += effect == OST_EFFECT_SURFACE_LOAD;
         facts->body_loads += effect == OST_EFFECT_BODY_FORCE;
         facts->gravity_loads += c->loads[i].kind == OST_LOAD_GRAVITY;
+        facts->follower_loads += effect == OST_EFFECT_FOLLOWER_PRESSURE;
     }
+}
+
+static void count_springs(const OstCase *c, OstEffectFacts *facts)
+{
+    facts->springs = c->spring_count;
+    for (int i = 0; i < c->spring_count; i++)
+        facts->foundations += c->springs[i].kind == OST_SPRING_FOUNDATION;
 }
 
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
@@ -49,6 +57,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
+    count_springs(c, &facts);
     facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
                            : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
                                                                         : 1;
@@ -132,5 +141,6 @@ void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, O
 
 int ost_plan_acts(const OstCase *c, const OstPlan *plan)
 {
-    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
+    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
+           ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN);
 }

@@ -13,7 +13,8 @@ static int count_different(const double x[3])
     return 1 + (x[1] != x[0]) + (x[2] != x[0] && x[2] != x[1]);
 }
 
-static void say_why_orthotropic(const char *region, const OstOrthotropic *k, char reason[160])
+static void say_why_orthotropic(const char *region, const OstOrthotropic *k, const OstCaseMaterial *stated,
+                                char reason[160])
 {
     const int moduli = count_different(k->youngs_modulus);
     const int ratios = count_different(k->poissons_ratio);
@@ -21,6 +22,8 @@ static void say_why_orthotropic(const char *region, const OstOrthotropic *k, cha
         snprintf(reason, 160, "%d different Young's moduli in region '%.60s'", moduli, region);
     else if (ratios > 1)
         snprintf(reason, 160, "%d different Poisson's ratios in region '%.60s'", ratios, region);
+    else if (stated && ost_strain_has_directions(stated->eigenstrain))
+        snprintf(reason, 160, "the eigenstrain of region '%.60s' has directions", region);
     else
         snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
 }
@@ -56,6 +59,14 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softes
     facts->contrast = *stiffest / *softest;
 }
 
+static int is_eigenstrained(const OstCaseMaterial *stated)
+{
+    for (int p = 0; p < 6; p++)
+        if (stated->eigenstrain[p] != 0.0)
+            return 1;
+    return 0;
+}
+
 static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
 {
     if (!ost_axes_vary(&stated->axes))
@@ -73,12 +84,14 @@ static void add_material(OstContext *ctx, const char *region, const OstMaterial 
 {
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     facts->materials++;
+    if (stated && is_eigenstrained(stated))
+        facts->eigenstrained_region = stated->region;
     if (ost_orthotropic_eigenvalues(ctx, &material->constants, eigenvalues) == OST_SUCCESS)
         facts->nearly_incompressible += ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE);
     if (material->isotropic)
         return;
     if (facts->orthotropic++ == 0)
-        say_why_orthotropic(region, &material->constants, facts->orthotropic_reason);
+        say_why_orthotropic(region, &material->constants, stated, facts->orthotropic_reason);
     if (stated)
         add_axes(stated, facts);
 }

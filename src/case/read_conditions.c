@@ -76,7 +76,7 @@ OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, TIME, LOAD_KEYS };
+enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, FOLLOWS, TIME, LOAD_KEYS };
 
 static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
@@ -101,6 +101,8 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
                               "'region' belongs to gravity and body_force; '%s' acts where 'on' "
                               "says",
                               keys[kind].name);
+    if (kind != OST_LOAD_PRESSURE && keys[FOLLOWS].value)
+        return ost_yaml_raise(yaml, keys[FOLLOWS].value, "'follows' belongs to pressure, not to '%s'", keys[kind].name);
     if (kind != OST_LOAD_TOTAL_FORCE && keys[SHARE].value)
         return ost_yaml_raise(yaml, keys[SHARE].value, "'share' belongs to total_force, not to '%s'", keys[kind].name);
     return OST_SUCCESS;
@@ -118,6 +120,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
         [ON] = {.name = "on"},
         [SHARE] = {.name = "share"},
         [REGION] = {.name = "region"},
+        [FOLLOWS] = {.name = "follows"},
         [TIME] = {.name = "time"},
     };
     int kind;
@@ -132,6 +135,9 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
         load->share = OST_SHARE_VERTICES;
     if (keys[SHARE].value)
         OST_TRY(read_share(yaml, keys[SHARE].value, load));
+    if (keys[FOLLOWS].value)
+        OST_TRY(ost_yaml_word(yaml, keys[FOLLOWS].value, "answer", (const char *const[]){"false", "true"}, 2,
+                              &load->follows));
     if (keys[REGION].value) {
         OST_TRY(ost_read_string(yaml, keys[REGION].value, &load->region));
         load->region_place = ost_yaml_at(keys[REGION].value);

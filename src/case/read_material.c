@@ -171,9 +171,49 @@ static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node,
     return OST_SUCCESS;
 }
 
+int ost_strain_has_directions(const double strain[6])
+{
+    return strain[0] != strain[1] || strain[1] != strain[2] || strain[3] != 0.0 || strain[4] != 0.0 || strain[5] != 0.0;
+}
+
+/* One number for every direction, three along e1, e2, e3, or six with the shears 12, 23, 31. */
+static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, double strain[6])
+{
+    static const char expected[] = "a strain: one number, three along e1, e2, e3, or six with the shears 12, 23, 31";
+    int count = 1;
+    if (ost_yaml_is(yaml, node, OST_YAML_SCALAR)) {
+        OST_TRY(ost_yaml_number(yaml, node, &strain[0]));
+        strain[1] = strain[2] = strain[0];
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_yaml_list(yaml, node, expected, &count));
+    if (count != 3 && count != 6)
+        return ost_yaml_raise_type(yaml, node, expected, "");
+    return ost_yaml_numbers(yaml, node, count, strain);
+}
+
+/* A strain, or one for each unit of a change (of temperature, of moisture), and the change. */
+static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+{
+    double *strain = material->eigenstrain;
+    double change = 1.0;
+    OstYamlKey keys[] = {{.name = "per_unit", .needed = 1}, {.name = "change", .needed = 1}};
+    if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
+        OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+        OST_TRY(ost_yaml_number(yaml, keys[1].value, &change));
+        OST_TRY(read_strain(yaml, keys[0].value, strain));
+    } else
+        OST_TRY(read_strain(yaml, node, strain));
+    for (int p = 0; p < 6; p++)
+        strain[p] *= change;
+    if (ost_strain_has_directions(strain))
+        material->material.isotropic = 0;
+    return OST_SUCCESS;
+}
+
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
 {
-    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES };
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
     OstYamlKey keys[] = {
         [REGION] = {.name = "region", .needed = 1},
         [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
@@ -181,6 +221,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [SHEAR] = {.name = "shear_modulus"},
         [DENSITY] = {.name = "density"},
         [AXES] = {.name = "axes"},
+        [EIGENSTRAIN] = {.name = "eigenstrain"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -204,6 +245,8 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     OST_TRY(
         ost_yaml_located(yaml, keys[POISSONS].value,
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
+    if (keys[EIGENSTRAIN].value)
+        OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, material));
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 

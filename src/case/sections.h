@@ -10,6 +10,7 @@
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_springs(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);

@@ -100,21 +100,27 @@ static int says_exact(const OstCase *c)
     return 0;
 }
 
+static int is_unsupported(const OstCase *c)
+{
+    return c->constraint_count == 0 && c->spring_count == 0 && !c->free_body;
+}
+
 /* Assembles and checks the equations without solving them. A body without constraints gets a warning instead. */
 static OstStatus dry_run(const OstScene *scene)
 {
     const OstCase *c = scene->c;
-    return says_exact(c) || (c->constraint_count == 0 && !c->free_body) ? OST_SUCCESS : ost_scene_dry_run(scene);
+    return says_exact(c) || is_unsupported(c) ? OST_SUCCESS : ost_scene_dry_run(scene);
 }
 
 static void look_for_oddities(const OstScene *scene, const Findings *findings)
 {
     OstContext *ctx = scene->ctx;
     const OstCase *c = scene->c;
-    if (c->constraint_count == 0 && !c->free_body)
+    if (is_unsupported(c))
         ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that can move freely", c->path);
     if (!ost_plan_acts(c, &scene->plan))
-        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
+        ost_warn(ctx, "%s: nothing acts on the body: there is no load, no prescribed displacement and no eigenstrain",
+                 c->path);
     if ((c->path_steps > 0 ? ost_cli_check_path_outputs(c, findings->output)
                            : ost_check_outputs(c, 1, (const char *const[]){findings->output})) != OST_SUCCESS)
         ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));

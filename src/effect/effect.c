@@ -161,6 +161,40 @@ static void body_force(const OstEffectFacts *f, OstEffectState *state)
     loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
 }
 
+/* The nodes and the pressure of each face are few beside the tets. */
+static void follower_pressure(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->follower_loads, "on faces and follow them");
+}
+
+/* Six numbers a region. */
+static void eigenstrain(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->eigenstrained_region)
+        on(state, 48.0 * f->regions + 72.0 * f->nodes, "region '%.60s' swells or contracts of itself",
+           f->eigenstrained_region);
+    else
+        off(state, "no material has an eigenstrain");
+}
+
+/* A stiffness of nine numbers a node, which foundations and springs share. */
+static void foundation(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->foundations > 0)
+        on(state, 72.0 * f->nodes, "%d of %d springs are spread over an area", f->foundations, f->springs);
+    else
+        off(state, f->springs > 0 ? "no spring is spread over an area" : "the case has no springs");
+}
+
+static void springs(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->springs > f->foundations)
+        on(state, f->foundations > 0 ? 0.0 : 72.0 * f->nodes, "%d of %d springs are at vertices",
+           f->springs - f->foundations, f->springs);
+    else
+        off(state, f->springs > 0 ? "no spring is at a vertex" : "the case has no springs");
+}
+
 /* The load of each table, and the displacement of each function of time. */
 static void path(const OstEffectFacts *f, OstEffectState *state)
 {

@@ -278,4 +278,7 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
         gather_region(elasticity, field, region, tets, points, places);
     else
         gather_mixed(elasticity, field, tets, points, places);
+    elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);
+    if (elasticity->eigenstrained)
+        ost_eigenstrain_gather(elasticity, field, tets, places);
 }

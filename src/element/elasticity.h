@@ -40,6 +40,10 @@ typedef struct OstElasticity {
 
     OstSimd c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstSimd m[OST_MAX_POINTS][6]; /* 0 for the tets that are not split; not set if by_mean is 0 */
+
+    double eigen_share;            /* set by the caller: the share of the field's eigenstrain that acts */
+    int eigenstrained;             /* is e0 set? If not, it counts as 0 */
+    OstSimd e0[OST_MAX_POINTS][6]; /* eigenstrain in world axes: stress = C (strain - e0) */
 } OstElasticity;
 
 /* Start value: no C yet. */
@@ -50,6 +54,8 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
     elasticity->examined = -1;
+    elasticity->eigen_share = 0.0;
+    elasticity->eigenstrained = 0;
 }
 
 /* Local. Reads C of a batch of tets. `places` are `points` points in each of them (3 numbers a point): C is evaluated
@@ -58,6 +64,10 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
  * is stored, and ost_stretch_about_line computes A, which is cheaper than reading each tet's axes from memory. */
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,
                            const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places);
+
+/* Local. Reads e0, at the points of C; a part of ost_elasticity_gather (eigenstrain.c). */
+void ost_eigenstrain_gather(OstElasticity *elasticity, const OstMaterialField *field,
+                            const OstLocal tets[OST_SIMD_WIDTH], const OstSimd *places);
 
 /* A at the centroids of tets with these corners, for cylindrical axes. */
 static inline void ost_stretch_about_line(const OstElasticity *elasticity, const OstSimd x[12], OstSimd tensor[6])
@@ -81,6 +91,14 @@ static inline void ost_stretch_about_line(const OstElasticity *elasticity, const
 static inline int ost_elasticity_at(const OstElasticity *elasticity, int point)
 {
     return elasticity->points == 1 ? 0 : point;
+}
+
+/* elastic = strain - e0, at index `at`. */
+static inline void ost_elastic_strain(const OstElasticity *elasticity, int at, const OstSimd strain[6],
+                                      OstSimd elastic[6])
+{
+    for (int p = 0; p < 6; p++)
+        elastic[p] = elasticity->eigenstrained ? strain[p] - elasticity->e0[at][p] : strain[p];
 }
 
 #endif

@@ -18,7 +18,8 @@ typedef struct OstMeans {
     OstSimd stress[6];
     OstSimd energy; /* strain energy density */
     OstSimd volume; /* positive */
-    OstSimd stiff;  /* of m'strain where C is split (elasticity.h), otherwise 0 */
+    OstSimd stiff;  /* of m'(strain - e0) where C is split (elasticity.h), otherwise 0 */
+    OstSimd eigen;  /* of e0'stress: the work that is left out of the energy, times two */
 } OstMeans;
 
 /* One point of each tet. */
@@ -44,10 +45,11 @@ typedef struct OstElement {
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
     void (*stiffness)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks);
 
-    /* Internal forces K u, computed without K: 3 numbers a node. */
+    /* Internal forces B'C (B u - e0), K u where there is no eigenstrain, computed without K: 3 numbers a node. */
     void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-    /* The forces' terms by their absolute values, |B'| |C| |B| |u|: the scale of rounding errors in the forces. */
+    /* The forces' terms by their absolute values, |B'| |C| (|B| |u| + |e0|): the scale of rounding errors in the
+     * forces. */
     void (*magnitude)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude);
 
     /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). */

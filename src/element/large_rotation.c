@@ -10,9 +10,9 @@
 typedef struct Deformed {
     OstPoint point;
     OstPolar polar;
-    OstSimd strain[6];
+    OstSimd strain[6]; /* U - I - e0 */
     OstSimd stress[6];
-    const OstSimd *c, *m;
+    const OstSimd *c, *m, *e0;
 } Deformed;
 
 /* All points of the tets at u. */
@@ -20,7 +20,7 @@ typedef struct DeformedTets {
     int count;
     Deformed at[OST_MAX_POINTS];
     OstSimd volume;
-    OstSimd stiff; /* the mean of m'(U - I) where C is split, otherwise 0 */
+    OstSimd stiff; /* the mean of m'(U - I - e0) where C is split, otherwise 0 */
 } DeformedTets;
 
 static inline void dot6(const OstSimd a[6], const OstSimd b[6], OstSimd *product)
@@ -46,6 +46,9 @@ static void deform(const OstElement *element, const OstSimd *x, const OstElastic
         ost_biot_strain(&at->polar, at->strain);
         at->c = elasticity->c[ost_elasticity_at(elasticity, q)];
         at->m = elasticity->m[ost_elasticity_at(elasticity, q)];
+        at->e0 = elasticity->e0[ost_elasticity_at(elasticity, q)];
+        for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
+            at->strain[p] -= at->e0[p];
         ost_simd_stress(at->c, at->strain, at->stress);
         tets->volume += at->point.volume;
         if (!elasticity->by_mean)
@@ -218,12 +221,10 @@ static void classical_energy(const OstElement *element, const OstSimd *x, const 
 {
     OstSimd rotation[9];
     OstSimd d[3 * OST_MAX_TET_NODES];
-    OstSimd force[3 * OST_MAX_TET_NODES];
+    OstMeans means;
     classical_displacement(element, x, elasticity, u, rotation, d);
-    element->force(x, elasticity, d, force);
-    *energy = (OstSimd){0};
-    for (int n = 0; n < 3 * element->nodes; n++)
-        *energy += 0.5 * d[n] * force[n];
+    element->means(x, elasticity, d, &means);
+    *energy = means.volume * means.energy;
 }
 
 static void classical_force(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
@@ -301,6 +302,10 @@ void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const
         whole_stress(&tets, elasticity, q, stress);
         for (int p = 0; p < 6; p++) {
             means->strain[p] += share * at->strain[p];
+            if (elasticity->eigenstrained) {
+                means->strain[p] += share * at->e0[p];
+                means->eigen += share * at->e0[p] * stress[p];
+            }
             means->stress[p] += share * stress[p];
             means->energy += 0.5 * share * at->strain[p] * at->stress[p];
         }

@@ -12,7 +12,9 @@
  * mode counts by the tet's mean of m'(U - I).
  *
  * Classical: R is the rotation of the tet's mean F. Forces are R K d and the stiffness R K R', with d = R'x - X; the
- * energy 1/2 d'K d is reported, but is not a potential of the forces. */
+ * energy 1/2 d'K d is reported, but is not a potential of the forces.
+ *
+ * Where an eigenstrain e0 acts (elasticity.h), stress and energy are of U - I - e0, or of the strain of d less e0. */
 
 void ost_large_rotation_energy(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                const OstElasticity *elasticity, const OstSimd *u, OstSimd *energy);

@@ -82,14 +82,23 @@ double ost_shape_gradients(int nodes, const double at[4], const double *x, doubl
     return determinant;
 }
 
-void ost_shape_area_vector(int nodes, const double at[3], const double *x, double area_vector[3])
+void ost_shape_face_slopes(int nodes, const double at[3], double (*slopes)[2])
 {
     double derivatives[OST_MAX_FACE_NODES][4];
-    double along[2][3] = {{0.0}};
     derive(nodes, (const double[4]){at[0], at[1], at[2], 0.0}, derivatives);
+    for (int a = 0; a < nodes; a++)
+        for (int j = 0; j < 2; j++)
+            slopes[a][j] = derivatives[a][j + 1] - derivatives[a][0];
+}
+
+void ost_shape_area_vector(int nodes, const double at[3], const double *x, double area_vector[3])
+{
+    double slopes[OST_MAX_FACE_NODES][2];
+    double along[2][3] = {{0.0}};
+    ost_shape_face_slopes(nodes, at, slopes);
     for (int a = 0; a < nodes; a++)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 2; j++)
-                along[j][i] += x[3 * a + i] * (derivatives[a][j + 1] - derivatives[a][0]);
+                along[j][i] += x[3 * a + i] * slopes[a][j];
     ost_cross3(along[0], along[1], area_vector);
 }

@@ -13,6 +13,9 @@ void ost_shape_place(int nodes, const double *values, const double *x, double pl
  * reference tet: six times the volume of a straight tet, positive if it is not inverted. */
 double ost_shape_gradients(int nodes, const double at[4], const double *x, double *gradients);
 
+/* Local. Of a face: derivatives of the shape functions by the coordinates of the face's second and third vertex. */
+void ost_shape_face_slopes(int nodes, const double at[3], double (*slopes)[2]);
+
 /* Local. Of a face: the area vector of the map from the reference triangle. It points outward if the face is oriented
  * outward; half its length is the area of a straight face. */
 void ost_shape_area_vector(int nodes, const double at[3], const double *x, double area_vector[3]);

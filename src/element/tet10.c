@@ -125,21 +125,29 @@ static void tet10_places(const OstSimd *x, OstSimd *places)
     }
 }
 
-/* The row m'B, integrated over the tet, and the tet's volume. */
-static void mean_columns(const OstSimd *x, const OstElasticity *elasticity, OstSimd columns[NUMBERS], OstSimd *volume)
+/* The row m'B and m'e0, integrated over the tet, and the tet's volume. */
+typedef struct MeanMode {
+    OstSimd columns[NUMBERS];
+    OstSimd eigen;
+    OstSimd volume;
+} MeanMode;
+
+static void integrate_mode(const OstSimd *x, const OstElasticity *elasticity, MeanMode *mode)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
-    memset(columns, 0, NUMBERS * sizeof *columns);
-    *volume = (OstSimd){0};
+    memset(mode, 0, sizeof *mode);
     for (int q = 0; q < rule->count; q++) {
+        const int at = ost_elasticity_at(elasticity, q);
         OstPoint point;
         evaluate_weighted(x, &rule->point[q], &point);
-        *volume += point.volume;
+        mode->volume += point.volume;
+        for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
+            mode->eigen += point.volume * elasticity->m[at][p] * elasticity->e0[at][p];
         for (int a = 0; a < NODES; a++) {
             OstSimd of_node[3];
-            ost_force_of_stress(point.gradient[a], elasticity->m[ost_elasticity_at(elasticity, q)], of_node);
+            ost_force_of_stress(point.gradient[a], elasticity->m[at], of_node);
             for (int i = 0; i < 3; i++)
-                columns[3 * a + i] += point.volume * of_node[i];
+                mode->columns[3 * a + i] += point.volume * of_node[i];
         }
     }
 }
@@ -147,13 +155,12 @@ static void mean_columns(const OstSimd *x, const OstElasticity *elasticity, OstS
 /* The stiff mode's energy is 1/2 volume (mean of m'strain)^2. */
 static void add_mean_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
-    OstSimd columns[NUMBERS];
-    OstSimd volume;
-    mean_columns(x, elasticity, columns, &volume);
+    MeanMode mode;
+    integrate_mode(x, elasticity, &mode);
     for (int a = 0; a < NODES; a++)
         for (int b = a; b < NODES; b++, blocks += 9)
             for (int n = 0; n < 9; n++)
-                blocks[n] += columns[3 * a + n / 3] * columns[3 * b + n % 3] / volume;
+                blocks[n] += mode.columns[3 * a + n / 3] * mode.columns[3 * b + n % 3] / mode.volume;
 }
 
 static void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
@@ -213,13 +220,13 @@ static inline void add_force(const OstPoint *point, const OstSimd stress[6], Ost
     }
 }
 
-/* Mean of m'strain over the tet. */
-static void mean_of_mode(const OstSimd columns[NUMBERS], const OstSimd *volume, const OstSimd *u, OstSimd *mean)
+/* Mean of m'(strain - e0) over the tet. */
+static void mean_of_mode(const MeanMode *mode, const OstSimd *u, OstSimd *mean)
 {
-    *mean = (OstSimd){0};
+    *mean = -mode->eigen;
     for (int n = 3; n < NUMBERS; n++)
-        *mean += columns[n] * (u[n] - u[n % 3]);
-    *mean /= *volume;
+        *mean += mode->columns[n] * (u[n] - u[n % 3]);
+    *mean /= mode->volume;
 }
 
 static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
@@ -229,23 +236,25 @@ static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const
     for (int q = 0; q < rule->count; q++) {
         OstPoint point;
         OstSimd strain[6];
+        OstSimd elastic[6];
         OstSimd stress[6];
+        const int at = ost_elasticity_at(elasticity, q);
         evaluate_weighted(x, &rule->point[q], &point);
         strain_at(&point, u, strain);
-        ost_simd_stress(elasticity->c[ost_elasticity_at(elasticity, q)], strain, stress);
+        ost_elastic_strain(elasticity, at, strain, elastic);
+        ost_simd_stress(elasticity->c[at], elastic, stress);
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
         add_force(&point, stress, force);
     }
     if (!elasticity->by_mean)
         return;
-    OstSimd columns[NUMBERS];
-    OstSimd volume;
+    MeanMode mode;
     OstSimd mean;
-    mean_columns(x, elasticity, columns, &volume);
-    mean_of_mode(columns, &volume, u, &mean);
+    integrate_mode(x, elasticity, &mode);
+    mean_of_mode(&mode, u, &mean);
     for (int n = 0; n < NUMBERS; n++)
-        force[n] += mean * columns[n];
+        force[n] += mean * mode.columns[n];
 }
 
 /* |C|; if C is split, |c| + |m m'|. */
@@ -278,7 +287,13 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
                 ost_simd_absolute(&point.gradient[a][i]);
             ost_add_strain_size(point.gradient[a], u + 3 * a, strain);
         }
-        absolute_elasticity(elasticity, ost_elasticity_at(elasticity, q), c);
+        const int at = ost_elasticity_at(elasticity, q);
+        for (int p = 0; p < 6 && elasticity->eigenstrained; p++) {
+            OstSimd size = elasticity->e0[at][p];
+            ost_simd_absolute(&size);
+            strain[p] += size;
+        }
+        absolute_elasticity(elasticity, at, c);
         ost_simd_stress_size(c, strain, stress);
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
@@ -286,13 +301,22 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
     }
 }
 
-/* Adds a point to the integrals of strain, stress and energy. */
-static inline void add_means(const OstPoint *point, const OstSimd strain[6], const OstSimd stress[6], OstMeans *sums)
+/* Adds a point to the integrals of strain, stress and energy; the stiff mode's energy comes once for the tet. */
+static inline void add_means(const OstPoint *point, const OstElasticity *elasticity, int at, const OstSimd strain[6],
+                             OstMeans *sums)
 {
+    OstSimd elastic[6];
+    OstSimd stress[6];
+    ost_elastic_strain(elasticity, at, strain, elastic);
+    ost_simd_stress(elasticity->c[at], elastic, stress);
     for (int p = 0; p < 6; p++) {
         sums->strain[p] += point->volume * strain[p];
+        sums->energy += 0.5 * point->volume * elastic[p] * stress[p];
+        if (elasticity->by_mean)
+            stress[p] += sums->stiff * elasticity->m[at][p];
         sums->stress[p] += point->volume * stress[p];
-        sums->energy += 0.5 * point->volume * strain[p] * stress[p];
+        if (elasticity->eigenstrained)
+            sums->eigen += point->volume * elasticity->e0[at][p] * stress[p];
     }
 }
 
@@ -300,31 +324,26 @@ static void tet10_means(const OstSimd *x, const OstElasticity *elasticity, const
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
     OstSimd volume = {0};
-    OstSimd columns[NUMBERS];
     memset(means, 0, sizeof *means);
     if (elasticity->by_mean) {
-        mean_columns(x, elasticity, columns, &volume);
-        mean_of_mode(columns, &volume, u, &means->stiff);
-        volume = (OstSimd){0};
+        MeanMode mode;
+        integrate_mode(x, elasticity, &mode);
+        mean_of_mode(&mode, u, &means->stiff);
     }
     for (int q = 0; q < rule->count; q++) {
-        const int at = ost_elasticity_at(elasticity, q);
         OstPoint point;
         OstSimd strain[6];
-        OstSimd stress[6];
         evaluate_weighted(x, &rule->point[q], &point);
         strain_at(&point, u, strain);
-        ost_simd_stress(elasticity->c[at], strain, stress);
         volume += point.volume;
-        add_means(&point, strain, stress, means);
-        for (int p = 0; p < 6 && elasticity->by_mean; p++)
-            means->stress[p] += point.volume * means->stiff * elasticity->m[at][p];
+        add_means(&point, elasticity, ost_elasticity_at(elasticity, q), strain, means);
     }
     for (int p = 0; p < 6; p++) {
         means->strain[p] /= volume;
         means->stress[p] /= volume;
     }
     means->energy = means->energy / volume + 0.5 * means->stiff * means->stiff;
+    means->eigen /= volume;
     means->volume = volume;
 }
 

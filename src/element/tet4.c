@@ -131,6 +131,11 @@ static inline void scaled_strain(OstSimd gradient[3][3], const OstSimd *u, OstSi
     ost_strain_of_slope(slope, strain);
 }
 
+static inline void determinant_of(const OstSimd *x, OstSimd gradient[3][3], OstSimd *determinant)
+{
+    *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
+}
+
 static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
     OstSimd gradient[3][3];
@@ -139,6 +144,12 @@ static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const 
     OstSimd factor;
     scaled_gradients(x, gradient, &factor);
     scaled_strain(gradient, u, strain);
+    if (elasticity->eigenstrained) {
+        OstSimd determinant;
+        determinant_of(x, gradient, &determinant);
+        for (int p = 0; p < 6; p++)
+            strain[p] -= determinant * elasticity->e0[0][p];
+    }
     ost_simd_stress(elasticity->c[0], strain, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= factor;
@@ -162,6 +173,11 @@ static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, co
             ost_simd_absolute(&g[a][i]);
         ost_add_strain_size(g[a], u + 3 * a, strain);
     }
+    for (int p = 0; p < 6 && elasticity->eigenstrained; p++) {
+        OstSimd size = elasticity->e0[0][p] / (6.0 * factor); /* 1 / 6 factor is the determinant */
+        ost_simd_absolute(&size);
+        strain[p] += size;
+    }
     ost_simd_stress_size(elasticity->c[0], strain, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= factor;
@@ -174,7 +190,7 @@ static void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], O
     OstSimd gradient[3][3];
     OstSimd factor;
     scaled_gradients(x, gradient, &factor);
-    *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
+    determinant_of(x, gradient, determinant);
     scaled_strain(gradient, u, strain);
     for (int p = 0; p < 6; p++)
         strain[p] /= *determinant;
@@ -183,13 +199,18 @@ static void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], O
 static void tet4_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
 {
     OstSimd determinant;
+    OstSimd elastic[6];
     tet4_strain(x, u, means->strain, &determinant);
     ost_simd_absolute(&determinant);
     means->volume = determinant / 6.0;
-    ost_simd_stress(elasticity->c[0], means->strain, means->stress);
-    means->energy = means->stiff = (OstSimd){0};
-    for (int p = 0; p < 6; p++)
-        means->energy += 0.5 * means->stress[p] * means->strain[p];
+    ost_elastic_strain(elasticity, 0, means->strain, elastic);
+    ost_simd_stress(elasticity->c[0], elastic, means->stress);
+    means->energy = means->stiff = means->eigen = (OstSimd){0};
+    for (int p = 0; p < 6; p++) {
+        means->energy += 0.5 * means->stress[p] * elastic[p];
+        if (elasticity->eigenstrained)
+            means->eigen += means->stress[p] * elasticity->e0[0][p];
+    }
 }
 
 static void tet4_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strain)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/number_range.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
@@ -132,6 +133,16 @@ static OstStatus check_balance(const OstMesh *mesh, const double *force, const c
         centre[2]);
 }
 
+static OstStatus check_function(const OstProblem *problem, int function, const char *where)
+{
+    double *force = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes)));
+    ost_problem_add_load(problem, function, 1.0, NULL, force);
+    const OstStatus status = check_balance(problem->mesh, force, where);
+    OST_FREE(force);
+    return status;
+}
+
 OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before)
 {
     const OstStatus status =
@@ -153,13 +164,13 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
-OstStatus ost_guard_load(const OstProblem *problem, const double *force, const double *rhs, OstVerdict *before)
+OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
     const char *name = ost_problem_name(problem);
     if (problem->free_body) {
         ost_ledger_enter(ctx, OST_EFFECT_FREE_BODY);
-        const OstStatus status = check_balance(problem->mesh, force, name);
+        const OstStatus status = check_function(problem, function, name);
         ost_ledger_leave(ctx);
         OST_TRY(take_objection(ctx, status, before));
     }

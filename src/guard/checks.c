@@ -2,6 +2,7 @@
 #include "algebra/krylov/energy_error.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "assembly/batch.h"
+#include "assembly/springs.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -47,9 +48,9 @@ enum {
     SUM_ENERGY,      /* strain energy of the tets */
     SUM_SQUARE,      /* of u */
     SUM_DEFORMATION, /* squares of u less the mean displacement */
-    SUM_DOUBLE_WORK, /* (f + r)·u */
-    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component */
-    SUM_WORK_TERMS,  /* of |f·u| + |r·u| */
+    SUM_DOUBLE_WORK, /* (f + r)·u, less the integral of stress on the eigenstrain */
+    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component, and of that integral */
+    SUM_WORK_TERMS,  /* of |f·u| + |r·u| likewise */
     SUM_FREE_LOAD,   /* squares of P f, the load on unconstrained components */
     SUM_NOT_FINITE,
     SUM_COUNT
@@ -92,48 +93,55 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
         constrained[i] = vector[i] - free_part[i];
 }
 
-static void add_node(OstResult *result, const Body *body, OstLocal node, const double *internal,
+/* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
+ * there is none): they count in the sizes that imbalances are relative to. */
+static void add_node(OstResult *result, const Body *body, OstLocal node, const double *internal, const double *eigen,
                      const double *magnitude, double *sums)
 {
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
-    double out_of_balance[3], constrained[3], external[3], arm[3], moment[3];
+    double out_of_balance[3], of_constraints[3], constrained[3], external[3], loaded[3], whole[3], arm[3], moment[3];
     for (int i = 0; i < 3; i++)
-        out_of_balance[i] = internal[i] - f[i];
-    project_on_constrained(body->supports, node, out_of_balance, r);
-    project_on_constrained(body->supports, node, f, constrained);
+        out_of_balance[i] = internal[i] - f[i] - r[i];
+    project_on_constrained(body->supports, node, out_of_balance, of_constraints);
     for (int i = 0; i < 3; i++) {
-        const double residual = out_of_balance[i] - r[i];
-        const double deformation = u[i] - body->mean[i];
+        r[i] += of_constraints[i];
         external[i] = f[i] + r[i];
+        loaded[i] = eigen ? f[i] + eigen[i] : f[i];
+    }
+    project_on_constrained(body->supports, node, loaded, constrained);
+    for (int i = 0; i < 3; i++) {
+        const double residual = out_of_balance[i] - of_constraints[i];
+        const double deformation = u[i] - body->mean[i];
+        whole[i] = loaded[i] + r[i];
         arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] + (body->turns ? u[i] : 0.0) - body->centre[i];
         sums[SUM_RESIDUAL] += residual * residual;
         sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
         sums[SUM_LOAD + i] += f[i];
         sums[SUM_REACTION + i] += r[i];
         sums[SUM_DOUBLE_WORK] += external[i] * u[i];
-        sums[SUM_WORK_SIZE] += fabs(external[i] * u[i]);
-        sums[SUM_WORK_TERMS] += (fabs(f[i]) + fabs(r[i])) * fabs(u[i]);
+        sums[SUM_WORK_SIZE] += fabs(whole[i] * u[i]);
+        sums[SUM_WORK_TERMS] += (fabs(loaded[i]) + fabs(r[i])) * fabs(u[i]);
         sums[SUM_SQUARE] += u[i] * u[i];
         sums[SUM_DEFORMATION] += deformation * deformation;
-        sums[SUM_FREE_LOAD] += (f[i] - constrained[i]) * (f[i] - constrained[i]);
+        sums[SUM_FREE_LOAD] += (loaded[i] - constrained[i]) * (loaded[i] - constrained[i]);
         sums[SUM_NOT_FINITE] += !isfinite(u[i]) || !isfinite(internal[i]);
     }
     ost_cross3(arm, external, moment);
     for (int i = 0; i < 3; i++)
         sums[SUM_MOMENT + i] += moment[i];
-    sums[SUM_FORCE_SIZE] += ost_norm3(external);
-    sums[SUM_FORCE_TERMS] += ost_norm3(f) + ost_norm3(r);
-    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(external);
-    sums[SUM_MOMENT_TERMS] += ost_norm3(arm) * (ost_norm3(f) + ost_norm3(r));
+    sums[SUM_FORCE_SIZE] += ost_norm3(whole);
+    sums[SUM_FORCE_TERMS] += ost_norm3(loaded) + ost_norm3(r);
+    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(whole);
+    sums[SUM_MOMENT_TERMS] += ost_norm3(arm) * (ost_norm3(loaded) + ost_norm3(r));
 }
 
 /* Strain energy from strains and stresses, not from nodal forces, so that it checks their work; and the largest strain
  * and rotation, found on the way. */
 typedef struct TetSums {
     OstFormulation formulation;
-    double energy;
+    double energy, eigen;
     OstLinearity largest;
 } TetSums;
 
@@ -142,8 +150,10 @@ static void add_tets(void *data, const OstBatch *batch, const OstElement *elemen
 {
     TetSums *tets = data;
     ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
-    for (int slot = 0; slot < batch->count; slot++)
+    for (int slot = 0; slot < batch->count; slot++) {
         tets->energy += means->energy[slot] * means->volume[slot];
+        tets->eigen += means->eigen[slot] * means->volume[slot];
+    }
 }
 
 static void fill_checks(OstChecks *checks, const double *sums, double rhs_norm)
@@ -395,7 +405,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstContext *ctx = problem->ctx;
     const OstMesh *mesh = problem->mesh;
     OstChecks *checks = &result->checks;
-    double *internal = NULL, *magnitude = NULL;
+    double *internal = NULL, *magnitude = NULL, *eigen = NULL;
     double sums[SUM_COUNT] = {0.0};
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.formulation = problem->formulation};
@@ -405,19 +415,28 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(
-        ost_internal_force_of(mesh, problem->field, problem->formulation, result->displacement, internal, magnitude));
+    OST_THEN(ost_internal_force_of(mesh, problem->field, problem->formulation, result->t, result->displacement,
+                                   internal, magnitude));
+    if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
+        status = OST_NEW(ctx, &eigen, 3 * (size_t)mesh->owned_nodes);
+        OST_THEN(ost_eigenstrain_force(mesh, problem->field, result->t, eigen));
+    }
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(look_at_body(problem, result, &body));
-    ost_visit_means_of(mesh, problem->field, problem->formulation, result->displacement, add_tets, &tets);
+    ost_visit_means_of(mesh, problem->field, problem->formulation, result->t, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
+    sums[SUM_DOUBLE_WORK] = -tets.eigen;
+    sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
     if (body.turns)
         OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        add_node(result, &body, n, internal + 3 * (size_t)n, magnitude + 3 * (size_t)n, sums);
+        add_node(result, &body, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
+                 magnitude + 3 * (size_t)n, sums);
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
     fill_checks(checks, sums, solved_for->norm);
@@ -431,6 +450,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
 done:
     OST_FREE(internal);
     OST_FREE(magnitude);
+    OST_FREE(eigen);
     ost_ledger_leave(ctx);
     return status;
 }

@@ -6,31 +6,47 @@
 #include "core/small.h"
 #include "guard/guard.h"
 
+#include <string.h>
+
 /* Reactions may balance each other or be none: their error is over no less than this share of the loads. */
 static const double least_reaction = 1e-3;
 
+/* Where an eigenstrain acts, stress or displacement may be none: their errors are over no less than this share of the
+ * stress if nothing gave way, and of the displacement if nothing were held. */
+static const double least_of_eigenstrain = 1e-3;
+
 /* Squares, of the answer and of its error. */
-enum { DISPLACEMENT, DISPLACEMENT_ERROR, REACTION, REACTION_ERROR, STRESS, STRESS_ERROR, LOAD, SUMS };
+enum {
+    DISPLACEMENT,
+    DISPLACEMENT_ERROR,
+    REACTION,
+    REACTION_ERROR,
+    STRESS,
+    STRESS_ERROR,
+    EIGENSTRESS,
+    EIGENSTRAIN,
+    LOAD,
+    SUMS
+};
 
-typedef struct Tets {
-    const double *error;
-    double *sums;
-} Tets;
-
-static void add_stresses(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+static void add_stresses(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                          const OstMeans *means)
 {
-    const Tets *tets = data;
-    OstSimd error[3 * OST_MAX_TET_NODES];
-    OstMeans of_error;
+    (void)element;
     (void)u;
-    ost_batch_gather_vectors(batch, element->nodes, tets->error, error);
-    element->means(batch->x, &batch->elasticity, error, &of_error);
     for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6; p++) {
-            tets->sums[STRESS] += means->stress[p][slot] * means->stress[p][slot];
-            tets->sums[STRESS_ERROR] += of_error.stress[p][slot] * of_error.stress[p][slot];
-        }
+        for (int p = 0; p < 6; p++)
+            *(double *)sum += means->stress[p][slot] * means->stress[p][slot];
+}
+
+static void add_eigenstrains(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                             const OstMeans *means)
+{
+    double *sums = data;
+    add_stresses(&sums[EIGENSTRESS], batch, element, u, means);
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int p = 0; p < 6; p++)
+            sums[EIGENSTRAIN] += batch->elasticity.e0[0][p][slot] * batch->elasticity.e0[0][p][slot];
 }
 
 static double square_of(const double vector[3])
@@ -38,16 +54,16 @@ static double square_of(const double vector[3])
     return ost_dot3(vector, vector);
 }
 
-/* `internal` and `of_error` are the internal forces at the node, of the answer and of its error. */
+/* `internal` and `of_error` are the internal forces at the node, of the answer and of its error; `straining` is the
+ * load with the forces of the eigenstrain. */
 static void add_node(const OstProblem *problem, OstLocal node, const double *internal, const double *of_error,
-                     double *sums)
+                     const double *load, const double *straining, double *sums)
 {
     double projector[9], free_force[3], free_error[3], free_load[3], force[3];
-    const double *load = problem->force + 3 * (size_t)node;
     const int constrained = ost_supports_get(problem->supports, node, projector, NULL);
     for (int i = 0; i < 3; i++)
         force[i] = internal[i] - load[i];
-    ost_apply3(projector, load, free_load);
+    ost_apply3(projector, straining, free_load);
     sums[LOAD] += square_of(free_load);
     if (constrained == 0)
         return;
@@ -65,34 +81,76 @@ static double relative(double square_of_error, double square)
     return square_of_error > 0.0 ? sqrt(square_of_error) / sqrt(square) : 0.0;
 }
 
+/* Stresses of the answer, of its error, and of the eigenstrain alone. */
+static OstStatus add_all_stresses(const OstProblem *problem, const double *displacement, const double *error,
+                                  double *sums)
+{
+    double *zero = NULL;
+    ost_visit_means(problem->mesh, problem->field, 1.0, displacement, add_stresses, &sums[STRESS]);
+    ost_visit_means(problem->mesh, problem->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
+    if (!ost_field_is_eigenstrained(problem->field))
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
+    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_eigenstrains, sums);
+    OST_FREE(zero);
+    return OST_SUCCESS;
+}
+
+/* Collective. About the squared displacement of all nodes under this sum of squared eigenstrains of the tets. */
+static OstStatus free_displacement(const OstMesh *mesh, double squares, double *displacement)
+{
+    double low[3], high[3], size[3];
+    *displacement = 0.0;
+    if (squares == 0.0)
+        return OST_SUCCESS;
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        size[i] = high[i] - low[i];
+    *displacement = squares / (double)mesh->global_tets * square_of(size) * (double)mesh->global_nodes;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement, const double *error,
                            OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
-    double *internal = NULL, *of_error = NULL;
-    double sums[SUMS] = {0.0};
-    Tets tets = {error, sums};
+    double *internal = NULL, *of_error = NULL, *load = NULL, *straining = NULL;
+    double sums[SUMS] = {0.0}, swollen = 0.0;
     OstStatus status = OST_NEW(ctx, &internal, n);
     OST_THEN(OST_NEW(ctx, &of_error, n));
-    OST_THEN(ost_problem_force(problem, displacement, internal));
-    OST_THEN(ost_problem_force(problem, error, of_error));
+    OST_THEN(OST_NEW(ctx, &load, n));
+    OST_THEN(OST_NEW(ctx, &straining, n));
+    OST_THEN(ost_problem_force(problem, 1.0, displacement, internal));
+    OST_THEN(ost_problem_force(problem, 0.0, error, of_error));
+    OST_THEN(add_all_stresses(problem, displacement, error, sums));
+    if (status == OST_SUCCESS) {
+        ost_problem_load(problem, 1.0, NULL, load);
+        memcpy(straining, load, n * sizeof *load);
+        if (ost_field_is_eigenstrained(problem->field))
+            status = ost_eigenstrain_force(problem->mesh, problem->field, 1.0, straining);
+    }
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t i = 0; i < n; i++) {
         sums[DISPLACEMENT] += displacement[i] * displacement[i];
         sums[DISPLACEMENT_ERROR] += error[i] * error[i];
     }
-    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++)
-        add_node(problem, node, internal + 3 * (size_t)node, of_error + 3 * (size_t)node, sums);
-    ost_visit_means(problem->mesh, problem->field, displacement, add_stresses, &tets);
+    for (size_t k = 0; k < n; k += 3)
+        add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, load + k, straining + k, sums);
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
+    OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
+    const double least = least_of_eigenstrain * least_of_eigenstrain;
+    const double moved = fmax(sums[DISPLACEMENT], least * swollen);
     const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
+    const double stress = fmax(sums[STRESS], least * sums[EIGENSTRESS]);
     *errors = (OstErrors){.known = 1,
-                          .displacement = relative(sums[DISPLACEMENT_ERROR], sums[DISPLACEMENT]),
+                          .displacement = relative(sums[DISPLACEMENT_ERROR], moved),
                           .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
-                          .stress = relative(sums[STRESS_ERROR], sums[STRESS])};
+                          .stress = relative(sums[STRESS_ERROR], stress)};
 done:
     OST_FREE(internal);
     OST_FREE(of_error);
+    OST_FREE(load);
+    OST_FREE(straining);
     return status;
 }

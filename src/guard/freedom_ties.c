@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "guard/freedom_ties.h"
 
+#include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
@@ -152,28 +153,30 @@ static OstStatus add_support(OstContext *ctx, const OstRigidFrame *frame, const 
     return of_supports->rows >= of_supports->next_look ? test_whether_enough(ctx, of_supports) : OST_SUCCESS;
 }
 
-static const OstSupport *support_of(const OstSupports *supports, OstLocal node)
+/* Of a node in the component: its constraints, and the directions of its springs. */
+static OstStatus add_node(const OstMesh *mesh, const OstSupports *supports, OstLocal node, const OstRigidFrame *frame,
+                          SupportConditions *of_supports)
 {
-    const OstLocal index = supports->index[node];
-    return index < 0 ? NULL : &supports->support[index];
+    const double *point = mesh->coordinates + 3 * (size_t)node;
+    OstSupport held;
+    if (supports->index[node] >= 0)
+        OST_TRY(add_support(mesh->ctx, frame, &supports->support[supports->index[node]], point, of_supports));
+    if (!supports->spring || (of_supports->rows > 0 && of_supports->next_look == 0))
+        return OST_SUCCESS;
+    OST_TRY(ost_spring_directions(supports, node, &held));
+    return held.constrained > 0 ? add_support(mesh->ctx, frame, &held, point, of_supports) : OST_SUCCESS;
 }
 
 static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeComponents *of,
                                   const OstRigidFrame *frames, SupportConditions *of_supports)
 {
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstSupport *support = support_of(supports, n);
         const OstLocal component = of->lowest ? of->lowest[n] : 0;
-        if (support)
-            OST_TRY(add_support(mesh->ctx, &frames[component], support, mesh->coordinates + 3 * (size_t)n,
-                                &of_supports[component]));
+        OST_TRY(add_node(mesh, supports, n, &frames[component], &of_supports[component]));
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
         const Meeting *meeting = &of->meeting[m];
-        const OstSupport *support = support_of(supports, meeting->node);
-        if (support)
-            OST_TRY(add_support(mesh->ctx, &frames[meeting->component], support,
-                                mesh->coordinates + 3 * (size_t)meeting->node, &of_supports[meeting->component]));
+        OST_TRY(add_node(mesh, supports, meeting->node, &frames[meeting->component], &of_supports[meeting->component]));
     }
     return OST_SUCCESS;
 }

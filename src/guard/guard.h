@@ -22,9 +22,9 @@ OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before);
  * multigrid is given. `resistance` becomes the largest such force, over |K| |motion|. */
 OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, double *resistance, OstVerdict *before);
 
-/* Collective, before each solve. Objects to loads (3 × owned_nodes) of a free body that do not balance, and to a
- * right-hand side (3 × rows) out of range. */
-OstStatus ost_guard_load(const OstProblem *problem, const double *force, const double *rhs, OstVerdict *before);
+/* Collective, before each solve. Objects to loads of a free body, those of one function of time, that
+ * do not balance, and to a right-hand side (3 × rows) out of range. */
+OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before);
 
 /* Collective. Names the worst tet, by number, place and quality, if that quality is below 0.01: it may be why rounding
  * hides the answer. Otherwise `words` becomes empty. */

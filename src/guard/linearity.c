@@ -136,6 +136,6 @@ static void visit(void *largest, const OstBatch *batch, const OstElement *elemen
 OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLinearity *largest)
 {
     *largest = (OstLinearity){0.0, 0.0};
-    ost_visit_means(mesh, field, u, visit, largest);
+    ost_visit_means(mesh, field, 0.0, u, visit, largest);
     return ost_linearity_agree(mesh->ctx, largest);
 }

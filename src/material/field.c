@@ -318,6 +318,8 @@ void ost_field_destroy(OstMaterialField **field)
         return;
     destroy_formulas(*field);
     forget_split(*field);
+    OST_FREE((*field)->region_eigenstrain);
+    OST_FREE((*field)->tet_eigenstrain);
     OST_FREE((*field)->material);
     OST_FREE((*field)->region_stiffness);
     OST_FREE((*field)->region_axes);

@@ -24,7 +24,17 @@ struct OstMaterialField {
      * is not split. NULL if no C is. */
     double *region_stiff_mode;
     double *region_rest; /* region_count × 36: the rest of C in material axes; NULL if no C is split */
+
+    double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
+    double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
+
+/* Local. Does any tet have an eigenstrain? */
+int ost_field_is_eigenstrained(const OstMaterialField *field);
+
+/* Local. Adds `share` of a tet's eigenstrain to `strain`, in the world axes that the material's `axes` are given in. */
+void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
+                               double strain[6]);
 
 /* Local. C of a tet in world axes. */
 void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double stiffness[36]);

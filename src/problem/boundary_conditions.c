@@ -2,6 +2,7 @@
 #include "problem/boundary_conditions.h"
 
 #include "assembly/loads.h"
+#include "assembly/springs.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -86,6 +87,53 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     return status;
 }
 
+/* The faces of a selection; refuses none at all. */
+static OstStatus select_faces(const OstScene *scene, const OstSelection *on, OstLocal *count, int *nodes_per_face,
+                              OstLocal **faces, double *area)
+{
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, on, count, nodes_per_face, faces));
+    OST_TRY(ost_faces_area(scene->mesh, *count, *faces, *nodes_per_face, area));
+    if (*area > 0.0)
+        return OST_SUCCESS;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "the selection holds no whole face of the body's surface, and this acts on faces; select a named "
+                     "surface, or widen the selection");
+}
+
+/* Adds the springs of the case's entry to the selected nodes, or faces. */
+static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, OstLocal count, const OstLocal *selected,
+                             int nodes_per_face, OstSupports *supports)
+{
+    OstSpringStiffness stiffness = {.along = spring->along, .across = spring->across};
+    memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
+    OST_TRY(ost_agree(scene->ctx, ost_supports_allow_springs(supports)));
+    if (spring->kind == OST_SPRING_FOUNDATION)
+        ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness);
+    for (OstLocal i = 0; i < count && spring->kind == OST_SPRING_POINT; i++)
+        if (selected[i] < scene->mesh->owned_nodes)
+            ost_supports_add_spring(supports, selected[i], &stiffness);
+    return OST_SUCCESS;
+}
+
+static OstStatus add_spring(const OstScene *scene, const OstSpring *spring, OstSupports *supports)
+{
+    const OstEffect effect = spring->kind == OST_SPRING_FOUNDATION ? OST_EFFECT_FOUNDATION : OST_EFFECT_SPRINGS;
+    OstLocal count = 0;
+    OstLocal *selected = NULL;
+    int nodes_per_face = 3;
+    double area = 0.0;
+    if (!ost_effect_on(&scene->plan.effects, effect))
+        return OST_SUCCESS;
+    OstStatus status = effect == OST_EFFECT_FOUNDATION
+                           ? select_faces(scene, &spring->on, &count, &nodes_per_face, &selected, &area)
+                           : ost_select_nodes(scene->c, scene->mesh, &spring->on, &count, &selected);
+    ost_ledger_enter(scene->ctx, effect);
+    OST_THEN(add_springs(scene, spring, count, selected, nodes_per_face, supports));
+    ost_ledger_leave(scene->ctx);
+    OST_FREE(selected);
+    return at_line(scene->c, spring->line, status);
+}
+
 OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports)
 {
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
@@ -95,6 +143,8 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
         status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
+    for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
+        status = add_spring(scene, &scene->c->springs[i], *supports);
     OST_THEN(ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
@@ -167,32 +217,31 @@ static OstStatus add_face_load(const OstScene *scene, const OstLoad *load, OstLo
     return ost_agree(scene->ctx, ost_load_traction(mesh, count, faces, nodes_per_face, traction, force));
 }
 
-static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, double *force)
+static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, double *force, OstFollower **follower)
 {
     OstLocal count = 0;
     OstLocal *faces = NULL;
     int nodes_per_face = 3;
     double area = 0.0;
-    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, &count, &nodes_per_face, &faces));
-    OstStatus status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
-    if (status == OST_SUCCESS && area > 0.0)
-        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
+    OstStatus status = select_faces(scene, &load->on, &count, &nodes_per_face, &faces, &area);
+    if (status == OST_SUCCESS && load->follows)
+        status = ost_agree(scene->ctx, ost_follower_add(scene->mesh, count, faces, nodes_per_face, load->pressure,
+                                                        load->table, follower));
     else if (status == OST_SUCCESS)
-        status = OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                           "the selection holds no whole face of the body's surface, and this load needs faces; "
-                           "select a named surface, or widen the selection");
+        status = add_face_load(scene, load, count, nodes_per_face, faces, area, force);
     OST_FREE(faces);
     return status;
 }
 
-static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force)
+static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force,
+                          OstFollower **follower)
 {
     OstStatus status;
     ost_ledger_enter(scene->ctx, effect);
     if (effect == OST_EFFECT_BODY_FORCE)
         status = ost_agree(scene->ctx, add_body_load(scene, load, force));
-    else if (effect == OST_EFFECT_SURFACE_LOAD)
-        status = add_surface_load(scene, load, force);
+    else if (effect == OST_EFFECT_SURFACE_LOAD || effect == OST_EFFECT_FOLLOWER_PRESSURE)
+        status = add_surface_load(scene, load, force, follower);
     else
         status = add_vertex_load(scene, load, force);
     ost_ledger_leave(scene->ctx);
@@ -222,13 +271,14 @@ static OstStatus check_strains(const OstScene *scene, const OstSupports *support
 }
 
 /* Adds one load, which is first collected by itself where it is to be looked at. */
-static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupports *supports, double *force)
+static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupports *supports, double *force,
+                                  OstFollower **follower)
 {
     const OstLoad *load = &scene->c->loads[i];
     const size_t n = 3 * (size_t)scene->mesh->node_count;
     double *own = NULL;
     OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, &own, n));
-    OST_THEN(add_load(scene, load, scene->load_effect[i], own));
+    OST_THEN(add_load(scene, load, scene->load_effect[i], own, follower));
     OST_THEN(check_strains(scene, supports, load, own));
     for (size_t k = 0; k < n && status == OST_SUCCESS; k++)
         force[k] += own[k];
@@ -236,11 +286,12 @@ static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupport
     return status;
 }
 
-OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force)
+OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
+                          OstFollower **follower)
 {
     for (int i = 0; i < scene->c->load_count; i++)
         if (scene->c->loads[i].table == table && ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
-            OST_TRY(supports ? add_checked_load(scene, i, supports, force)
-                             : add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
+            OST_TRY(supports ? add_checked_load(scene, i, supports, force, follower)
+                             : add_load(scene, &scene->c->loads[i], scene->load_effect[i], force, follower));
     return OST_SUCCESS;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/coarse_space.h"
 
+#include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -51,19 +52,22 @@ static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, con
 static OstStatus take_vertices(OstLinearSpace *space, const OstSystem *quadratic)
 {
     OST_TRY(ost_mesh_linear(quadratic->mesh, &space->mesh, &space->node_of_vertex));
-    return ost_agree(quadratic->ctx, ost_supports_on_vertices(quadratic->supports, space->mesh, space->node_of_vertex,
-                                                              &space->supports));
+    OstStatus status =
+        ost_supports_on_vertices(quadratic->supports, space->mesh, space->node_of_vertex, &space->supports);
+    if (status == OST_SUCCESS && quadratic->supports->spring)
+        status = ost_springs_on_vertices(quadratic->supports, space->node_of_vertex, space->supports);
+    return ost_agree(quadratic->ctx, status);
 }
 
 OstStatus ost_linear_space_move(OstLinearSpace *space, const OstMaterialField *field, OstFormulation formulation,
-                                const double *displacement)
+                                double t, const double *displacement)
 {
     OstContext *ctx = space->mesh->ctx;
     double *u = NULL;
     OstStatus status = OST_NEW(ctx, &u, 3 * (size_t)space->mesh->node_count);
     OST_THEN(ost_system_restore_scatter(space->system));
     if (status == OST_SUCCESS) {
-        const OstTangent tangent = {.formulation = formulation, .u = u, .definite = 1};
+        const OstTangent tangent = {.formulation = formulation, .t = t, .u = u, .definite = 1};
         for (size_t vertex = 0; vertex < (size_t)space->mesh->node_count; vertex++)
             memcpy(u + 3 * vertex, displacement + 3 * (size_t)space->node_of_vertex[vertex], 3 * sizeof *u);
         status = ost_system_fill_tangent(space->system, field, &tangent);

@@ -21,10 +21,11 @@ typedef struct OstLinearSpace {
 OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,
                                   OstLinearSpace **space);
 
-/* Collective. Takes the linear space to a displacement of the quadratic tets' nodes (3 × node_count): its stiffness and
- * its rigid motions there. The stiffness is that of large rotations made definite, as a coarse level's must be. */
+/* Collective. Takes the linear space to t and a displacement of the quadratic tets' nodes (3 × node_count): its
+ * stiffness and its rigid motions there. The stiffness is that of large rotations made definite, as a coarse level's
+ * must be. */
 OstStatus ost_linear_space_move(OstLinearSpace *space, const OstMaterialField *field, OstFormulation formulation,
-                                const double *displacement);
+                                double t, const double *displacement);
 void ost_linear_space_destroy(OstLinearSpace **space);
 
 /* Local. Interpolation of a quadratic system's rows from a linear one of the same tets: for each row four columns of

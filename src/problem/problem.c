@@ -2,11 +2,13 @@
 #include "problem/problem.h"
 
 #include "assembly/batch.h"
+#include "assembly/springs.h"
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
 
@@ -20,16 +22,38 @@ void ost_problem_destroy(OstProblem **problem)
     ost_system_destroy(&(*problem)->system);
     ost_problem_release_timed(*problem);
     ost_supports_destroy(&(*problem)->supports);
+    ost_follower_destroy(&(*problem)->follower);
     OST_FREE((*problem)->force);
     OST_FREE(*problem);
+}
+
+static OstStatus add_springs(const OstProblemParts *parts, OstSupports *supports)
+{
+    for (OstLocal i = 0; i < parts->spring_count; i++) {
+        const OstNodeSpring *spring = &parts->springs[i];
+        const double length = ost_norm3(spring->direction);
+        OstSpringStiffness stiffness = {.along = spring->stiffness, .across = length > 0.0 ? 0.0 : spring->stiffness};
+        if (spring->node < 0 || spring->node >= parts->mesh->owned_nodes || !(spring->stiffness >= 0.0))
+            return OST_RAISE(
+                parts->mesh->ctx, OST_INVALID_INPUT,
+                "spring %d has stiffness %g on node %d; expected 0 or above, on one of this rank's nodes, 0 "
+                "to %d",
+                i, spring->stiffness, spring->node, parts->mesh->owned_nodes - 1);
+        for (int k = 0; k < 3 && length > 0.0; k++)
+            stiffness.direction[k] = spring->direction[k] / length;
+        ost_supports_add_spring(supports, spring->node, &stiffness);
+    }
+    return OST_SUCCESS;
 }
 
 /* `displacement`: one for each constraint, in place of its own; or NULL. */
 static OstStatus constrain_nodes(const OstProblemParts *parts, const double *displacement, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
+    int springs = parts->spring_count > 0;
     if (parts->free_body)
         return ost_free_body_supports(parts->mesh, NULL, supports);
+    OST_TRY(ost_max_ints(ctx, 1, &springs));
     OstStatus status = ost_supports_create(parts->mesh, supports);
     for (OstLocal i = 0; i < parts->constraint_count && status == OST_SUCCESS; i++) {
         const OstNodeConstraint *constraint = &parts->constraints[i];
@@ -40,6 +64,9 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, const double *dis
             status = ost_supports_constrain(*supports, constraint->node, constraint->direction,
                                             displacement ? displacement[i] : constraint->displacement);
     }
+    if (status == OST_SUCCESS && springs)
+        status = ost_supports_allow_springs(*supports);
+    OST_THEN(add_springs(parts, *supports));
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(*supports);
 }
@@ -93,8 +120,15 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
             ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = constrain_nodes(parts, NULL, &made->supports);
+        int pressed = parts->pressed_count > 0;
+        status = ost_max_ints(made->ctx, 1, &pressed);
+        if (status == OST_SUCCESS && pressed)
+            status = ost_follower_add(parts->mesh, parts->pressed_count, parts->pressed_faces,
+                                      parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, 0, &made->follower);
+        status = ost_agree(made->ctx, status);
+        OST_THEN(constrain_nodes(parts, NULL, &made->supports));
         OST_THEN(make_timed(parts, made));
+        OST_THEN(ost_follower_conserves(made->follower, made->supports, &made->conservative));
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -107,7 +141,7 @@ static OstStatus make_timed_of_scene(const OstScene *scene, OstProblem *problem)
     for (int k = 0; k < scene->c->table_count; k++) {
         OST_TRY(ost_problem_add_timed(problem, &scene->c->tables[k]));
         OST_TRY(ost_scene_supports(scene, 1 + k, &problem->timed[k].supports));
-        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].supports, problem->timed[k].force));
+        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].supports, problem->timed[k].force, &problem->follower));
     }
     return OST_SUCCESS;
 }
@@ -129,9 +163,10 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
     made->accuracy = scene->c->relative_error;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force));
+    OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
     OST_TRY_DONE(make_timed_of_scene(scene, made));
+    OST_TRY_DONE(ost_follower_conserves(made->follower, made->supports, &made->conservative));
 done:
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -190,15 +225,19 @@ void ost_problem_set_load(OstProblem *problem, const double *force)
     memcpy(problem->force, force, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
 }
 
-void ost_problem_load(const OstProblem *problem, double t, double *force)
+void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force)
 {
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        force[i] = t * problem->force[i];
-    for (int k = 0; k < problem->timed_count; k++) {
-        const double factor = ost_time_factor(&problem->timed[k].table, t);
-        for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-            force[i] += factor * problem->timed[k].force[i];
-    }
+    memset(force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
+    for (int k = 0; k < ost_problem_functions(problem); k++)
+        ost_problem_add_load(problem, k, ost_problem_factor(problem, k, t), u, force);
+}
+
+OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work)
+{
+    *work = 0.0;
+    for (int k = 0; k < ost_problem_functions(problem); k++)
+        *work += ost_problem_work(problem, k, ost_problem_factor(problem, k, t), u);
+    return ost_sum(problem->ctx, 1, work);
 }
 
 static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
@@ -210,19 +249,24 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
         *(double *)energy += means->energy[slot] * means->volume[slot];
 }
 
-OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
+OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
 {
-    *energy = 0.0;
+    const double grown = ost_problem_factor(problem, 0, t);
+    *energy = problem->supports->spring ? ost_spring_energy(problem->supports, u) : 0.0;
     if (problem->formulation == OST_FORMULATION_LINEAR)
-        ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
+        ost_visit_means(problem->mesh, problem->field, grown, u, add_energy, energy);
     else
-        ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, u, energy);
+        *energy += ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, grown, u);
     return ost_sum(problem->ctx, 1, energy);
 }
 
-OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force)
+OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u, double *force)
 {
-    return ost_internal_force_of(problem->mesh, problem->field, problem->formulation, u, force, NULL);
+    const double grown = ost_problem_factor(problem, 0, t);
+    OST_TRY(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, grown, u, force, NULL));
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0, u, force);
+    return OST_SUCCESS;
 }
 
 /* A failure names the line of the first constraint. */
@@ -235,15 +279,28 @@ static OstStatus make_pattern(OstProblem *problem)
     return ost_case_located(c, c->constraints[0].on.place, status);
 }
 
-static OstStatus fill(const OstProblem *problem, const double *u, int definite)
+/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
+static OstStatus fill(const OstProblem *problem, double t, const double *u, int definite)
 {
-    const OstTangent tangent = {.formulation = problem->formulation, .u = u, .definite = definite};
-    const int at_zero = problem->formulation == OST_FORMULATION_LINEAR || !u; /* where all formulations agree */
-    return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
+    OstTangent tangent = {
+        .formulation = problem->formulation, .t = ost_problem_factor(problem, 0, t), .u = u, .definite = definite};
+    double *factor = NULL;
+    if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
+        return ost_system_fill_tangent(problem->system, problem->field, NULL);
+    if (problem->follower && !definite) {
+        OST_TRY(OST_NEW(problem->ctx, &factor, ost_problem_functions(problem)));
+        for (int k = 0; k < ost_problem_functions(problem); k++)
+            factor[k] = ost_problem_factor(problem, k, t);
+        tangent.follower = problem->follower;
+        tangent.factor = factor;
+    }
+    const OstStatus status = ost_system_fill_tangent(problem->system, problem->field, &tangent);
+    OST_FREE(factor);
+    return status;
 }
 
 /* The matrix stays where it is, so that a solver on it can be kept. */
-static OstStatus make_stiffness(OstProblem *problem, const double *u, int definite, OstStiffness *stiffness)
+static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, int definite, OstStiffness *stiffness)
 {
     if (!problem->system)
         OST_TRY(make_pattern(problem));
@@ -251,7 +308,7 @@ static OstStatus make_stiffness(OstProblem *problem, const double *u, int defini
     if (fills && !problem->system->block_of_tet)
         OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
     if (fills)
-        OST_TRY(ost_agree(problem->ctx, fill(problem, u, definite)));
+        OST_TRY(ost_agree(problem->ctx, fill(problem, t, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;
     if (stiffness)
@@ -265,14 +322,14 @@ static OstStatus make_stiffness(OstProblem *problem, const double *u, int defini
     return OST_SUCCESS;
 }
 
-OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+OstStatus ost_problem_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness)
 {
-    return make_stiffness(problem, u, 0, stiffness);
+    return make_stiffness(problem, t, u, 0, stiffness);
 }
 
-OstStatus ost_problem_definite_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+OstStatus ost_problem_definite_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness)
 {
-    return make_stiffness(problem, u, 1, stiffness);
+    return make_stiffness(problem, t, u, 1, stiffness);
 }
 
 OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst)

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_PROBLEM_H
 #define ORTHOSTAT_PROBLEM_PROBLEM_H
 
+#include "assembly/follower.h"
 #include "assembly/system.h"
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
@@ -23,6 +24,8 @@ struct OstProblem {
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
     int timed_count;           /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
+    OstFollower *follower;        /* pressures that follow the surface, of all functions; NULL: there are none */
+    int conservative;             /* is the load the gradient of a work function? */
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
     int linear;                   /* is the internal force linear in the displacement? */
@@ -59,10 +62,15 @@ OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts);
 int ost_problem_functions(const OstProblem *problem);
 double ost_problem_factor(const OstProblem *problem, int function, double t);
 
-/* Local. The load of one function at factor 1, 3 × owned_nodes. */
-const double *ost_problem_function_load(const OstProblem *problem, int function);
+/* Local. Adds factor × the load of one function to `force` (3 × owned_nodes), with pressures on the surface as u has
+ * moved it (NULL: undeformed). */
+void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force);
 
-/* Local. Its right-hand side P (f - K g) of a linear problem, after ost_problem_stiffness; 3 × rows numbers. */
+/* Local. factor × this rank's part of the work function of that load (ost_problem_load_work). */
+double ost_problem_work(const OstProblem *problem, int function, double factor, const double *u);
+
+/* Local. Its right-hand side P (f - K g), with the eigenstrain's of function 0, of a linear problem, after
+ * ost_problem_stiffness; 3 × rows numbers. */
 OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs);
 
 /* Collective. Its displacement P v + g of every local node. */

@@ -32,6 +32,7 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    double t;                      /* factor of what grows with t */
     OstFormulation formulation;    /* by which strain follows from the displacement */
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */

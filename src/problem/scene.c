@@ -96,6 +96,21 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
     return create_field(mesh, NULL, materials, axes, tet_axes, field);
 }
 
+static OstStatus set_eigenstrain(OstScene *scene)
+{
+    const OstNames *regions = &scene->mesh->regions;
+    double *strain = NULL;
+    OST_TRY(OST_NEW(scene->ctx, &strain, 6 * regions->count));
+    for (int r = 0; r < regions->count; r++) {
+        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
+        if (stated)
+            memcpy(strain + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
+    }
+    const OstStatus status = ost_field_set_eigenstrain(scene->field, strain, 0, NULL);
+    OST_FREE(strain);
+    return status;
+}
+
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
 {
     OstContext *ctx = scene->ctx;
@@ -108,6 +123,8 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
                           gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
+    if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))
+        status = ost_agree(ctx, set_eigenstrain(scene));
     return status;
 }
 
@@ -177,6 +194,8 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
         OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->springs[i].on));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:

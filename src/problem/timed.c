@@ -53,9 +53,26 @@ double ost_problem_factor(const OstProblem *problem, int function, double t)
     return ost_time_factor(function == 0 ? &ramp : &problem->timed[function - 1].table, t);
 }
 
-const double *ost_problem_function_load(const OstProblem *problem, int function)
+static const double *dead_load(const OstProblem *problem, int function)
 {
     return function == 0 ? problem->force : problem->timed[function - 1].force;
+}
+
+void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force)
+{
+    const double *dead = dead_load(problem, function);
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        force[i] += factor * dead[i];
+    ost_follower_force(problem->follower, function, factor, u, force);
+}
+
+double ost_problem_work(const OstProblem *problem, int function, double factor, const double *u)
+{
+    const double *dead = dead_load(problem, function);
+    double work = ost_follower_work(problem->follower, function, factor, u);
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        work += factor * dead[i] * u[i];
+    return work;
 }
 
 /* The system, with the displacements that this function prescribes. */
@@ -70,7 +87,13 @@ static OstSystem system_of(const OstProblem *problem, int function)
 OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs)
 {
     const OstSystem system = system_of(problem, function);
-    return ost_system_right_hand_side(&system, problem->field, ost_problem_function_load(problem, function), rhs);
+    const double share = function == 0 ? 1.0 : 0.0; /* eigenstrains grow with t */
+    double *force = NULL;
+    OST_TRY(OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes));
+    ost_problem_add_load(problem, function, 1.0, NULL, force);
+    const OstStatus status = ost_system_right_hand_side(&system, problem->field, share, force, rhs);
+    OST_FREE(force);
+    return status;
 }
 
 OstStatus ost_problem_function_displacement(const OstProblem *problem, int function, const double *v, double *u)

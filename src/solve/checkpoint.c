@@ -36,7 +36,20 @@ static uint64_t hash_supports(uint64_t hash, const OstSupports *supports)
         hash = ost_hash(hash, 3 * (size_t)support->constrained * sizeof(double), support->direction);
         hash = ost_hash(hash, (size_t)support->constrained * sizeof(double), support->prescribed);
     }
+    if (supports->spring)
+        hash = ost_hash(hash, 9 * (size_t)supports->mesh->node_count * sizeof(double), supports->spring);
     return ost_hash(hash, (size_t)supports->mesh->node_count * sizeof(OstLocal), supports->index);
+}
+
+static uint64_t hash_follower(uint64_t hash, const OstFollower *follower)
+{
+    for (; follower; follower = follower->next) {
+        const size_t nodes = (size_t)follower->nodes_per_face * (size_t)follower->count;
+        hash = ost_hash(hash, nodes * sizeof(OstLocal), follower->faces);
+        hash = ost_hash(hash, sizeof follower->pressure, &follower->pressure);
+        hash = ost_hash(hash, sizeof follower->function, &follower->function);
+    }
+    return hash;
 }
 
 static uint64_t hash_table(uint64_t hash, const OstTimeTable *table)
@@ -51,6 +64,10 @@ static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLoca
         hash = ost_hash(hash, sizeof(OstOrthotropic), &field->material[r].constants);
     if (field->region_axes)
         hash = ost_hash(hash, 9 * (size_t)field->region_count * sizeof(double), field->region_axes);
+    if (field->region_eigenstrain)
+        hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
+    if (field->tet_eigenstrain)
+        hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
     return field->tet_axes ? ost_hash(hash, 9 * (size_t)tets * sizeof(double), field->tet_axes) : hash;
 }
 
@@ -67,6 +84,7 @@ static uint64_t hash_here(const OstPath *path)
     hash = ost_hash(hash, corners * sizeof(OstLocal), mesh->tet_nodes);
     hash = ost_hash(hash, (size_t)mesh->tet_count * sizeof(int32_t), mesh->tet_region);
     hash = hash_field(hash, problem->field, mesh->tet_count);
+    hash = hash_follower(hash, problem->follower);
     hash = hash_supports(ost_hash(hash, loads, problem->force), problem->supports);
     for (int k = 0; k < problem->timed_count; k++) {
         hash = hash_table(hash, &problem->timed[k].table);

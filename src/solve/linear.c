@@ -24,7 +24,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
 {
     OstContext *ctx = analysis->ctx;
     OstProblem *problem = analysis->problem;
-    OST_TRY(ost_problem_stiffness(problem, NULL, NULL));
+    OST_TRY(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     ost_problem_release_scatter(problem);
     OstLinear *linear = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &linear, 1)));
@@ -44,7 +44,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
-    return ost_guard_load(problem, problem->force, linear->rhs, before);
+    return ost_guard_load(problem, 0, linear->rhs, before);
 }
 
 static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t unknowns, OstSolvedFor *solved_for)
@@ -90,7 +90,7 @@ OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *befor
         square += linear->rhs[i] * linear->rhs[i];
     OST_TRY(ost_sum(analysis->ctx, 1, &square));
     *norm = sqrt(square);
-    return ost_guard_load(problem, ost_problem_function_load(problem, function), linear->rhs, before);
+    return ost_guard_load(problem, function, linear->rhs, before);
 }
 
 OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement)

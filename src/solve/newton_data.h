@@ -49,7 +49,7 @@ struct OstNewton {
 /* Is there an energy to minimise? */
 static inline int ost_newton_has_energy(const OstNewton *newton)
 {
-    return newton->problem->formulation == OST_FORMULATION_CONSISTENT;
+    return newton->problem->formulation == OST_FORMULATION_CONSISTENT && newton->problem->conservative;
 }
 
 /* Collective. Finds the state at rest under load(newton->t), from newton->displacement, in at most so many iterations.

@@ -54,19 +54,24 @@ static void add_node(const OstNewton *newton, OstLocal node, double sums[SUMS])
 OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
 {
     const OstProblem *problem = newton->problem;
-    double sums[SUMS] = {0.0}, strain_energy = 0.0;
-    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, displacement, newton->internal)));
+    double sums[SUMS] = {0.0}, strain_energy = 0.0, work = 0.0;
+    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, displacement, newton->internal)));
     if (ost_newton_has_energy(newton))
-        OST_TRY(ost_problem_energy(problem, displacement, &strain_energy));
+        OST_TRY(ost_problem_energy(problem, newton->t, displacement, &strain_energy));
+    if (problem->follower) {
+        ost_problem_load(problem, newton->t, displacement, newton->load);
+        OST_TRY(ost_problem_load_work(problem, newton->t, displacement, &work));
+    }
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         add_node(newton, node, sums);
         sums[SUM_WORK] += ost_dot3(newton->load + 3 * (size_t)node, displacement + 3 * (size_t)node);
         sums[SUM_DISPLACEMENT] += ost_dot3(displacement + 3 * (size_t)node, displacement + 3 * (size_t)node);
     }
     OST_TRY(ost_sum(newton->ctx, SUMS, sums));
+    work = problem->follower ? work : sums[SUM_WORK];
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
-    newton->energy = ost_newton_has_energy(newton) ? strain_energy - sums[SUM_WORK] : 0.0;
-    newton->energy_size = fabs(strain_energy) + fabs(sums[SUM_WORK]);
+    newton->energy = ost_newton_has_energy(newton) ? strain_energy - work : 0.0;
+    newton->energy_size = fabs(strain_energy) + fabs(work);
     /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
      */
     const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);

@@ -23,8 +23,8 @@ static OstStatus fill(OstNewton *newton, int definite)
     OstProblem *problem = newton->problem;
     const OstFormulation formulation = problem->formulation;
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
-    const OstStatus status = definite ? ost_problem_definite_stiffness(problem, newton->displacement, NULL)
-                                      : ost_problem_stiffness(problem, newton->displacement, NULL);
+    const OstStatus status = definite ? ost_problem_definite_stiffness(problem, newton->t, newton->displacement, NULL)
+                                      : ost_problem_stiffness(problem, newton->t, newton->displacement, NULL);
     ost_problem_take_formulation(problem, formulation);
     return status;
 }
@@ -41,7 +41,7 @@ static OstStatus update(OstNewton *newton, int definite)
     newton->stiffness->moved = 1;
     newton->rebuild = 1; /* should what follows fail */
     if (rebuild)
-        OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->displacement));
+        OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->t, newton->displacement));
     else
         OST_TRY(ost_solver_update(newton->stiffness->solver, OST_UPDATE_KEEP));
     newton->rebuild = 0;

@@ -133,7 +133,7 @@ static OstStatus prescribe(OstNewton *newton, double *displacement)
 static OstStatus load_to(OstNewton *newton, const OstNewtonState *state, double t)
 {
     newton->t = t;
-    ost_problem_load(newton->problem, t, newton->load);
+    ost_problem_load(newton->problem, t, state->displacement, newton->load);
     OST_TRY(ost_newton_evaluate(newton, state->displacement));
     newton->driving = fmax(newton->driving, newton->norm);
     return OST_SUCCESS;
@@ -156,7 +156,7 @@ static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
     for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
         newton->direction[i] = state->displacement[i] + share * newton->candidate[i];
     memcpy(newton->load, newton->internal, 3 * (size_t)mesh->owned_nodes * sizeof(double));
-    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->direction, newton->internal)));
+    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, newton->direction, newton->internal)));
     for (OstLocal row = 0; row < problem->system->matrix->rows; row++) {
         const size_t node = (size_t)problem->system->node_of_row[row];
         double projector[9], change[3], kept[3];

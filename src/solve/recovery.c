@@ -48,7 +48,8 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
     if (asks(fields, OST_FIELD_ENERGY))
         OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
     if (result->strain || result->stress || result->strain_energy_density)
-        ost_visit_means_of(result->mesh, result->field, result->formulation, result->displacement, write_means, result);
+        ost_visit_means_of(result->mesh, result->field, result->formulation, result->t, result->displacement,
+                           write_means, result);
     return OST_SUCCESS;
 }
 
@@ -93,7 +94,9 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     element->means(batch->x, &batch->elasticity, u, &means);
     for (int a = 0; a < element->nodes; a++) {
         const int at = ost_elasticity_at(at_nodes, a);
-        ost_simd_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);
+        OstSimd elastic[6];
+        ost_elastic_strain(at_nodes, at, strain + 6 * a, elastic);
+        ost_simd_stress(at_nodes->c[at], elastic, stress + 6 * a);
         for (int p = 0; p < 6 && at_nodes->by_mean; p++) /* where C is split, the stiff mode's part is its mean */
             stress[6 * a + p] += means.stiff * at_nodes->m[at][p];
     }
@@ -124,6 +127,7 @@ static void average(const OstResult *result, Sums *sums)
     OstElasticity at_nodes;
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_nodes);
+    batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
     find_regions(mesh, sums->region);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd stress[6 * OST_MAX_TET_NODES];

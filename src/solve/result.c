@@ -18,6 +18,7 @@ OstStatus ost_result_create(const OstProblem *problem, OstResult **result)
         made->ctx = ctx;
         made->mesh = mesh;
         made->field = ost_problem_field(problem);
+        made->t = 1.0;
         status = OST_NEW(ctx, &made->displacement, 3 * (size_t)mesh->node_count);
     }
     status = ost_agree(ctx, status);
@@ -54,7 +55,8 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
-        ost_problem_load(problem, t, result->force);
+        ost_problem_load(problem, t, ost_problem_is_linear(problem) ? NULL : result->displacement, result->force);
+    result->t = ost_problem_factor(problem, 0, t);
     return ost_agree(ctx, status);
 }
 

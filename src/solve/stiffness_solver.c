@@ -45,11 +45,12 @@ OstStatus ost_stiffness_solver_make(OstStiffnessSolver *stiffness)
     return ost_solver_create(problem->ctx, problem->system->matrix, &geometry, &stiffness->options, &stiffness->solver);
 }
 
-OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, const double *displacement)
+OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, const double *displacement)
 {
     const OstProblem *problem = stiffness->problem;
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
-        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT, displacement));
+        OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT,
+                                      ost_problem_factor(problem, 0, t), displacement));
     return ost_solver_update(stiffness->solver, OST_UPDATE_REBUILD);
 }

@@ -28,7 +28,7 @@ OstStatus ost_stiffness_solver_make(OstStiffnessSolver *stiffness);
 /* Collective. Rebuilds the solver on the stiffness at `displacement` (3 × node_count), which the problem has been
  * filled with. The near-null space becomes the rigid motions of that shape, and the linear space gets its stiffness
  * there. Aggregates stay those of the reference shape, in which the material's metric is given. */
-OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, const double *displacement);
+OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, const double *displacement);
 
 void ost_stiffness_solver_release(OstStiffnessSolver *stiffness);
 

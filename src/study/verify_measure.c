@@ -84,7 +84,20 @@ static void find_mode(const View *view, OstLocal tet, const double place[3], Mod
         }
 }
 
-/* Mean over a tet of m'(strain of the answer); 0 without mean dilatation. */
+/* What is left of the answer's strain when the eigenstrain is taken off. */
+static void elastic_strain_at(const View *view, const Tet *tet, const double at[4], const double place[3],
+                              double strain[6])
+{
+    const OstMaterialField *field = view->result->field;
+    double axes[9];
+    strain_at(tet, at, strain);
+    if (!ost_field_is_eigenstrained(field))
+        return;
+    ost_field_axes_at(field, tet->number, place, axes);
+    ost_field_add_eigenstrain(field, tet->number, -1.0, axes, strain);
+}
+
+/* Mean over a tet of m'(elastic strain); 0 without mean dilatation. */
 static double mean_of_mode(const View *view, const Tet *tet)
 {
     double sum = 0.0, volume = 0.0;
@@ -98,7 +111,7 @@ static double mean_of_mode(const View *view, const Tet *tet)
         if (!mode.split)
             return 0.0;
         const double weight = point->weight * ost_shape_gradients(tet->nodes, point->at, tet->x, gradients);
-        strain_at(tet, point->at, strain);
+        elastic_strain_at(view, tet, point->at, place, strain);
         sum += weight * ost_dot6(mode.m, strain);
         volume += weight;
     }
@@ -150,7 +163,7 @@ static OstStatus stress_in_tet(const View *view, const Tet *tet, const double at
     double c[36], strain[6];
     Mode mode;
     OST_TRY(view->exact->stiffness(view->exact->data, place, c));
-    strain_at(tet, at, strain);
+    elastic_strain_at(view, tet, at, place, strain);
     ost_apply6(c, strain, stress);
     find_mode(view, tet->number, place, &mode);
     const double excess = ost_dot6(mode.m, strain) - mean_of_mode(view, tet);

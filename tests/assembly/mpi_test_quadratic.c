@@ -93,7 +93,7 @@ static void solve_pose(Pose *pose, void (*at)(const double *, double *))
     double *rhs = numbers(3 * (size_t)pose->system->matrix->rows);
     double *v = numbers(3 * (size_t)pose->system->matrix->rows);
     pose->u = numbers(3 * (size_t)mesh->node_count);
-    assert_success(ost_system_right_hand_side(pose->system, pose->field, pose->force, rhs));
+    assert_success(ost_system_right_hand_side(pose->system, pose->field, 0.0, pose->force, rhs));
     solve_directly(pose->system->matrix, rhs, v);
     assert_success(ost_system_displacement(pose->system, 1.0, v, pose->u));
     free(rhs);
@@ -189,7 +189,7 @@ static void rigid_motions_meet_no_force(void **state)
                 const int first = mode % 3, next = (mode + 1) % 3;
                 u[i] = mode < 3 ? i % 3 == mode : i % 3 == next ? x[first] : i % 3 == first ? -x[next] : 0.0;
             }
-            assert_success(ost_internal_force(mesh, field, u, force, NULL));
+            assert_success(ost_internal_force(mesh, field, 0.0, u, force, NULL));
             assert_close(largest(ctx, 3 * mesh->owned_nodes, force) / stiffest, 0.0, 1e-12);
             assert_success(ost_block_matrix_apply(system->matrix, u, force));
             assert_close(largest(ctx, 3 * mesh->owned_nodes, force) / stiffest, 0.0, 1e-12);
@@ -232,7 +232,7 @@ static void the_matrix_is_symmetric_and_gives_the_forces_of_the_tets(void **stat
         const double xkx = dot(ctx, owned, x, kx);
         assert_true(xkx > 0.0);
         assert_close(dot(ctx, owned, x, ky) / xkx, dot(ctx, owned, y, kx) / xkx, 1e-13);
-        assert_success(ost_internal_force(mesh, field, x, force, magnitude));
+        assert_success(ost_internal_force(mesh, field, 0.0, x, force, magnitude));
         const double size = largest(ctx, owned, force);
         for (OstLocal i = 0; i < owned; i++) {
             assert_close(kx[i] / size, force[i] / size, 1e-12);
@@ -399,7 +399,7 @@ static double ring_energy(OstContext *of, int refinement, int at_points)
     double *force = numbers(3 * (size_t)mesh->owned_nodes);
     for (OstLocal node = 0; node < mesh->node_count; node++)
         quadratic_at(mesh->coordinates + 3 * node, u + 3 * node);
-    assert_success(ost_internal_force(mesh, field, u, force, NULL));
+    assert_success(ost_internal_force(mesh, field, 0.0, u, force, NULL));
     const double energy = 0.5 * dot(of, 3 * mesh->owned_nodes, u, force);
     free(u);
     free(force);

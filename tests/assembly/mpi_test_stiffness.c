@@ -56,7 +56,7 @@ static void rigid_motions_meet_no_force(void **state)
         largest(ctx, 9 * body.system->matrix->row_start[body.system->matrix->rows], body.system->matrix->value);
     for (int mode = 0; mode < 6; mode++) {
         rigid_motion(mesh, mode, u);
-        assert_success(ost_internal_force(mesh, body.field, u, force, NULL));
+        assert_success(ost_internal_force(mesh, body.field, 0.0, u, force, NULL));
         assert_close(largest(ctx, 3 * mesh->owned_nodes, force) / stiffest, 0.0, 1e-12);
         assert_success(ost_block_matrix_apply(body.system->matrix, u, force));
         assert_close(largest(ctx, 3 * mesh->owned_nodes, force) / stiffest, 0.0, 1e-12);
@@ -78,11 +78,11 @@ static void the_matrix_gives_the_forces_summed_tet_by_tet(void **state)
     double *magnitude = numbers(owned);
     for (OstLocal i = 0; i < 3 * mesh->node_count; i++)
         u[i] = random_of(mesh->node_label[i / 3], i % 3);
-    assert_success(ost_internal_force(mesh, body.field, u, by_tets, NULL));
+    assert_success(ost_internal_force(mesh, body.field, 0.0, u, by_tets, NULL));
     assert_success(ost_block_matrix_apply(body.system->matrix, u, by_matrix));
     const double size = largest(ctx, (OstLocal)owned, by_tets);
     assert_true(size > 1.0);
-    assert_success(ost_internal_force(mesh, body.field, u, by_tets, magnitude));
+    assert_success(ost_internal_force(mesh, body.field, 0.0, u, by_tets, magnitude));
     for (size_t i = 0; i < owned; i++)
         assert_true(fabs(by_tets[i]) <= magnitude[i] && magnitude[i] < 1e3 * size);
     for (size_t i = 0; i < owned; i++)

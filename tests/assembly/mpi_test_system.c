@@ -40,7 +40,7 @@ static void check_patch(AxesOfBody axes)
     double *rhs = numbers(3 * (size_t)system->matrix->rows);
     double *v = numbers(3 * (size_t)system->matrix->rows);
     double *u = numbers(3 * (size_t)mesh->node_count);
-    assert_success(ost_system_right_hand_side(system, field, force, rhs));
+    assert_success(ost_system_right_hand_side(system, field, 0.0, force, rhs));
     solve(ctx, system->matrix, rhs, v);
     assert_success(ost_system_displacement(system, 1.0, v, u));
     for (OstLocal node = 0; node < mesh->node_count; node++) { /* ghosts too */
@@ -49,7 +49,7 @@ static void check_patch(AxesOfBody axes)
         for (int i = 0; i < 3; i++)
             assert_close(u[3 * node + i], expected[i], 1e-10);
     }
-    assert_success(ost_internal_force(mesh, field, u, force, NULL));
+    assert_success(ost_internal_force(mesh, field, 0.0, u, force, NULL));
     const double size = largest(ctx, 3 * mesh->owned_nodes, force);
     for (OstLocal node = 0; node < mesh->owned_nodes; node++)
         for (int i = 0; i < 3 && !is_on_surface(mesh->coordinates + 3 * node); i++)
@@ -174,7 +174,7 @@ static void the_right_hand_side_is_minus_k_g(void **state)
         ost_supports_get(held.supports, node, p, g + 3 * node);
     }
     assert_success(ost_block_matrix_apply(free_system->matrix, g, kg));
-    assert_success(ost_system_right_hand_side(held.system, held.field, force, rhs));
+    assert_success(ost_system_right_hand_side(held.system, held.field, 0.0, force, rhs));
     const double size = largest(ctx, 3 * mesh->owned_nodes, kg);
     assert_true(size > 1.0);
     for (OstLocal row = 0; row < held.system->matrix->rows; row++) {
@@ -216,7 +216,7 @@ static void effects_that_are_off_are_not_entered(void **state)
     OstSystem *system = make_system(mesh, supports, field);
     double *force = numbers(3 * (size_t)mesh->node_count);
     double *rhs = numbers(3 * (size_t)system->matrix->rows);
-    assert_success(ost_system_right_hand_side(system, field, force, rhs));
+    assert_success(ost_system_right_hand_side(system, field, 0.0, force, rhs));
     assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries, given);
     assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_SLIDING).entries, sliding);
     free(force);
@@ -279,7 +279,7 @@ static void ranks_agree_with_one_rank(void **state)
         for (OstLocal i = 0; i < 3 * matrix->rows; i++)
             v[i] = random_of(mesh->node_label[held.system->node_of_row[i / 3]], i % 3);
         assert_success(ost_block_matrix_apply(matrix, v, av));
-        assert_success(ost_system_right_hand_side(held.system, held.field, force, rhs));
+        assert_success(ost_system_right_hand_side(held.system, held.field, 0.0, force, rhs));
         for (OstLocal i = 0; i < 3 * matrix->rows; i++) {
             nodal[0][3 * held.system->node_of_row[i / 3] + i % 3] = av[i];
             nodal[1][3 * held.system->node_of_row[i / 3] + i % 3] = rhs[i];

@@ -24,10 +24,12 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(
         CUBE "materials:\n  - region: all\n    youngs_modulos: 1\n",
         "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
-        "youngs_modulus, poissons_ratio, shear_modulus, density, axes");
-    assert_refused("mehs: 1\n", "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
-                                "element, materials, constraints, loads, accuracy, solver, output, watch, path, large_rotation, "
-                                "formulation, verify");
+        "youngs_modulus, poissons_ratio, shear_modulus, density, axes, eigenstrain");
+    assert_refused(
+        "mehs: 1\n",
+        "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
+        "element, materials, constraints, springs, loads, accuracy, solver, output, watch, path, large_rotation, "
+        "formulation, verify");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, out_of_reach, relative_error");
@@ -35,7 +37,44 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
                    "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
-                   "point_force, traction, pressure, gravity, body_force, on, share, region, time");
+                   "point_force, traction, pressure, gravity, body_force, on, share, region, follows, time");
+}
+
+#define SPRING(text) CUBE STEEL "springs:\n  - {" text "}\n"
+
+static void springs_say_what_is_wrong(void **state)
+{
+    (void)state;
+    assert_refused(SPRING("on: {all: true}"), "4:5: ...");
+    assert_refused(SPRING("spring: 2"), "4:5: key 'on' is missing in springs[0]");
+    assert_refused(SPRING("on: {all: true}, spring: -2"),
+                   "4:31: springs[0].spring: found '-2', expected a stiffness, ...");
+    assert_refused(SPRING("on: {all: true}, foundation: {normal: 0}"),
+                   "4:35: the stiffness is 0, so this spring holds nothing; leave it out");
+    assert_refused(SPRING("on: {all: true}, foundation: {normal: 1}, direction: [1, 0, 0]"),
+                   "4:59: 'direction' and {normal, tangential} exclude each other; give one number "
+                   "with it");
+    assert_refused(SPRING("on: {all: true}, spring: {normal: 1}"), "4:31: ...");
+}
+
+static void eigenstrains_say_what_is_wrong(void **state)
+{
+    (void)state;
+    assert_refused(
+        MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: [1, 2]"),
+        "3:72: materials[0].eigenstrain: found a list of 2, expected a strain: one number, three along e1, e2, "
+        "e3, or six with the shears 12, 23, 31");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {per_unit: 1}"),
+                   "3:72: key 'change' is missing in materials[0].eigenstrain");
+}
+
+static void only_a_pressure_follows(void **state)
+{
+    (void)state;
+    assert_refused(LOAD("on: {all: true}, traction: [1, 0, 0], follows: true"),
+                   "4:53: 'follows' belongs to pressure, not to 'traction'");
+    assert_refused(LOAD("on: {all: true}, pressure: 1, follows: maybe"),
+                   "4:45: unknown answer 'maybe'. Known: false, true");
 }
 
 static void missing_doubled_and_empty_keys_are_refused(void **state)
@@ -222,8 +261,7 @@ static void bad_settings_are_refused(void **state)
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
     assert_refused(CUBE STEEL "accuracy: {relative_error: 1}\n",
                    "3:28: accuracy.relative_error: found '1', expected a number above 0 and below 1");
-    assert_refused(CUBE STEEL "large_rotation: yes\n",
-                   "3:17: unknown answer 'yes'. Known: auto, on, off");
+    assert_refused(CUBE STEEL "large_rotation: yes\n", "3:17: unknown answer 'yes'. Known: auto, on, off");
     assert_refused(CUBE STEEL "formulation: corotational\n",
                    "3:14: unknown formulation 'corotational'. Known: consistent, classical");
     assert_refused(CUBE STEEL "large_rotation: off\nformulation: classical\n",
@@ -277,6 +315,9 @@ static void bad_settings_are_refused(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_missing_file_is_named),
     cmocka_unit_test(an_unknown_key_comes_with_the_nearest),
+    cmocka_unit_test(springs_say_what_is_wrong),
+    cmocka_unit_test(eigenstrains_say_what_is_wrong),
+    cmocka_unit_test(only_a_pressure_follows),
     cmocka_unit_test(missing_doubled_and_empty_keys_are_refused),
     cmocka_unit_test(wrong_types_say_what_was_found),
     cmocka_unit_test(numbers_are_whole_and_finite),

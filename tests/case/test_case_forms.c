@@ -140,6 +140,49 @@ static void plane_and_axis_are_transversely_isotropic(void **state)
     assert_constants((double[9]){2, 2, 8, 0.25, 0.125, 0.5, 0.8, 3.2, 3.2});
 }
 
+static void an_eigenstrain_has_four_forms(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double strain[6];
+        int isotropic;
+    } forms[] = {{"0.5", {0.5, 0.5, 0.5}, 1},
+                 {"[1, 2, 3]", {1, 2, 3}, 0},
+                 {"[1, 1, 1, 0, 0, 4]", {1, 1, 1, 0, 0, 4}, 0},
+                 {"{per_unit: [1, 2, 3], change: -2}", {-2, -4, -6}, 0}};
+    for (int f = 0; f < 4; f++) {
+        char text[256];
+        snprintf(text, sizeof text, "youngs_modulus: 2, poissons_ratio: 0.3, eigenstrain: %s", forms[f].text);
+        read_material(text);
+        for (int p = 0; p < 6; p++)
+            assert_close(c->materials[0].eigenstrain[p], forms[f].strain[p], 0.0);
+        assert_int_equal(c->materials[0].material.isotropic, forms[f].isotropic);
+        ost_case_destroy(&c);
+    }
+}
+
+static void springs_are_read(void **state)
+{
+    (void)state;
+    char whole[1024];
+    snprintf(
+        whole, sizeof whole,
+        "%s%ssprings:\n  - {on: {boundary: xmin}, foundation: 4}\n  - {on: {boundary: xmin}, foundation: {normal: 5}}\n"
+        "  - {on: {vertices: [3]}, spring: 6}\n  - {on: {vertices: [3]}, spring: 7, direction: [0, 0, 2]}\n",
+        cube, steel);
+    static const double along[] = {4, 5, 6, 7}, across[] = {4, 0, 6, 0};
+    assert_success(read_text(whole, &c));
+    assert_int_equal(c->spring_count, 4);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(c->springs[i].kind, i < 2 ? OST_SPRING_FOUNDATION : OST_SPRING_POINT);
+        assert_close(c->springs[i].along, along[i], 0.0);
+        assert_close(c->springs[i].across, across[i], 0.0);
+        assert_close(c->springs[i].direction[2], i == 3 ? 1.0 : 0.0, 0.0);
+    }
+    ost_case_destroy(&c);
+}
+
 static const OstAxesSpec *read_axes(const char *text)
 {
     char whole[1024];
@@ -390,6 +433,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(three_moduli_and_one_ratio_are_the_stable_family),
     cmocka_unit_test(nine_constants_go_by_name),
     cmocka_unit_test(plane_and_axis_are_transversely_isotropic),
+    cmocka_unit_test(an_eigenstrain_has_four_forms),
+    cmocka_unit_test(springs_are_read),
     cmocka_unit_test(axes_of_one_frame_are_read),
     cmocka_unit_test(axes_along_a_line_are_read),
     cmocka_unit_test(axes_from_elsewhere_are_read),

@@ -45,7 +45,8 @@ static void a_bare_isotropic_body_calls_for_nothing(void **state)
     assert_effect(OST_EFFECT_LARGE_ROTATION, 1,
                   "auto: a linear solve, and Newton's method (consistent) if linear theory is off by more than 2 %");
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
-        assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e), e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION);
+        assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e),
+                         e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION);
 }
 
 static void large_rotations_are_explained(void **state)

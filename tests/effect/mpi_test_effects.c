@@ -30,6 +30,11 @@
 #define POKED "loads: [{on: {box: {min: [2, 1, 1], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define SPREAD "loads: [{on: {box: {min: [2, 0, 0], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
+#define PRESSED "loads: [{on: {boundary: xmax}, pressure: 1}]\n"
+#define FOLLOWED "loads: [{on: {boundary: xmax}, pressure: 1, follows: true}]\n"
+#define SWOLLEN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
+#define FOUNDED "springs: [{on: {boundary: xmin}, foundation: 1e6}]\n"
+#define SPRUNG "springs: [{on: {boundary: xmin}, spring: 1e6}]\n"
 #define ALONG "path: {times: [0.5, 1]}\n"
 #define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
@@ -57,6 +62,10 @@ static const struct {
     ROW(OST_EFFECT_POINT_FORCE) = {BLOCK SOFT HELD POKED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_SURFACE_LOAD) = {BLOCK SOFT HELD SPREAD NO_FIELDS, BLOCK SOFT HELD POKED NO_FIELDS},
     ROW(OST_EFFECT_BODY_FORCE) = {BLOCK SOFT HELD HEAVY NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_FOLLOWER_PRESSURE) = {BLOCK SOFT HELD FOLLOWED NO_FIELDS, BLOCK SOFT HELD PRESSED NO_FIELDS},
+    ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_FOUNDATION) = {BLOCK SOFT FOUNDED PULLED NO_FIELDS, BLOCK SOFT SPRUNG PULLED NO_FIELDS},
+    ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
 #undef ROW

@@ -78,6 +78,25 @@ static inline void uniform_elasticity(const double c[36], OstElasticity *elastic
     fill_batch(c, elasticity->c[0]);
 }
 
+/* A large eigenstrain, and the displacement of tets that it strains freely. */
+static inline void swell_elasticity(OstElasticity *elasticity)
+{
+    static const double e0[6] = {0.1, -0.05, 0.2, 0.04, -0.06, 0.08};
+    elasticity->eigenstrained = 1;
+    for (int p = 0; p < 6; p++)
+        elasticity->e0[0][p] = e0[p] + (OstSimd){0};
+}
+
+static inline void swell_freely(int nodes, const OstSimd *x, const OstElasticity *elasticity, OstSimd *u)
+{
+    const OstSimd *e = elasticity->e0[0];
+    for (int a = 0; a < nodes; a++, x += 3, u += 3) {
+        u[0] = e[0] * x[0] + 0.5 * e[3] * x[1] + 0.5 * e[5] * x[2];
+        u[1] = 0.5 * e[3] * x[0] + e[1] * x[1] + 0.5 * e[4] * x[2];
+        u[2] = 0.5 * e[5] * x[0] + 0.5 * e[4] * x[1] + e[2] * x[2];
+    }
+}
+
 /* C of the ply in random axes. */
 static inline void turned_ply(double c[36])
 {

@@ -538,7 +538,45 @@ static void means_are_of_the_strain_u_minus_i(void **state)
     }
 }
 
+static void derivatives_hold_with_an_eigenstrain(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        Case test;
+        make_case(&kinds[kind], moderate, 0.02, &test);
+        swell_elasticity(&test.elasticity);
+        assert_derivatives(&test);
+    }
+}
+
+/* Swollen freely by e0 and turned: x -> Q (I + e0) x, in both forms. */
+static void free_swelling_costs_nothing(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
+            Case test;
+            OstSimd energy, force[WIDTH];
+            OstMeans means;
+            make_case(&kinds[kind], moderate, 0.0, &test);
+            swell_elasticity(&test.elasticity);
+            swell_freely(test.element->nodes, test.x, &test.elasticity, test.u);
+            rotate_case(1.2, &test);
+            energy_of(&test, (OstFormulation)f, &energy);
+            force_of(&test, (OstFormulation)f, force);
+            ost_large_rotation_means(test.element, test.x, &test.elasticity, test.u, &means);
+            for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+                assert_true(energy[slot] < 1e-24 * test.c[0]);
+                assert_true(largest_in(test.width, force, slot) < 1e-12 * test.c[0]);
+                for (int p = 0; p < 6; p++)
+                    assert_close(means.strain[p][slot], test.elasticity.e0[0][p][slot], 1e-13);
+            }
+        }
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(derivatives_hold_with_an_eigenstrain),
+    cmocka_unit_test(free_swelling_costs_nothing),
     cmocka_unit_test(force_and_stiffness_are_derivatives_of_the_energy),
     cmocka_unit_test(forces_balance),
     cmocka_unit_test(a_rigid_rotation_costs_nothing),

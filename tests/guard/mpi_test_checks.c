@@ -55,7 +55,7 @@ static Solved make_held(int order, const double given[3], double load)
         }
     assert_success(ost_problem_create(&parts, &solved.problem));
     free(constraints);
-    assert_success(ost_problem_stiffness(solved.problem, NULL, NULL));
+    assert_success(ost_problem_stiffness(solved.problem, 1.0, NULL, NULL));
     const OstSystem *system = solved.problem->system;
     const OstLocal length = 3 * system->matrix->rows;
     double *rhs = numbers((size_t)length), *v = numbers((size_t)length);

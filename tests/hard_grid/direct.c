@@ -47,7 +47,8 @@ static OstStatus assemble(const OstScene *scene, HardDirect *direct)
     OstContext *ctx = scene->ctx;
     OST_TRY(ost_scene_supports(scene, 0, &direct->supports));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &direct->force, 3 * (size_t)scene->mesh->node_count)));
-    OST_TRY(ost_scene_loads(scene, 0, NULL, direct->force));
+    OstFollower *none = NULL; /* no point of the grid has a pressure that follows the surface */
+    OST_TRY(ost_scene_loads(scene, 0, NULL, direct->force, &none));
     OST_TRY(ost_system_create(scene->mesh, direct->supports, &direct->system));
     OstStatus status = ost_system_fill(direct->system, scene->field);
     const size_t columns = 3 * (size_t)direct->system->matrix->columns;
@@ -65,7 +66,7 @@ static OstStatus assemble(const OstScene *scene, HardDirect *direct)
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &direct->d, columns);
     if (status == OST_SUCCESS)
-        status = ost_system_right_hand_side(direct->system, scene->field, direct->force, direct->f);
+        status = ost_system_right_hand_side(direct->system, scene->field, 0.0, direct->force, direct->f);
     return ost_agree(ctx, status);
 }
 

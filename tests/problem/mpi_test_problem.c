@@ -80,13 +80,13 @@ static void force_is_stiffness_times_displacement(void **state)
         const OstMesh *mesh = made.mesh;
         OstStiffness stiffness;
         assert_true(ost_problem_is_linear(made.problem));
-        assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+        assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
         assert_int_equal(3 * stiffness.global_rows, ost_problem_unknowns(made.problem));
         double *v = numbers(3 * (size_t)stiffness.columns), *product = numbers(3 * (size_t)stiffness.rows);
         double *u = numbers(3 * (size_t)mesh->node_count), *force = numbers(3 * (size_t)mesh->owned_nodes);
         make_displacement(&made, v, u);
         assert_success(ost_block_matrix_apply(made.problem->system->matrix, v, product));
-        assert_success(ost_problem_force(made.problem, u, force));
+        assert_success(ost_problem_force(made.problem, 1.0, u, force));
         const double size = largest(ctx, 3 * stiffness.rows, product);
         assert_true(size > 0.0);
         for (OstLocal row = 0; row < stiffness.rows; row++) {
@@ -97,7 +97,7 @@ static void force_is_stiffness_times_displacement(void **state)
                 assert_close(product[3 * row + i], along[i], 1e-12 * size);
         }
         double energy;
-        assert_success(ost_problem_energy(made.problem, u, &energy));
+        assert_success(ost_problem_energy(made.problem, 1.0, u, &energy));
         const double work = dot(ctx, 3 * mesh->owned_nodes, u, force);
         assert_true(energy > 0.0);
         assert_close(0.5 * work / energy, 1.0, 1e-12);
@@ -114,18 +114,18 @@ static void values_filled_again_are_the_same(void **state)
     (void)state;
     Made made = make(1, 0.0);
     OstStiffness first, again;
-    assert_success(ost_problem_stiffness(made.problem, NULL, &first));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &first));
     const size_t bytes = 9 * (size_t)first.row_start[first.rows] * sizeof(double);
     double *values = malloc(bytes + 1);
     memcpy(values, first.value, bytes);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_ptr_equal(again.value, first.value);
     assert_memory_equal(again.value, values, bytes);
     ost_problem_release_scatter(made.problem); /* a linear problem keeps its values without it */
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_ptr_equal(again.value, first.value);
     ost_problem_release_stiffness(made.problem);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &again));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &again));
     assert_memory_equal(again.value, values, bytes);
     free(values);
     destroy(&made);
@@ -138,9 +138,9 @@ static void a_nonlinear_problem_fills_again_without_its_map(void **state)
     Made made = make(1, 0.0);
     OstStiffness stiffness;
     made.problem->linear = 0;
-    assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
     ost_problem_release_scatter(made.problem);
-    assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
     assert_non_null(made.problem->system->block_of_tet);
     destroy(&made);
 }
@@ -165,7 +165,7 @@ static void large_rotations_derive_from_their_energy(void **state)
         OstStiffness stiffness;
         ost_problem_set_formulation(made.problem, OST_FORMULATION_CONSISTENT);
         assert_false(ost_problem_is_linear(made.problem));
-        assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness));
+        assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness));
         double *v = numbers(3 * (size_t)stiffness.columns), *product = numbers(3 * (size_t)stiffness.rows);
         double *direction = numbers(nodes), *u = numbers(nodes), *to = numbers(nodes);
         double *force = numbers(owned), *beside[2] = {numbers(owned), numbers(owned)};
@@ -175,15 +175,15 @@ static void large_rotations_derive_from_their_energy(void **state)
             for (int i = 0; i < 3; i++) /* turned and strained by some 0.3 */
                 u[3 * node + i] =
                     0.3 * mesh->coordinates[3 * node + (i + 1) % 3] + 0.02 * random_of(mesh->node_label[node], 40 + i);
-        assert_success(ost_problem_force(made.problem, u, force));
+        assert_success(ost_problem_force(made.problem, 1.0, u, force));
         for (int side = 0; side < 2; side++) {
             step_along(mesh, u, side ? step : -step, direction, to);
-            assert_success(ost_problem_energy(made.problem, to, &energy[side]));
-            assert_success(ost_problem_force(made.problem, to, beside[side]));
+            assert_success(ost_problem_energy(made.problem, 1.0, to, &energy[side]));
+            assert_success(ost_problem_force(made.problem, 1.0, to, beside[side]));
         }
         const double slope = dot(ctx, (OstLocal)owned, direction, force);
         assert_close((energy[1] - energy[0]) / (2.0 * step) / slope, 1.0, 1e-5);
-        assert_success(ost_problem_stiffness(made.problem, u, &stiffness));
+        assert_success(ost_problem_stiffness(made.problem, 1.0, u, &stiffness));
         assert_success(ost_block_matrix_apply(made.problem->system->matrix, v, product));
         const double size = largest(ctx, 3 * stiffness.rows, product);
         for (OstLocal row = 0; row < stiffness.rows; row++) {
@@ -198,7 +198,7 @@ static void large_rotations_derive_from_their_energy(void **state)
                 assert_close(product[3 * row + i] / size, along[i] / size, 1e-5);
         }
         const double curvature = dot(ctx, 3 * stiffness.rows, v, product);
-        assert_success(ost_problem_definite_stiffness(made.problem, u, &stiffness));
+        assert_success(ost_problem_definite_stiffness(made.problem, 1.0, u, &stiffness));
         assert_success(ost_block_matrix_apply(made.problem->system->matrix, v, product));
         assert_true(dot(ctx, 3 * stiffness.rows, v, product) > curvature);
         double *all[] = {v, product, direction, u, to, force, beside[0], beside[1]};
@@ -218,7 +218,7 @@ static void a_new_formulation_makes_the_stiffness_anew(void **state)
     double *u = numbers(3 * (size_t)mesh->node_count);
     for (OstLocal node = 0; node < mesh->node_count; node++)
         u[3 * node] = mesh->coordinates[3 * node + 1];
-    assert_success(ost_problem_stiffness(made.problem, u, &stiffness));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, u, &stiffness));
     const size_t bytes = 9 * (size_t)stiffness.row_start[stiffness.rows] * sizeof(double);
     double *linear = malloc(bytes + 1);
     memcpy(linear, stiffness.value, bytes);
@@ -226,9 +226,9 @@ static void a_new_formulation_makes_the_stiffness_anew(void **state)
     for (int f = OST_FORMULATION_CLASSICAL; f >= OST_FORMULATION_LINEAR; f--) {
         ost_problem_set_formulation(made.problem, (OstFormulation)f);
         assert_int_equal(ost_problem_formulation(made.problem), f);
-        assert_success(ost_problem_stiffness(made.problem, u, &stiffness));
+        assert_success(ost_problem_stiffness(made.problem, 1.0, u, &stiffness));
         assert_true((memcmp(stiffness.value, linear, bytes) == 0) == (f == OST_FORMULATION_LINEAR || bytes == 0));
-        assert_success(ost_problem_stiffness(made.problem, NULL, &stiffness)); /* at u = 0 all agree */
+        assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &stiffness)); /* at u = 0 all agree */
         assert_memory_equal(stiffness.value, linear, bytes);
     }
     free(u);
@@ -278,14 +278,14 @@ static void loads_and_prescribed_displacements_scale_with_t(void **state)
     (void)state;
     Made made = make(1, 0.3);
     const OstMesh *mesh = made.mesh;
-    assert_success(ost_problem_stiffness(made.problem, NULL, NULL));
+    assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, NULL));
     const OstLocal numbers_of_rows = 3 * made.problem->system->matrix->rows, size = 3 * mesh->owned_nodes;
     double *whole = numbers((size_t)size), *part = numbers((size_t)size);
     double *rhs = numbers((size_t)numbers_of_rows), *rhs_part = numbers((size_t)numbers_of_rows);
     double *zero = numbers((size_t)numbers_of_rows);
     double *u = numbers(3 * (size_t)mesh->node_count), *u_part = numbers(3 * (size_t)mesh->node_count);
-    ost_problem_load(made.problem, 1.0, whole);
-    ost_problem_load(made.problem, 0.25, part);
+    ost_problem_load(made.problem, 1.0, NULL, whole);
+    ost_problem_load(made.problem, 0.25, NULL, part);
     for (OstLocal i = 0; i < size; i++)
         assert_close(part[i], 0.25 * whole[i], 0.0);
     assert_success(ost_problem_right_hand_side(made.problem, 1.0, rhs));

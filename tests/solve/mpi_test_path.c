@@ -142,13 +142,13 @@ static void a_program_gives_tables_too(void **state)
         force[3 * n] = 7.0;
     }
     assert_success(ost_problem_create(&parts, &problem));
-    assert_success(ost_problem_stiffness(problem, NULL, NULL));
+    assert_success(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     memset(u, 0, nodes * sizeof *u);
     double *v = calloc(3 * (size_t)mesh->node_count + 1, sizeof *v);
     assert_success(ost_problem_displacement(problem, 0.5, v, u));
     for (OstLocal n = 0; n < mesh->node_count; n++)
         assert_close(u[3 * n + 2], (0.5 * 0.25 + 3.0) * (double)mesh->node_label[n], 1e-12 * 100.0);
-    ost_problem_load(problem, 0.5, u);
+    ost_problem_load(problem, 0.5, NULL, u);
     for (size_t i = 0; i < owned; i++)
         assert_close(u[i], i % 3 == 0 ? 21.0 : 0.0, 1e-13);
     ost_problem_destroy(&problem);

@@ -72,7 +72,7 @@ static void solve_directly(Pose *pose)
     double *v = calloc(3 * (size_t)pose->system->matrix->rows, sizeof *v);
     double *force = calloc(3 * (size_t)pose->mesh->node_count, sizeof *force);
     press(pose, force);
-    assert_success(ost_system_right_hand_side(pose->system, pose->field, force, rhs));
+    assert_success(ost_system_right_hand_side(pose->system, pose->field, 0.0, force, rhs));
     options.method = OST_METHOD_DIRECT;
     assert_success(ost_solver_create(ctx, pose->system->matrix, &nothing, &options, &solver));
     assert_success(ost_solver_solve(solver, rhs, v, &report));

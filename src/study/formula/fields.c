@@ -28,10 +28,13 @@ static OstStatus prepare_uniform_stress(const OstCase *c, const double *paramete
     const OstCaseMaterial *stated = &c->materials[0];
     const double *axes = stated->axes.kind == OST_AXES_NONE ? world : stated->axes.fixed;
     double *g = data->constant + GRADIENT;
-    double s[36], strain[6];
+    double s[36], strain[6], eigenstrain[6];
     OST_TRY(ost_formula_wants(c, !ost_axes_vary(&stated->axes), "axes that are the same everywhere"));
     ost_material_rotate_compliance(stated->material.compliance, axes, s);
     ost_apply6(s, parameter, strain);
+    ost_strain_to_world(stated->eigenstrain, axes, eigenstrain);
+    for (int p = 0; p < 6; p++)
+        strain[p] += eigenstrain[p];
     for (int i = 0; i < 3; i++) {
         const int next = (i + 1) % 3;
         g[4 * i] = strain[i];

@@ -88,25 +88,36 @@ static OstStatus exact_gradient(const void *data, const double point[3], double 
     return OST_SUCCESS;
 }
 
+/* The material's axes at a point: the world's if it has none. */
+static OstStatus exact_axes(const OstExact *exact, const double point[3], double axes[9])
+{
+    static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    memcpy(axes, world, sizeof world);
+    if (exact->material.isotropic || exact->axes.kind == OST_AXES_NONE)
+        return OST_SUCCESS;
+    return ost_axes_at(exact->ctx, &exact->axes, point, axes);
+}
+
 static OstStatus exact_stiffness(const void *data, const double point[3], double c[36])
 {
     const OstExact *exact = data;
     double axes[9];
-    if (exact->material.isotropic || exact->axes.kind == OST_AXES_NONE) {
-        memcpy(c, exact->material.stiffness, sizeof exact->material.stiffness);
-        return OST_SUCCESS;
-    }
-    OST_TRY(ost_axes_at(exact->ctx, &exact->axes, point, axes));
+    OST_TRY(exact_axes(exact, point, axes));
     ost_material_rotate_stiffness(exact->material.stiffness, axes, c);
     return OST_SUCCESS;
 }
 
 static OstStatus exact_stress(const void *data, const double point[3], double stress[6])
 {
-    double g[9], c[36];
+    const OstExact *exact = data;
+    double g[9], c[36], axes[9], eigenstrain[6];
     OST_TRY(exact_gradient(data, point, g));
     OST_TRY(exact_stiffness(data, point, c));
-    const double strain[6] = {g[0], g[4], g[8], g[1] + g[3], g[5] + g[7], g[6] + g[2]};
+    OST_TRY(exact_axes(exact, point, axes));
+    ost_strain_to_world(exact->eigenstrain, axes, eigenstrain);
+    double strain[6] = {g[0], g[4], g[8], g[1] + g[3], g[5] + g[7], g[6] + g[2]};
+    for (int p = 0; p < 6; p++)
+        strain[p] -= eigenstrain[p];
     ost_apply6(c, strain, stress);
     return OST_SUCCESS;
 }
@@ -185,6 +196,7 @@ OstStatus ost_exact_create(const OstCase *c, OstExact *exact)
     OST_TRY(ost_formula_wants(c, kind != OST_AXES_CELLS && kind != OST_AXES_GRADIENT,
                               "axes that are given by a formula too"));
     exact->material = stated->material;
+    memcpy(exact->eigenstrain, stated->eigenstrain, sizeof stated->eigenstrain);
     exact->ctx = c->ctx;
     exact->axes = stated->axes;
     exact->field =

@@ -45,7 +45,8 @@ typedef struct OstExact {
     const OstFormula *formula;
     OstFormulaData data;
     OstMaterial material;
-    OstAxesSpec axes; /* borrowed from the case */
+    double eigenstrain[6]; /* in material axes */
+    OstAxesSpec axes;      /* borrowed from the case */
 } OstExact;
 
 /* Local. Makes the closed-form solution of the case's verify section. It refers to the case and to itself: the case
