@@ -22,6 +22,7 @@
 #include "orthostat/case.h"
 #include "orthostat/context.h"
 #include "orthostat/field.h"
+#include "orthostat/formulation.h"
 #include "orthostat/ledger.h"
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"

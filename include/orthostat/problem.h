@@ -3,6 +3,7 @@
 #define ORTHOSTAT_PROBLEM_H
 
 #include "orthostat/field.h"
+#include "orthostat/formulation.h"
 #include "orthostat/mesh.h"
 
 OST_API_BEGIN
@@ -26,9 +27,10 @@ typedef struct OstProblemParts {
     const OstMesh *mesh;
     const OstMaterialField *field;
     const OstNodeConstraint *constraints;
-    OstLocal constraint_count; /* on this rank; directions of one node may repeat, but not contradict each other */
-    int free_body;             /* nothing holds the body, its loads balance, and there are no constraints */
-    const double *force;       /* 3 × owned_nodes: the load at t = 1, or NULL for none */
+    OstLocal constraint_count;  /* on this rank; directions of one node may repeat, but not contradict each other */
+    int free_body;              /* nothing holds the body, its loads balance, and there are no constraints */
+    const double *force;        /* 3 × owned_nodes: the load at t = 1, or NULL for none */
+    OstFormulation formulation; /* 0: linear */
 } OstProblemParts;
 
 /* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
@@ -45,6 +47,11 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
  * half the work of the internal force. */
 int ost_problem_is_linear(const OstProblem *problem);
 
+/* Local. How strain follows from displacements. A new formulation may be set at any time, on all ranks alike: energy,
+ * force and stiffness are of the one set last. */
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation);
+OstFormulation ost_problem_formulation(const OstProblem *problem);
+
 /* Local. */
 const OstMesh *ost_problem_mesh(const OstProblem *problem);
 const OstMaterialField *ost_problem_field(const OstProblem *problem);
@@ -56,7 +63,7 @@ void ost_problem_set_load(OstProblem *problem, const double *force);
 /* Local. load(t): t times the load at t = 1. */
 void ost_problem_load(const OstProblem *problem, double t, double *force);
 
-/* Collective. The strain energy of the body under u. */
+/* Collective. The strain energy of the body under u. (The classical formulation's force is not its gradient.) */
 OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy);
 
 /* Local. The internal force of u, the gradient of the energy, summed tet by tet without the stiffness matrix. */
@@ -77,6 +84,23 @@ typedef struct OstStiffness {
  * pattern that is made the first time and kept. Raises OST_LIMIT_EXCEEDED before anything large is made where a library
  * below could not number the unknowns. `stiffness` may be NULL. */
 OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
+
+/* Collective. The same, made positive semidefinite tet by tet: where the energy of a point of a tet has negative
+ * curvature, that is set to 0; elsewhere the stiffness stays as it is. A linear problem's is definite already. */
+OstStatus ost_problem_definite_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness);
+
+/* The most compressed tet at a displacement: at one of its points, of all tets, a line of the undeformed body is
+ * shortened the most, to `stretch` times its length; the stretch is negative where the tet is inverted. */
+typedef struct OstWorstTet {
+    double stretch;
+    OstGlobal tet;      /* its label */
+    int region;         /* index into the mesh's regions */
+    double place[3];    /* its centroid before the deformation */
+    OstGlobal inverted; /* how many tets are inverted at a point */
+} OstWorstTet;
+
+/* Collective. The same on all ranks. */
+OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst);
 
 /* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
  * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "element/element.h"
+#include "element/large_rotation.h"
 
 #include <string.h>
 
@@ -72,7 +73,17 @@ static inline void fetch_ahead(const OstLocal *block_of_tet, size_t first, size_
         }
 }
 
-static void sum_tets(OstSystem *system, const OstMaterialField *field)
+static void tangent_stiffness(const OstBatch *batch, const OstElement *element, const OstTangent *tangent,
+                              OstSimd *blocks)
+{
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(batch, element->nodes, tangent->u, u);
+    ost_large_rotation_stiffness(element, tangent->formulation, batch->x, &batch->elasticity, u, tangent->definite,
+                                 blocks);
+}
+
+/* The linear stiffness if `tangent` is NULL. */
+static void sum_tets(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent)
 {
     const OstMesh *mesh = system->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -82,12 +93,15 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field)
     OstSimd blocks[BLOCK_NUMBERS];
     double numbers[BLOCK_NUMBERS * OST_SIMD_WIDTH];
     ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.stretch_suffices = element->points == 0; /* only the stiffness is computed from this batch */
+    batch.elasticity.stretch_suffices = element->points == 0 && !tangent; /* only the linear stiffness does without C */
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_SIMD_WIDTH, mesh->tet_count),
                     pairs * (size_t)least(first + 2 * OST_SIMD_WIDTH, mesh->tet_count), system->matrix->value);
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
-        element->stiffness(batch.x, &batch.elasticity, blocks);
+        if (tangent)
+            tangent_stiffness(&batch, element, tangent, blocks);
+        else
+            element->stiffness(batch.x, &batch.elasticity, blocks);
         const int width = blocks_by_tet(blocks, count, numbers);
         scatter(&batch, element->nodes, system->block_of_tet, numbers, width, system->matrix->value);
     }
@@ -95,13 +109,18 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field)
 
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field)
 {
+    return ost_system_fill_tangent(system, field, NULL);
+}
+
+OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent)
+{
     OstContext *ctx = system->ctx;
     if (!system->block_of_tet)
         return OST_RAISE(ctx, OST_INVALID_USAGE,
                          "the stiffness cannot be filled again: its scatter map has been released");
     ost_ledger_enter(ctx, OST_LEDGER_STIFFNESS);
     ost_triangle_clear(system->matrix);
-    sum_tets(system, field);
+    sum_tets(system, field, tangent);
     const OstStatus status = ost_triangle_mirror(system->matrix);
     ost_ledger_leave(ctx);
     if (status == OST_SUCCESS)

@@ -4,20 +4,14 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "element/large_rotation.h"
 
 #include <string.h>
 
-typedef void (*ForceKernel)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
-
-/* Adds scale × the kernel's forces on a batch to `force`, which has 3 numbers for each of the first `owned` local
- * nodes. `kernel` is OstElement.force or OstElement.magnitude. */
-static void add_force(const OstBatch *batch, int nodes, ForceKernel kernel, const double *u, double scale,
-                      OstLocal owned, double *force)
+/* Adds scale × forces of a batch to `force`, which has 3 numbers for each of the first `owned` local nodes. */
+static void scatter(const OstBatch *batch, int nodes, const OstSimd *of_tets, double scale, OstLocal owned,
+                    double *force)
 {
-    OstSimd displacement[3 * OST_MAX_TET_NODES];
-    OstSimd of_tets[3 * OST_MAX_TET_NODES];
-    ost_batch_gather_vectors(batch, nodes, u, displacement);
-    kernel(batch->x, &batch->elasticity, displacement, of_tets);
     for (int slot = 0; slot < batch->count; slot++)
         for (int a = 0; a < nodes; a++) {
             const OstLocal node = batch->node[slot][a];
@@ -31,9 +25,17 @@ static void add_force(const OstBatch *batch, int nodes, ForceKernel kernel, cons
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
                              double *magnitude)
 {
+    return ost_internal_force_of(mesh, field, OST_FORMULATION_LINEAR, u, force, magnitude);
+}
+
+OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                const double *u, double *force, double *magnitude)
+{
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
     OstBatch batch;
+    OstSimd displacement[3 * OST_MAX_TET_NODES];
+    OstSimd of_tets[3 * OST_MAX_TET_NODES];
     if (!element)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
                          mesh->nodes_per_tet);
@@ -43,9 +45,16 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
-        add_force(&batch, element->nodes, element->force, u, 1.0, mesh->owned_nodes, force);
-        if (magnitude)
-            add_force(&batch, element->nodes, element->magnitude, u, 1.0, mesh->owned_nodes, magnitude);
+        ost_batch_gather_vectors(&batch, element->nodes, u, displacement);
+        if (formulation == OST_FORMULATION_LINEAR)
+            element->force(batch.x, &batch.elasticity, displacement, of_tets);
+        else
+            ost_large_rotation_force(element, formulation, batch.x, &batch.elasticity, displacement, of_tets);
+        scatter(&batch, element->nodes, of_tets, 1.0, mesh->owned_nodes, force);
+        if (!magnitude)
+            continue;
+        element->magnitude(batch.x, &batch.elasticity, displacement, of_tets);
+        scatter(&batch, element->nodes, of_tets, 1.0, mesh->owned_nodes, magnitude);
     }
     return OST_SUCCESS;
 }
@@ -86,6 +95,8 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstLocal tets[OST_SIMD_WIDTH];
     OstBatch batch;
+    OstSimd displacement[3 * OST_MAX_TET_NODES];
+    OstSimd of_tets[3 * OST_MAX_TET_NODES];
     int count = 0;
     double *g = NULL;
     OST_TRY(OST_NEW(system->ctx, &g, 3 * (size_t)mesh->node_count));
@@ -100,7 +111,9 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
             tets[count++] = tet;
         if (count == OST_SIMD_WIDTH || (count > 0 && tet == mesh->tet_count - 1)) {
             ost_batch_gather(&batch, element, mesh, field, count, tets);
-            add_force(&batch, element->nodes, element->force, g, -1.0, mesh->owned_nodes, force);
+            ost_batch_gather_vectors(&batch, element->nodes, g, displacement);
+            element->force(batch.x, &batch.elasticity, displacement, of_tets);
+            scatter(&batch, element->nodes, of_tets, -1.0, mesh->owned_nodes, force);
             count = 0;
         }
     }

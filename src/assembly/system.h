@@ -6,6 +6,7 @@
 #include "assembly/supports.h"
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/formulation.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Fully
  * constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
@@ -35,6 +36,16 @@ OstStatus ost_system_make_pattern(OstSystem *system);
  * or OST_EFFECT_SLIDING). */
 OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field);
 
+/* Where and how the stiffness of large rotations is taken. */
+typedef struct OstTangent {
+    OstFormulation formulation; /* consistent or classical */
+    const double *u;            /* 3 × node_count */
+    int definite;               /* made positive semidefinite, tet by tet, where it is not? */
+} OstTangent;
+
+/* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
+OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent);
+
 /* Local. Frees block_of_tet; the system cannot be filled again. */
 void ost_system_release_scatter(OstSystem *system);
 
@@ -52,6 +63,24 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
  * a few 1e-16 of these. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, const double *u, double *force,
                              double *magnitude);
+
+/* Local. The same of any formulation. Its rounding errors are a few 1e-16 of the same magnitudes as the linear one's.
+ */
+OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                const double *u, double *force, double *magnitude);
+
+/* Local. Strain energy of this rank's own tets under u, with large rotations. */
+void ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                  const double *u, double *energy);
+
+/* Local. Of this rank's own tets at u: how many are inverted at one of their points, and the one whose principal
+ * stretch is the least at any point (-1 without tets; then the stretch is DBL_MAX). */
+typedef struct OstLeastStretch {
+    OstGlobal inverted;
+    OstLocal tet;
+    double stretch;
+} OstLeastStretch;
+void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLeastStretch *least);
 
 /* Collective. What multigrid needs of the rows: coordinates (3 × rows), material metric (6 × rows: mean over a node's
  * tets of R' diag(sqrt(E_min/E_k)) R, with R the axes) and the six rigid body modes about the middle of all rows, times

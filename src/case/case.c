@@ -144,6 +144,7 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
+    (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
     OST_TRY(ost_copy_string(ctx, path, &(*c)->path));

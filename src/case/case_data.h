@@ -132,6 +132,7 @@ struct OstCase {
     OstWatch *watches;
     struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */
     OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
+    double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
 };

@@ -21,13 +21,19 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};
-    enum { RESIDUAL, OUT_OF_REACH };
-    OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"}, [OUT_OF_REACH] = {.name = "out_of_reach"}};
+    enum { RESIDUAL, OUT_OF_REACH, ERROR };
+    OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"},
+                         [OUT_OF_REACH] = {.name = "out_of_reach"},
+                         [ERROR] = {.name = "relative_error"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[RESIDUAL].value)
         c->solver.accept_attainable = 0;
     if (keys[OUT_OF_REACH].value)
         OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
+    if (keys[ERROR].value)
+        OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
+    if (!(c->relative_error > 0.0 && c->relative_error < 1.0))
+        return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0 and below 1", "");
     if (!keys[RESIDUAL].value)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, keys[RESIDUAL].value, &c->solver.relative_residual));

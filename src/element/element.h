@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ELEMENT_ELEMENT_H
 
 #include "element/elasticity.h"
+#include "element/quadrature.h"
 
 /* One kind of tet, known by its number of nodes (OstMesh.nodes_per_tet). Another kind is another file and another entry
  * in ost_element_of.
@@ -20,6 +21,12 @@ typedef struct OstMeans {
     OstSimd stiff;  /* of m'strain where C is split (elasticity.h), otherwise 0 */
 } OstMeans;
 
+/* One point of each tet. */
+typedef struct OstPoint {
+    OstSimd gradient[OST_MAX_TET_NODES][3]; /* of the shape functions */
+    OstSimd volume;                         /* positive, times the quadrature weight */
+} OstPoint;
+
 typedef struct OstElement {
     int nodes;
     int nodes_per_face;
@@ -28,6 +35,11 @@ typedef struct OstElement {
     /* Quadrature points at which C is needed where it varies within a tet (3 numbers a point); 0 for linear tets. */
     int points;
     void (*places)(const OstSimd *x, OstSimd *places);
+
+    /* The rule that integrates these tets' stiffness, and one of its points. C at its point q is
+     * elasticity->c[ost_elasticity_at(elasticity, q)]. */
+    const OstQuadrature *(*rule)(const OstSimd *x, const OstElasticity *elasticity);
+    void (*evaluate)(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point);
 
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
     void (*stiffness)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks);

@@ -18,6 +18,8 @@
         {a, a, b, 0.0}, w                                            \
     }
 
+static const OstQuadraturePoint tet_degree1[] = {{{0.25, 0.25, 0.25, 0.25}, 1.0}};
+
 /* a = (5 - sqrt 5) / 20, b = 1 - 3a */
 static const OstQuadraturePoint tet_degree2[] = {FOUR(0.138196601125010515, 0.585410196624968454, 0.25)};
 
@@ -44,6 +46,7 @@ static const OstQuadraturePoint triangle_degree5[] = {
     {                                                   \
         (int)(sizeof points / sizeof points[0]), points \
     }
+const OstQuadrature ost_tet_degree1 = RULE(tet_degree1);
 const OstQuadrature ost_tet_degree2 = RULE(tet_degree2);
 const OstQuadrature ost_tet_degree3 = RULE(tet_degree3);
 const OstQuadrature ost_tet_degree5 = RULE(tet_degree5);

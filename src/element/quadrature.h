@@ -14,7 +14,8 @@ typedef struct OstQuadrature {
 } OstQuadrature;
 
 /* Rules for tets. All points are inside and all weights positive, so that a sum of semidefinite matrices stays so.
- * Degree 2, 4 points: integrates products of two linear polynomials without error. */
+ * Degree 1: the centroid. Degree 2, 4 points: integrates products of two linear polynomials without error. */
+extern const OstQuadrature ost_tet_degree1;
 extern const OstQuadrature ost_tet_degree2;
 
 /* Degree 3, 8 points (F. D. Witherden and P. E. Vincent, On the identification of symmetric quadrature rules for finite

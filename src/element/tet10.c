@@ -18,12 +18,6 @@ static const int node_between[4][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9},
 /* An edge counts as straight if its node is this near to its middle, relative to its length. */
 static const double straight = 1e-12;
 
-/* One point of each tet of a batch. */
-typedef struct Point {
-    OstSimd gradient[NODES][3];
-    OstSimd volume; /* determinant of the map / 6; times the quadrature weight after evaluate_weighted */
-} Point;
-
 /* Gradients of the barycentric coordinates, and the determinant of the map. dx/dL_c is the sum over nodes of x times
  * the shape function's derivative: 4 L_c - 1 for vertex c, 4 L_b for the node between c and b. */
 static inline void coordinate_gradients(const OstSimd *x, const double at[4], OstSimd gradient[4][3],
@@ -52,7 +46,8 @@ static inline void coordinate_gradients(const OstSimd *x, const double at[4], Os
     }
 }
 
-static inline void evaluate(const OstSimd *x, const double at[4], Point *point)
+/* With the volume signed, and without a weight. */
+static inline void evaluate(const OstSimd *x, const double at[4], OstPoint *point)
 {
     OstSimd of_coordinate[4][3];
     coordinate_gradients(x, at, of_coordinate, &point->volume);
@@ -104,6 +99,19 @@ static const OstQuadrature *rule_for(const OstSimd *x, const OstElasticity *elas
     return is_uniform(x, elasticity) ? &ost_tet_degree2 : &ost_tet_degree3;
 }
 
+/* As evaluate, with the volume positive whatever the tet's orientation, and multiplied by the weight. */
+static inline void evaluate_weighted(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
+{
+    evaluate(x, at->at, point);
+    ost_simd_absolute(&point->volume);
+    point->volume *= at->weight;
+}
+
+static void tet10_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
+{
+    evaluate_weighted(x, at, point);
+}
+
 static void tet10_places(const OstSimd *x, OstSimd *places)
 {
     for (int q = 0; q < ost_tet_degree3.count; q++) {
@@ -117,14 +125,6 @@ static void tet10_places(const OstSimd *x, OstSimd *places)
     }
 }
 
-/* As evaluate, with the volume positive whatever the tet's orientation, and multiplied by the weight. */
-static inline void evaluate_weighted(const OstSimd *x, const OstQuadraturePoint *at, Point *point)
-{
-    evaluate(x, at->at, point);
-    ost_simd_absolute(&point->volume);
-    point->volume *= at->weight;
-}
-
 /* The row m'B, integrated over the tet, and the tet's volume. */
 static void mean_columns(const OstSimd *x, const OstElasticity *elasticity, OstSimd columns[NUMBERS], OstSimd *volume)
 {
@@ -132,7 +132,7 @@ static void mean_columns(const OstSimd *x, const OstElasticity *elasticity, OstS
     memset(columns, 0, NUMBERS * sizeof *columns);
     *volume = (OstSimd){0};
     for (int q = 0; q < rule->count; q++) {
-        Point point;
+        OstPoint point;
         evaluate_weighted(x, &rule->point[q], &point);
         *volume += point.volume;
         for (int a = 0; a < NODES; a++) {
@@ -161,7 +161,7 @@ static void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSim
     memset(blocks, 0, 9 * PAIRS * sizeof *blocks);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
         const OstSimd *c = elasticity->c[ost_elasticity_at(elasticity, q)];
-        Point point;
+        OstPoint point;
         evaluate_weighted(x, &ost_tet_degree3.point[q], &point);
         for (int b = 0; b < NODES; b++) {
             const OstSimd *g = point.gradient[b];
@@ -189,7 +189,7 @@ static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, O
         add_mean_blocks(x, elasticity, blocks);
 }
 
-static inline void strain_at(const Point *point, const OstSimd *u, OstSimd strain[6])
+static inline void strain_at(const OstPoint *point, const OstSimd *u, OstSimd strain[6])
 {
     OstSimd slope[3][3];
     for (int i = 0; i < 3; i++)
@@ -202,7 +202,7 @@ static inline void strain_at(const Point *point, const OstSimd *u, OstSimd strai
 }
 
 /* force += B' stress */
-static inline void add_force(const Point *point, const OstSimd stress[6], OstSimd *force)
+static inline void add_force(const OstPoint *point, const OstSimd stress[6], OstSimd *force)
 {
     for (int a = 0; a < NODES; a++) {
         OstSimd of_node[3];
@@ -226,7 +226,7 @@ static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(force, 0, NUMBERS * sizeof *force);
     for (int q = 0; q < rule->count; q++) {
-        Point point;
+        OstPoint point;
         OstSimd strain[6];
         OstSimd stress[6];
         evaluate_weighted(x, &rule->point[q], &point);
@@ -267,7 +267,7 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(magnitude, 0, NUMBERS * sizeof *magnitude);
     for (int q = 0; q < rule->count; q++) {
-        Point point;
+        OstPoint point;
         OstSimd c[OST_ELASTICITY_COUNT];
         OstSimd strain[6] = {{0}};
         OstSimd stress[6];
@@ -286,7 +286,7 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
 }
 
 /* Adds a point to the integrals of strain, stress and energy. */
-static inline void add_means(const Point *point, const OstSimd strain[6], const OstSimd stress[6], OstMeans *sums)
+static inline void add_means(const OstPoint *point, const OstSimd strain[6], const OstSimd stress[6], OstMeans *sums)
 {
     for (int p = 0; p < 6; p++) {
         sums->strain[p] += point->volume * strain[p];
@@ -308,7 +308,7 @@ static void tet10_means(const OstSimd *x, const OstElasticity *elasticity, const
     }
     for (int q = 0; q < rule->count; q++) {
         const int at = ost_elasticity_at(elasticity, q);
-        Point point;
+        OstPoint point;
         OstSimd strain[6];
         OstSimd stress[6];
         evaluate_weighted(x, &rule->point[q], &point);
@@ -331,7 +331,7 @@ static void tet10_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *stra
 {
     for (int a = 0; a < NODES; a++) {
         double at[4] = {0.0};
-        Point point;
+        OstPoint point;
         at[ost_tet10_ends[a][0]] += 0.5;
         at[ost_tet10_ends[a][1]] += 0.5;
         evaluate(x, at, &point);
@@ -353,7 +353,7 @@ static double tet10_volume(const double *x)
     double volume = 0.0;
     copy_to_batch(NUMBERS, x, batch);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
-        Point point;
+        OstPoint point;
         evaluate(batch, ost_tet_degree3.point[q].at, &point);
         volume += ost_tet_degree3.point[q].weight * point.volume[0];
     }
@@ -367,7 +367,7 @@ static void tet10_gradient(const double *x, const double *u, double gradient[9])
     copy_to_batch(NUMBERS, x, batch);
     memset(gradient, 0, 9 * sizeof *gradient);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
-        Point point;
+        OstPoint point;
         evaluate_weighted(batch, &ost_tet_degree3.point[q], &point);
         volume += point.volume[0];
         for (int n = 0; n < 9; n++)
@@ -384,7 +384,7 @@ static void tet10_laplacian(const double *x, double *pairs)
     copy_to_batch(NUMBERS, x, batch);
     memset(pairs, 0, PAIRS * sizeof *pairs);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
-        Point point;
+        OstPoint point;
         evaluate_weighted(batch, &ost_tet_degree3.point[q], &point);
         for (int a = 0, n = 0; a < NODES; a++)
             for (int b = a; b < NODES; b++, n++)
@@ -401,7 +401,7 @@ static void tet10_node_volumes(const double *x, double *volumes)
     memset(volumes, 0, NODES * sizeof *volumes);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         double shape[NODES];
-        Point point;
+        OstPoint point;
         evaluate_weighted(batch, &ost_tet_degree5.point[q], &point);
         ost_shape_values(NODES, ost_tet_degree5.point[q].at, shape);
         for (int a = 0; a < NODES; a++)
@@ -435,6 +435,8 @@ const OstElement ost_tet10 = {
     .linear = 1,
     .points = POINTS,
     .places = tet10_places,
+    .rule = rule_for,
+    .evaluate = tet10_evaluate,
     .stiffness = tet10_stiffness,
     .force = tet10_force,
     .magnitude = tet10_magnitude,

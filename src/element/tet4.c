@@ -200,6 +200,29 @@ static void tet4_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strai
         strain[n] = strain[n - 6];
 }
 
+static const OstQuadrature *tet4_rule(const OstSimd *x, const OstElasticity *elasticity)
+{
+    (void)x;
+    (void)elasticity;
+    return &ost_tet_degree1;
+}
+
+static void tet4_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
+{
+    OstSimd scaled[3][3];
+    OstSimd factor; /* 1 / (6 |determinant|) */
+    OstSimd edge[3] = {x[3] - x[0], x[4] - x[1], x[5] - x[2]};
+    (void)at; /* the gradients are uniform */
+    scaled_gradients(x, scaled, &factor);
+    const OstSimd inverse = 1.0 / (edge[0] * scaled[0][0] + edge[1] * scaled[0][1] + edge[2] * scaled[0][2]);
+    for (int i = 0; i < 3; i++) {
+        for (int a = 0; a < 3; a++)
+            point->gradient[a + 1][i] = scaled[a][i] * inverse;
+        point->gradient[0][i] = -(point->gradient[1][i] + point->gradient[2][i] + point->gradient[3][i]);
+    }
+    point->volume = 1.0 / (36.0 * factor);
+}
+
 static double tet4_volume(const double *x)
 {
     double gradients[12];
@@ -254,6 +277,8 @@ const OstElement ost_tet4 = {
     .nodes = 4,
     .nodes_per_face = 3,
     .linear = 1,
+    .rule = tet4_rule,
+    .evaluate = tet4_evaluate,
     .stiffness = tet4_stiffness,
     .force = tet4_force,
     .magnitude = tet4_magnitude,

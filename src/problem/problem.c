@@ -64,6 +64,7 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
     double softest = 0.0, stiffest = 0.0;
     OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
+        ost_problem_set_formulation(made, parts->formulation);
         made->free_body = parts->free_body;
         made->with_metric = parts->field->region_axes != NULL;
         for (int r = 0; r < parts->field->region_count; r++)
@@ -125,6 +126,20 @@ int ost_problem_is_linear(const OstProblem *problem)
     return problem->linear;
 }
 
+/* Values of the matrix are of the formulation that was: they do not count. */
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+{
+    if (problem->formulation != formulation)
+        problem->filled = 0;
+    problem->formulation = formulation;
+    problem->linear = formulation == OST_FORMULATION_LINEAR && ost_element_of(problem->mesh->nodes_per_tet)->linear;
+}
+
+OstFormulation ost_problem_formulation(const OstProblem *problem)
+{
+    return problem->formulation;
+}
+
 void ost_problem_set_load(OstProblem *problem, const double *force)
 {
     memcpy(problem->force, force, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
@@ -148,13 +163,16 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
 OstStatus ost_problem_energy(const OstProblem *problem, const double *u, double *energy)
 {
     *energy = 0.0;
-    ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
+    if (problem->formulation == OST_FORMULATION_LINEAR)
+        ost_visit_means(problem->mesh, problem->field, u, add_energy, energy);
+    else
+        ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, u, energy);
     return ost_sum(problem->ctx, 1, energy);
 }
 
 OstStatus ost_problem_force(const OstProblem *problem, const double *u, double *force)
 {
-    return ost_internal_force(problem->mesh, problem->field, u, force, NULL);
+    return ost_internal_force_of(problem->mesh, problem->field, problem->formulation, u, force, NULL);
 }
 
 /* A failure names the line of the first constraint. */
@@ -167,16 +185,22 @@ static OstStatus make_pattern(OstProblem *problem)
     return ost_case_located(c, c->constraints[0].on.place, status);
 }
 
-OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+static OstStatus fill(const OstProblem *problem, const double *u, int definite)
 {
-    (void)u; /* all elements so far are linear: their stiffness does not depend on u */
+    const OstTangent tangent = {.formulation = problem->formulation, .u = u, .definite = definite};
+    const int at_zero = problem->formulation == OST_FORMULATION_LINEAR || !u; /* where all formulations agree */
+    return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
+}
+
+static OstStatus make_stiffness(OstProblem *problem, const double *u, int definite, OstStiffness *stiffness)
+{
     const int may_fill = problem->system && problem->system->block_of_tet;
     if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
         ost_problem_release_stiffness(problem);
         OST_TRY(make_pattern(problem));
     }
     if (problem->system->block_of_tet)
-        OST_TRY(ost_agree(problem->ctx, ost_system_fill(problem->system, problem->field)));
+        OST_TRY(ost_agree(problem->ctx, fill(problem, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;
     if (stiffness)
@@ -187,6 +211,42 @@ OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffne
                                     .column = matrix->column,
                                     .value = matrix->value,
                                     .node = problem->system->node_of_row};
+    return OST_SUCCESS;
+}
+
+OstStatus ost_problem_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+{
+    return make_stiffness(problem, u, 0, stiffness);
+}
+
+OstStatus ost_problem_definite_stiffness(OstProblem *problem, const double *u, OstStiffness *stiffness)
+{
+    return make_stiffness(problem, u, 1, stiffness);
+}
+
+OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst)
+{
+    OstContext *ctx = problem->ctx;
+    const OstMesh *mesh = problem->mesh;
+    OstLeastStretch least;
+    ost_least_stretch(mesh, problem->field, u, &least);
+    *worst = (OstWorstTet){.stretch = least.stretch, .inverted = least.inverted};
+    OST_TRY(ost_min(ctx, 1, &worst->stretch));
+    OST_TRY(ost_sum_numbers(ctx, 1, &worst->inverted));
+    /* Of several with that stretch, the one of the lowest label. */
+    worst->tet = least.tet >= 0 && least.stretch == worst->stretch ? mesh->tet_label[least.tet] : INT64_MAX;
+    OST_TRY(ost_min_numbers(ctx, 1, &worst->tet));
+    double found[4] = {0.0}; /* place and region: of the rank that has it, 0 of the others */
+    if (least.tet >= 0 && least.stretch == worst->stretch && mesh->tet_label[least.tet] == worst->tet) {
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, least.tet);
+        found[3] = mesh->tet_region[least.tet];
+        for (int a = 0; a < 4; a++)
+            for (int i = 0; i < 3; i++)
+                found[i] += 0.25 * mesh->coordinates[3 * (size_t)nodes[a] + (size_t)i];
+    }
+    OST_TRY(ost_sum(ctx, 4, found));
+    memcpy(worst->place, found, sizeof worst->place);
+    worst->region = (int)found[3];
     return OST_SUCCESS;
 }
 

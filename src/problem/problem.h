@@ -17,6 +17,7 @@ struct OstProblem {
     OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
     int filled;                /* does the matrix have values? */
     int linear;                /* is the internal force linear in the displacement? */
+    OstFormulation formulation;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */

@@ -27,8 +27,9 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "youngs_modulus, poissons_ratio, shear_modulus, density, axes");
     assert_refused("mehs: 1\n", "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
                                 "element, materials, constraints, loads, accuracy, solver, output, watch, verify");
-    assert_refused(CUBE STEEL "accuracy: {relative_error: 0.01}\n",
-                   "3:12: unknown key 'relative_error' in accuracy. Known keys: relative_residual, out_of_reach");
+    assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
+                   "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
+                   "relative_residual, out_of_reach, relative_error");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
@@ -205,6 +206,8 @@ static void bad_settings_are_refused(void **state)
     (void)state;
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 0.51}\n",
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
+    assert_refused(CUBE STEEL "accuracy: {relative_error: 1}\n",
+                   "3:28: accuracy.relative_error: found '1', expected a number above 0 and below 1");
     assert_refused(CUBE STEEL "accuracy: {out_of_reach: acept}\n",
                    "3:26: unknown answer 'acept'; did you mean 'accept'? Known: refuse, accept");
     assert_refused(CUBE STEEL "solver: {method: twolevel}\n",

@@ -337,7 +337,7 @@ static void settings_are_read(void **state)
     char whole[2048];
     snprintf(whole, sizeof whole,
              "%s%selement: {order: 1}\naccuracy: {relative_residual: 1e-10, "
-             "out_of_reach: accept}\n"
+             "out_of_reach: accept, relative_error: 0.001}\n"
              "solver: {method: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
              "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"
              "         patience: 88, most_levels: 3, factor_memory: 2}\n"
@@ -346,6 +346,7 @@ static void settings_are_read(void **state)
     assert_success(read_text(whole, &c));
     assert_int_equal(c->solver.method, OST_METHOD_PLAIN);
     assert_close(c->solver.relative_residual, 1e-10, 0.0);
+    assert_close(c->relative_error, 0.001, 0.0);
     assert_int_equal(c->solver.max_iterations, 77);
     assert_close(c->solver.aggregate_nodes, 41, 0.0);
     assert_close(c->solver.coarse_aggregate_nodes, 9, 0.0);

@@ -38,6 +38,20 @@ static inline void random_axes(unsigned seed, double axes[9])
     assert_success(ost_axes_from_quaternion(ctx, q, axes));
 }
 
+/* F = Q1 diag(stretch) Q2 */
+static inline void deformation(unsigned seed, const double stretch[3], double f[9])
+{
+    double before[9], after[9];
+    random_axes(seed, before);
+    random_axes(seed + 50u, after);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            f[3 * i + j] = 0.0;
+            for (int k = 0; k < 3; k++)
+                f[3 * i + j] += after[3 * k + i] * stretch[k] * before[3 * k + j];
+        }
+}
+
 static inline void orthotropic_material(OstMaterial *material)
 {
     const OstOrthotropic constants = {

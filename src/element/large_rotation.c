@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "element/large_rotation.h"
+
+#include "element/biot.h"
+#include "element/strain_batch.h"
+
+#include <string.h>
+
+/* One point of each tet at u. */
+typedef struct Deformed {
+    OstPoint point;
+    OstPolar polar;
+    OstSimd strain[6];
+    OstSimd stress[6];
+    const OstSimd *c, *m;
+} Deformed;
+
+/* All points of the tets at u. */
+typedef struct DeformedTets {
+    int count;
+    Deformed at[OST_MAX_POINTS];
+    OstSimd volume;
+    OstSimd stiff; /* the mean of m'(U - I) where C is split, otherwise 0 */
+} DeformedTets;
+
+static inline void displacement_gradient(int nodes, const OstPoint *point, const OstSimd *u, OstSimd slope[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            slope[3 * i + j] = (u[3 + i] - u[i]) * point->gradient[1][j];
+            for (int a = 2; a < nodes; a++)
+                slope[3 * i + j] += (u[3 * a + i] - u[i]) * point->gradient[a][j];
+        }
+}
+
+static inline void dot6(const OstSimd a[6], const OstSimd b[6], OstSimd *product)
+{
+    *product = a[0] * b[0];
+    for (int p = 1; p < 6; p++)
+        *product += a[p] * b[p];
+}
+
+static void deform(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
+                   DeformedTets *tets)
+{
+    const OstQuadrature *rule = element->rule(x, elasticity);
+    tets->count = rule->count;
+    tets->volume = tets->stiff = (OstSimd){0};
+    for (int q = 0; q < rule->count; q++) {
+        Deformed *at = &tets->at[q];
+        OstSimd slope[9];
+        OstSimd mode;
+        element->evaluate(x, &rule->point[q], &at->point);
+        displacement_gradient(element->nodes, &at->point, u, slope);
+        ost_polar(slope, &at->polar);
+        ost_biot_strain(&at->polar, at->strain);
+        at->c = elasticity->c[ost_elasticity_at(elasticity, q)];
+        at->m = elasticity->m[ost_elasticity_at(elasticity, q)];
+        ost_simd_stress(at->c, at->strain, at->stress);
+        tets->volume += at->point.volume;
+        if (!elasticity->by_mean)
+            continue;
+        dot6(at->m, at->strain, &mode);
+        tets->stiff += at->point.volume * mode;
+    }
+    tets->stiff /= tets->volume;
+}
+
+/* The stress at a point, with the stiff mode's part. */
+static inline void whole_stress(const DeformedTets *tets, const OstElasticity *elasticity, int q, OstSimd stress[6])
+{
+    memcpy(stress, tets->at[q].stress, 6 * sizeof *stress);
+    for (int p = 0; p < 6 && elasticity->by_mean; p++)
+        stress[p] += tets->stiff * tets->at[q].m[p];
+}
+
+/* force += the first Piola stress along the shape functions' gradients */
+static void add_force(int nodes, const Deformed *at, const OstSimd stress[6], OstSimd *force)
+{
+    OstSimd piola[9];
+    ost_biot_piola(&at->polar, stress, piola);
+    for (int n = 0; n < 9; n++)
+        piola[n] *= at->point.volume;
+    for (int a = 0; a < nodes; a++) {
+        const OstSimd *g = at->point.gradient[a];
+        for (int i = 0; i < 3; i++)
+            force[3 * a + i] += piola[3 * i] * g[0] + piola[3 * i + 1] * g[1] + piola[3 * i + 2] * g[2];
+    }
+}
+
+static void consistent_energy(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                              const OstSimd *u, OstSimd *energy)
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    *energy = 0.5 * tets.volume * tets.stiff * tets.stiff;
+    for (int q = 0; q < tets.count; q++) {
+        OstSimd twice;
+        dot6(tets.at[q].strain, tets.at[q].stress, &twice);
+        *energy += 0.5 * tets.at[q].point.volume * twice;
+    }
+}
+
+static void consistent_force(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                             const OstSimd *u, OstSimd *force)
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    memset(force, 0, 3 * (size_t)element->nodes * sizeof *force);
+    for (int q = 0; q < tets.count; q++) {
+        OstSimd stress[6];
+        whole_stress(&tets, elasticity, q, stress);
+        add_force(element->nodes, &tets.at[q], stress, force);
+    }
+}
+
+/* blocks += the second derivative by F along the gradients of each two nodes */
+static void add_blocks(int nodes, const Deformed *at, const OstSimd hessian[81], OstSimd *blocks)
+{
+    for (int b = 0; b < nodes; b++) {
+        OstSimd column[9][3]; /* of each component of dF, for a unit displacement of node b in each direction */
+        const OstSimd *g = at->point.gradient[b];
+        for (int n = 0; n < 9; n++)
+            for (int j = 0; j < 3; j++)
+                column[n][j] = at->point.volume * (hessian[9 * n + 3 * j] * g[0] + hessian[9 * n + 3 * j + 1] * g[1] +
+                                                   hessian[9 * n + 3 * j + 2] * g[2]);
+        for (int a = 0; a <= b; a++) {
+            OstSimd *block = blocks + 9 * ost_pair_index(nodes, a, b);
+            const OstSimd *h = at->point.gradient[a];
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    block[3 * i + j] +=
+                        h[0] * column[3 * i][j] + h[1] * column[3 * i + 1][j] + h[2] * column[3 * i + 2][j];
+        }
+    }
+}
+
+/* The stiff mode's energy is 1/2 volume (mean of m'(U - I))^2; the second derivative of U is in the points' part. */
+static void add_mean_blocks(const OstElement *element, const DeformedTets *tets, OstSimd *blocks)
+{
+    OstSimd columns[3 * OST_MAX_TET_NODES] = {{0}};
+    for (int q = 0; q < tets->count; q++)
+        add_force(element->nodes, &tets->at[q], tets->at[q].m, columns);
+    for (int a = 0; a < element->nodes; a++)
+        for (int b = a; b < element->nodes; b++, blocks += 9)
+            for (int n = 0; n < 9; n++)
+                blocks[n] += columns[3 * a + n / 3] * columns[3 * b + n % 3] / tets->volume;
+}
+
+static void consistent_stiffness(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                 const OstSimd *u, int definite, OstSimd *blocks)
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    memset(blocks, 0, 9 * (size_t)ost_pair_count(element->nodes) * sizeof *blocks);
+    for (int q = 0; q < tets.count; q++) {
+        OstSimd stress[6];
+        OstSimd hessian[81];
+        whole_stress(&tets, elasticity, q, stress);
+        ost_biot_hessian(&tets.at[q].polar, tets.at[q].c, stress, definite, hessian);
+        add_blocks(element->nodes, &tets.at[q], hessian, blocks);
+    }
+    if (elasticity->by_mean)
+        add_mean_blocks(element, &tets, blocks);
+}
+
+/* The rotation R of the mean F, and d = R'x - X with node 0 in place. */
+static void classical_displacement(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                   const OstSimd *u, OstSimd rotation[9], OstSimd *d)
+{
+    const OstQuadrature *rule = element->rule(x, elasticity);
+    OstSimd mean[9] = {{0}};
+    OstSimd volume = {0};
+    OstPolar polar;
+    for (int q = 0; q < rule->count; q++) {
+        OstPoint point;
+        OstSimd slope[9];
+        element->evaluate(x, &rule->point[q], &point);
+        displacement_gradient(element->nodes, &point, u, slope);
+        volume += point.volume;
+        for (int n = 0; n < 9; n++)
+            mean[n] += point.volume * slope[n];
+    }
+    for (int n = 0; n < 9; n++)
+        mean[n] /= volume;
+    ost_polar(mean, &polar);
+    ost_polar_rotation(&polar, rotation);
+    for (int a = 0; a < element->nodes; a++) {
+        OstSimd place[3]; /* from node 0 */
+        for (int i = 0; i < 3; i++)
+            place[i] = x[3 * a + i] - x[i] + (u[3 * a + i] - u[i]);
+        for (int i = 0; i < 3; i++)
+            d[3 * a + i] = rotation[i] * place[0] + rotation[3 + i] * place[1] + rotation[6 + i] * place[2] -
+                           (x[3 * a + i] - x[i]);
+    }
+}
+
+static void classical_energy(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                             const OstSimd *u, OstSimd *energy)
+{
+    OstSimd rotation[9];
+    OstSimd d[3 * OST_MAX_TET_NODES];
+    OstSimd force[3 * OST_MAX_TET_NODES];
+    classical_displacement(element, x, elasticity, u, rotation, d);
+    element->force(x, elasticity, d, force);
+    *energy = (OstSimd){0};
+    for (int n = 0; n < 3 * element->nodes; n++)
+        *energy += 0.5 * d[n] * force[n];
+}
+
+static void classical_force(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                            const OstSimd *u, OstSimd *force)
+{
+    OstSimd rotation[9];
+    OstSimd d[3 * OST_MAX_TET_NODES];
+    OstSimd local[3 * OST_MAX_TET_NODES];
+    classical_displacement(element, x, elasticity, u, rotation, d);
+    element->force(x, elasticity, d, local);
+    for (int a = 0; a < element->nodes; a++)
+        for (int i = 0; i < 3; i++)
+            force[3 * a + i] = rotation[3 * i] * local[3 * a] + rotation[3 * i + 1] * local[3 * a + 1] +
+                               rotation[3 * i + 2] * local[3 * a + 2];
+}
+
+static void classical_stiffness(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd *blocks)
+{
+    OstSimd rotation[9];
+    OstSimd d[3 * OST_MAX_TET_NODES];
+    const int pairs = ost_pair_count(element->nodes);
+    classical_displacement(element, x, elasticity, u, rotation, d);
+    element->stiffness(x, elasticity, blocks);
+    for (int pair = 0; pair < pairs; pair++, blocks += 9) {
+        OstSimd half[9];
+        for (int n = 0; n < 9; n++)
+            half[n] = rotation[n / 3 * 3] * blocks[n % 3] + rotation[n / 3 * 3 + 1] * blocks[3 + n % 3] +
+                      rotation[n / 3 * 3 + 2] * blocks[6 + n % 3];
+        for (int n = 0; n < 9; n++)
+            blocks[n] = half[n / 3 * 3] * rotation[n % 3 * 3] + half[n / 3 * 3 + 1] * rotation[n % 3 * 3 + 1] +
+                        half[n / 3 * 3 + 2] * rotation[n % 3 * 3 + 2];
+    }
+}
+
+void ost_large_rotation_energy(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                               const OstElasticity *elasticity, const OstSimd *u, OstSimd *energy)
+{
+    if (formulation == OST_FORMULATION_CLASSICAL)
+        classical_energy(element, x, elasticity, u, energy);
+    else
+        consistent_energy(element, x, elasticity, u, energy);
+}
+
+void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                              const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+{
+    if (formulation == OST_FORMULATION_CLASSICAL)
+        classical_force(element, x, elasticity, u, force);
+    else
+        consistent_force(element, x, elasticity, u, force);
+}
+
+void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                  const OstElasticity *elasticity, const OstSimd *u, int definite, OstSimd *blocks)
+{
+    if (formulation == OST_FORMULATION_CLASSICAL)
+        classical_stiffness(element, x, elasticity, u, blocks);
+    else
+        consistent_stiffness(element, x, elasticity, u, definite, blocks);
+}
+
+void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                              const OstSimd *u, OstMeans *means)
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    memset(means, 0, sizeof *means);
+    means->volume = tets.volume;
+    means->stiff = tets.stiff;
+    for (int q = 0; q < tets.count; q++) {
+        const Deformed *at = &tets.at[q];
+        const OstSimd share = at->point.volume / tets.volume;
+        OstSimd stress[6];
+        whole_stress(&tets, elasticity, q, stress);
+        for (int p = 0; p < 6; p++) {
+            means->strain[p] += share * at->strain[p];
+            means->stress[p] += share * stress[p];
+            means->energy += 0.5 * share * at->strain[p] * at->stress[p];
+        }
+    }
+    means->energy += 0.5 * tets.stiff * tets.stiff;
+}
+
+void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,
+                                const OstQuadraturePoint *at, OstSimd *strain)
+{
+    for (int q = 0; q < count; q++) {
+        OstPoint point;
+        OstPolar polar;
+        OstSimd slope[9];
+        element->evaluate(x, &at[q], &point);
+        displacement_gradient(element->nodes, &point, u, slope);
+        ost_polar(slope, &polar);
+        ost_biot_strain(&polar, strain + 6 * q);
+    }
+}
+
+void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                      const OstSimd *u, OstSimd *stretch)
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    *stretch = tets.at[0].polar.stretch[2];
+    for (int q = 1; q < tets.count; q++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            (*stretch)[slot] = fmin((*stretch)[slot], tets.at[q].polar.stretch[2][slot]);
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ELEMENT_LARGE_ROTATION_H
+#define ORTHOSTAT_ELEMENT_LARGE_ROTATION_H
+
+#include "element/element.h"
+#include "orthostat/formulation.h"
+
+/* Energy, forces and stiffness of a batch of tets at a displacement u, with large rotations: consistent or classical
+ * (orthostat/formulation.h). Local. Arguments as of OstElement; `elasticity` has C itself, not only its stretch tensor.
+ *
+ * Consistent: Biot's strain at each point of the element's rule (biot.h). Where C is split (elasticity.h), the stiff
+ * mode counts by the tet's mean of m'(U - I).
+ *
+ * Classical: R is the rotation of the tet's mean F. Forces are R K d and the stiffness R K R', with d = R'x - X; the
+ * energy 1/2 d'K d is reported, but is not a potential of the forces. */
+
+void ost_large_rotation_energy(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                               const OstElasticity *elasticity, const OstSimd *u, OstSimd *energy);
+void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                              const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
+
+/* Blocks as of OstElement.stiffness. If `definite`, the derivative of the stress at each point is made positive
+ * semidefinite where it is not (ost_biot_hessian), and so the tet's stiffness. (The classical one always is.) */
+void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                  const OstElasticity *elasticity, const OstSimd *u, int definite, OstSimd *blocks);
+
+/* Means over the tets of U - I, of its conjugate stress and of the energy density (the same for both formulations). */
+void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                              const OstSimd *u, OstMeans *means);
+
+/* U - I at points of the tets. `at`: count × 4 barycentric coordinates; 6 strains a point. */
+void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,
+                                const OstQuadraturePoint *at, OstSimd *strain);
+
+/* The least principal stretch over the tets' points; negative where a tet is inverted. */
+void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                      const OstSimd *u, OstSimd *stretch);
+
+#endif
