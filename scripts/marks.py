@@ -37,20 +37,20 @@ def actor_of(data, colour):
 
 
 def bins_of(places, size):
-    """Number of the cube of this size in which each place lies."""
-    return np.unique(np.floor(places / size).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
+    """Number of the cube of this size in which each place lies, counted from the lowest corner of all."""
+    return np.unique(np.floor((places - places.min(axis=0)) / size).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
 
 
-def gather_loads(places, load, size):
-    """Loads within a cube of this size become one arrow: where it starts, and their sum. One arrow is enough for a
+def gather_loads(rest, moved, load, size):
+    """Loads that lay in a cube of this size become one arrow: where it starts, and their sum. One arrow is enough for a
     load of the whole body, such as its weight."""
     size_of_load = np.linalg.norm(load, axis=1)
     on = size_of_load > 1e-12 * (size_of_load.max() or 1.0)
     if not on.any():
         return np.empty((0, 3)), np.empty((0, 3))
-    bins = bins_of(places[on], size) if on.mean() < 0.5 else np.zeros(on.sum(), dtype=int)
+    bins = bins_of(rest[on], size) if on.mean() < 0.5 else np.zeros(on.sum(), dtype=int)
     sums = np.zeros((bins.max() + 1, 7))
-    np.add.at(sums, bins, np.hstack([load[on], size_of_load[on, None] * places[on], size_of_load[on, None]]))
+    np.add.at(sums, bins, np.hstack([load[on], size_of_load[on, None] * moved[on], size_of_load[on, None]]))
     return sums[:, 3:6] / sums[:, 6:], sums[:, :3]
 
 
