@@ -45,9 +45,7 @@ def gather_loads(rest, moved, load, size):
     """Loads that lay in a cube of this size become one arrow: where it starts, and their sum. One arrow is enough for a
     load of the whole body, such as its weight."""
     size_of_load = np.linalg.norm(load, axis=1)
-    on = size_of_load > 1e-12 * (size_of_load.max() or 1.0)
-    if not on.any():
-        return np.empty((0, 3)), np.empty((0, 3))
+    on = size_of_load > 1e-12 * size_of_load.max()
     bins = bins_of(rest[on], size) if on.mean() < 0.5 else np.zeros(on.sum(), dtype=int)
     sums = np.zeros((bins.max() + 1, 7))
     np.add.at(sums, bins, np.hstack([load[on], size_of_load[on, None] * moved[on], size_of_load[on, None]]))
