@@ -11,7 +11,8 @@
 
 /* Writes a case as CalculiX reads it: the same linear tets, the same stiffness along the same axes (CalculiX takes
  * cylindrical axes at the middle of a linear tet, as we do), the same forces at the nodes. One region, nodes held
- * wholly at zero: what the tubes need; more is refused. Arguments: case, CalculiX's solver, file to write. One rank. */
+ * wholly at zero: what the tubes need; more is refused. Arguments: case, CalculiX's solver, file to write, and
+ * "large-rotation" where it is to solve for that. One rank. */
 
 static OstStatus check_scene(const OstScene *scene)
 {
@@ -84,18 +85,20 @@ static OstStatus write_supports(const OstScene *scene, const OstSupports *suppor
     return OST_SUCCESS;
 }
 
-static void write_step(const OstMesh *mesh, const double *force, const char *solver, FILE *out)
+/* Large rotations: CalculiX begins with a tenth of the load, and cuts or lengthens its steps by itself. */
+static void write_step(const OstMesh *mesh, const double *force, const char *solver, int large_rotation, FILE *out)
 {
-    fprintf(out, "*STEP\n*STATIC, SOLVER=%s\n*CLOAD\n", solver);
+    fprintf(out, "*STEP%s\n*STATIC, SOLVER=%s\n%s*CLOAD\n", large_rotation ? ", NLGEOM, INC=1000" : "", solver,
+            large_rotation ? "0.1, 1.\n" : "");
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         for (int i = 0; i < 3; i++)
             if (force[3 * (size_t)n + (size_t)i] != 0.0)
                 fprintf(out, "%lld, %d, %.13e\n", (long long)mesh->node_label[n], i + 1,
                         force[3 * (size_t)n + (size_t)i]);
-    fputs("*NODE PRINT, NSET=ALL\nU\n*END STEP\n", out);
+    fputs("*NODE PRINT, NSET=ALL, FREQUENCY=1000\nU\n*END STEP\n", out);
 }
 
-static OstStatus write_scene(const OstScene *scene, const char *solver, FILE *out)
+static OstStatus write_scene(const OstScene *scene, const char *solver, int large_rotation, FILE *out)
 {
     OstProblem *problem = NULL;
     OstStatus status = OST_SUCCESS;
@@ -104,13 +107,14 @@ static OstStatus write_scene(const OstScene *scene, const char *solver, FILE *ou
     write_mesh(scene->mesh, out);
     write_material(scene, out);
     OST_TRY_DONE(write_supports(scene, problem->supports, out));
-    write_step(scene->mesh, problem->force, solver, out);
+    write_step(scene->mesh, problem->force, solver, large_rotation, out);
 done:
     ost_problem_destroy(&problem);
     return status;
 }
 
-static OstStatus write_case(OstContext *ctx, const char *case_path, const char *solver, const char *path)
+static OstStatus write_case(OstContext *ctx, const char *case_path, const char *solver, const char *path,
+                            int large_rotation)
 {
     OstCase *c = NULL;
     OstScene *scene = NULL;
@@ -122,7 +126,7 @@ static OstStatus write_case(OstContext *ctx, const char *case_path, const char *
     if (!out)
         status = OST_RAISE(ctx, OST_FILE_FAILED, "%s cannot be made", path);
     else
-        status = write_scene(scene, solver, out);
+        status = write_scene(scene, solver, large_rotation, out);
     if (out && fclose(out) != 0 && status == OST_SUCCESS)
         status = OST_RAISE(ctx, OST_FILE_FAILED, "%s could not be written in full", path);
 done:
@@ -135,11 +139,12 @@ int main(int argc, char **argv)
 {
     OstContext *ctx = NULL;
     MPI_Init(&argc, &argv);
-    if (argc != 4 || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS || ost_size(ctx) != 1) {
-        fputs("usage: bench_write_calculix CASE SOLVER FILE.inp (on one rank)\n", stderr);
+    const int large_rotation = argc == 5 && strcmp(argv[4], "large-rotation") == 0;
+    if ((argc != 4 && !large_rotation) || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS || ost_size(ctx) != 1) {
+        fputs("usage: bench_write_calculix CASE SOLVER FILE.inp [large-rotation] (on one rank)\n", stderr);
         return 2;
     }
-    const OstStatus status = write_case(ctx, argv[1], argv[2], argv[3]);
+    const OstStatus status = write_case(ctx, argv[1], argv[2], argv[3], large_rotation);
     if (status != OST_SUCCESS)
         fprintf(stderr, "%s\n", ost_error_text(ctx));
     ost_context_destroy(&ctx);

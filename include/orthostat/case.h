@@ -17,7 +17,7 @@ typedef struct OstCase OstCase;
     X(OST_FIELD_LOAD, "load")                    \
     X(OST_FIELD_STRESS, "stress")                \
     X(OST_FIELD_NODE_STRESS, "node_stress")      \
-    X(OST_FIELD_STRAIN, "strain")                \
+    X(OST_FIELD_STRAIN, "strain_tensor")         \
     X(OST_FIELD_ENERGY, "strain_energy_density") \
     X(OST_FIELD_AXES, "axes")                    \
     X(OST_FIELD_REGION, "region")                \

@@ -50,6 +50,11 @@ void ost_progress(OstContext *ctx, const char *what, double fraction);
 /* Local. Hands every warning of rank 0 to `hear` too, quiet or not; NULL ends it. */
 void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener);
 
+/* Local. The warnings of rank 0 so far, quiet or not, each text once: how many, and one of them, which lives as long as
+ * the context. */
+int ost_warning_count(const OstContext *ctx);
+const char *ost_warning(const OstContext *ctx, int number);
+
 /* Local. Frees an array that a function handed out as the caller's to free. NULL is allowed. */
 void ost_free_memory(void *memory);
 

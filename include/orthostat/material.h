@@ -40,6 +40,11 @@ OstOrthotropic ost_orthotropic_family(const double youngs_modulus[3], double nu,
 OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double nu_plane, double nu_plane_axis,
                                           double g_axis);
 
+/* Local. Which Young's modulus goes along which material axis: "E = 88 along e3 (the axis), 1 along e1 and e2". An axis
+ * is called so where the material is transversely isotropic about it. */
+enum { OST_MODULI_WORDS = 128 };
+void ost_orthotropic_words(const OstOrthotropic *constants, char text[OST_MODULI_WORDS]);
+
 /* Local. The shear moduli of eq. 22 for a rule. */
 void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRule rule, double shear_modulus[3]);
 

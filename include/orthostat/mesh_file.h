@@ -6,7 +6,7 @@
 
 OST_API_BEGIN
 
-/* Collective. Reads a mesh by its file's ending: .msh and .msh.gz (Gmsh 1, 2.0 to 2.2, 4.0 and 4.1, ASCII and
+/* Collective. Reads a mesh by its file's ending: .msh and .msh.gz (Gmsh 1 to 4.1, ASCII and
  * binary), .veg (Vega FEM), .vtkhdf. Serial formats are read by rank 0, .vtkhdf by all ranks in parallel. Raises
  * OST_FILE_FAILED or OST_INVALID_INPUT with file:line where there is one, what was found and what was expected.
  * Cubic .veg elements are refused by name. Nodes and tets have the file's numbers as labels. Tets come in the file's

@@ -39,12 +39,13 @@ int ost_result_objection_count(const OstResult *result);
 const char *ost_result_objection(const OstResult *result, int number);
 
 /* Local. The fields, which live as long as the result; NULL where a field was not asked for, or not reached. Units are
- * the user's. Symmetric tensors are 11 22 33 12 23 31 in world axes; strains carry 2 e12 and so on. */
+ * the user's. Symmetric tensors are 11 22 33 12 23 31 in world axes. Strains have engineering shear: 2 e12, 2 e23, 2
+ * e31; the file of fields has the tensor, with e12, e23, e31. */
 const double *ost_result_displacement(const OstResult *result); /* node_count × 3, ghosts included */
 const double *ost_result_reaction(const OstResult *result);     /* node_count × 3, 0 where nothing constrains */
 const double *ost_result_load(const OstResult *result);         /* owned_nodes × 3: the forces on the nodes */
 const double *ost_result_stress(const OstResult *result);       /* owned_tets × 6: mean over the tet */
-const double *ost_result_strain(const OstResult *result);       /* owned_tets × 6: mean over the tet */
+const double *ost_result_strain(const OstResult *result);       /* owned_tets × 6: mean, shear doubled */
 const double *ost_result_strain_energy_density(const OstResult *result); /* owned_tets */
 const double *ost_result_node_stress(const OstResult *result);           /* node_count × 6 */
 

@@ -121,6 +121,7 @@ struct OstCase {
     double merge;   /* FILE: vertices no farther apart than this are joined; 0: none are */
     int refinement; /* uniform refinements; each splits a tet into eight */
     int order;      /* of the elements: 1 or 2; 0: as the mesh has it */
+    int straighten; /* curved tets that fold over are made straight */
     int material_count;
     OstCaseMaterial *materials;
     int free_body; /* the word free_body in place of constraints: loads balance each other */
@@ -135,6 +136,7 @@ struct OstCase {
     double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
+    unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */

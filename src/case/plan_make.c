@@ -37,7 +37,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     OstEffectFacts facts = {.quadratic = mesh->quadratic,
                             .nodes = (double)mesh->nodes,
                             .tets = (double)mesh->tets,
-                            .regions = mesh->regions ? mesh->regions->count : 1};
+                            .regions = mesh->regions ? mesh->regions->count : 1,
+                            .without = c->without};
     memset(plan, 0, sizeof *plan);
     plan->nodes = mesh->nodes;
     plan->tets = mesh->tets;

@@ -126,13 +126,15 @@ static OstStatus resolve_transverse(const OstYaml *yaml, const OstYamlNode *node
 {
     double g_axis = stated->shear_form == SHEAR_AXIS ? stated->g_axis : NAN;
     if (stated->poissons_form == POISSONS_NAMED)
-        return ost_yaml_raise(yaml, node,
-                              "with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, "
-                              "plane_axis}; for nu12, nu23, nu31 give youngs_modulus as [E1, E2, E3]");
+        return ost_yaml_raise(
+            yaml, node,
+            "with youngs_modulus {plane, axis} (the axis is e3), poissons_ratio is a number or {plane, "
+            "plane_axis}; for nu12, nu23, nu31 give youngs_modulus as [E1, E2, E3]");
     if (stated->shear_form == SHEAR_NAMED)
-        return ost_yaml_raise(yaml, node,
-                              "with youngs_modulus {plane, axis}, shear_modulus is a rule or {axis: G}; the "
-                              "plane's follows from its modulus and ratio");
+        return ost_yaml_raise(
+            yaml, node,
+            "with youngs_modulus {plane, axis} (the axis is e3), shear_modulus is a rule or {axis: G}; the "
+            "plane's follows from its modulus and ratio");
     if (stated->has_rule) {
         double shear[3];
         ost_orthotropic_shear(stated->youngs, stated->nu, stated->rule, shear);
@@ -148,9 +150,11 @@ static OstStatus resolve_constants(const OstYaml *yaml, const OstYamlNode *node,
     if (stated->youngs_form == YOUNGS_PLANE)
         return resolve_transverse(yaml, node, stated, constants);
     if (stated->poissons_form == POISSONS_PLANE)
-        return ost_yaml_raise(yaml, node, "poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}");
+        return ost_yaml_raise(
+            yaml, node, "poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}, where the axis is e3");
     if (stated->shear_form == SHEAR_AXIS)
-        return ost_yaml_raise(yaml, node, "shear_modulus {axis} needs youngs_modulus {plane, axis}");
+        return ost_yaml_raise(yaml, node,
+                              "shear_modulus {axis} needs youngs_modulus {plane, axis}, where the axis is e3");
     if (stated->poissons_form == POISSONS_NAMED && stated->shear_form != SHEAR_NAMED)
         return ost_yaml_raise(yaml, node,
                               "nu12, nu23 and nu31 need shear_modulus {G12, G23, G31}; the shear rules belong "

@@ -26,13 +26,7 @@ static const struct argp check_argp = {
 typedef struct Findings {
     OstGlobal constrained; /* vertices that constraints select, counted once for each constraint */
     char output[OST_LONGEST_PATH];
-    json_t *warnings; /* rank 0: all of them, in order */
 } Findings;
-
-static void hear_warning(void *findings, const char *text)
-{
-    json_array_append_new(((Findings *)findings)->warnings, json_string(text));
-}
 
 static OstStatus count_nodes(const OstScene *scene, const OstSelection *selection, OstGlobal *total)
 {
@@ -140,7 +134,7 @@ static void print_findings(const OstScene *scene, const Findings *findings)
            (long long)mesh->global_nodes, (long long)mesh->global_tets, plural(mesh->global_tets), mesh->regions.count,
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
            (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", c->load_count,
-           plural(c->load_count), json_array_size(findings->warnings) > 0 ? "; see the warnings" : "");
+           plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
     printf("solve will write its fields to %s\n", findings->output);
 }
 
@@ -153,11 +147,11 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
         json_array_append_new(regions, json_string(mesh->regions.name[r]));
     for (int b = 0; b < mesh->boundary_count; b++)
         json_array_append_new(boundaries, json_string(mesh->boundaries[b].name));
-    json_t *root = json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:s, s:O}", "case", scene->c->path, "vertices",
+    json_t *root = json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:s, s:o}", "case", scene->c->path, "vertices",
                              (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
                              "boundaries", boundaries, "constraints", scene->c->constraint_count,
                              "constrained_vertices", (json_int_t)findings->constrained, "loads", scene->c->load_count,
-                             "output", findings->output, "warnings", findings->warnings);
+                             "output", findings->output, "warnings", ost_json_warnings(scene->ctx));
     if (!root)
         return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);
@@ -167,11 +161,10 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
 static OstStatus check_case(OstContext *ctx, void *input)
 {
     const OstArguments *arguments = input;
-    Findings findings = {.warnings = json_array()};
+    Findings findings = {0};
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstStatus status = OST_SUCCESS;
-    ost_warn_listen(ctx, hear_warning, &findings);
     OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
     OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
     OST_TRY_DONE(ost_scene_create(c, &scene));
@@ -185,8 +178,6 @@ static OstStatus check_case(OstContext *ctx, void *input)
         print_findings(scene, &findings);
     status = ost_agree(ctx, status);
 done:
-    ost_warn_listen(ctx, NULL, NULL);
-    json_decref(findings.warnings);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
     return status;

@@ -55,7 +55,7 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
         return EINVAL;
     }
     if (key == ARGP_KEY_ARG) {
-        arguments->case_path = value;
+        arguments->case_path = strcmp(value, "-") == 0 ? "/dev/stdin" : value;
     } else if (key == ARGP_KEY_END && !path) {
         argp_error(state, "which case? Give the path of its YAML file");
         return EINVAL;

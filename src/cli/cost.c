@@ -7,11 +7,9 @@
 #include "core/parallel/free_memory.h"
 #include "study/cost.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 typedef struct Arguments {
     OstArguments common;
@@ -93,30 +91,9 @@ static const struct argp cost_argp = {
     NULL,
     NULL};
 
-/* Rank 0 draws. The script reads the numbers from a file in a new folder, where none of the user's can be in the way.
- */
-static OstStatus draw(const OstCost *cost, const char *picture)
+static OstStatus write_prices(const void *cost, const char *path)
 {
-    enum { LONGEST = 4096 };
-    char folder[LONGEST], prices[LONGEST + 16];
-    const char *place = getenv("TMPDIR");
-    if (ost_rank(cost->ctx) != 0)
-        return OST_SUCCESS;
-    if (!place || !place[0])
-        place = "/tmp";
-    snprintf(folder, sizeof folder, "%s/orthostat-prices-XXXXXX", place); /* if truncated, mkdtemp fails with EINVAL */
-    if (!mkdtemp(folder))
-        return OST_RAISE(
-            cost->ctx, OST_FILE_FAILED,
-            "cannot make a folder in '%.200s' for the picture's numbers: %s; TMPDIR can name another place", place,
-            strerror(errno));
-    snprintf(prices, sizeof prices, "%s/prices.json", folder);
-    OstStatus status = ost_cost_write_json(cost, prices);
-    if (status == OST_SUCCESS)
-        status = ost_cli_run_script(cost->ctx, "plot-cost", prices, picture);
-    remove(prices);
-    rmdir(folder);
-    return status;
+    return ost_cost_write_json(cost, path);
 }
 
 static OstStatus report(const OstCost *cost, const char *csv, const char *json, const char *picture)
@@ -129,7 +106,7 @@ static OstStatus report(const OstCost *cost, const char *csv, const char *json, 
     if (status == OST_SUCCESS && json)
         status = ost_cost_write_json(cost, json);
     if (status == OST_SUCCESS && picture)
-        status = draw(cost, picture);
+        status = ost_cli_draw(cost->ctx, "plot-cost", write_prices, cost, picture);
     return ost_agree(cost->ctx, status);
 }
 

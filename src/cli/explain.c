@@ -3,6 +3,7 @@
 #include "case/plan.h"
 #include "cli/command.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "orthostat/solver.h"
@@ -118,6 +119,68 @@ static void print_solver(const OstSolverPlan *plan)
     printf("  %-20s %s\n", "engine", ost_method_engine(plan->first));
 }
 
+static void axes_words(const OstAxesSpec *axes, char *text, size_t size)
+{
+    static const char *const direction[] = {"axial", "radial", "tangential"};
+    const double *e = axes->fixed, *a = axes->axis;
+    const char *order[3];
+    for (int i = 0; i < 3; i++)
+        order[i] = direction[axes->order[i]];
+    switch (axes->kind) {
+    case OST_AXES_CYLINDRICAL:
+        snprintf(text, size, "e1 %s, e2 %s, e3 %s about (%g, %g, %g)", order[0], order[1], order[2], a[0], a[1], a[2]);
+        return;
+    case OST_AXES_CURVE:
+        snprintf(text, size, "e1 %s, e2 %s, e3 %s of a curve", order[0], order[1], order[2]);
+        return;
+    case OST_AXES_CELLS:
+        snprintf(text, size, "e1, e2, e3 as %.200s has them", axes->cells_file ? axes->cells_file : "the mesh");
+        return;
+    case OST_AXES_GRADIENT:
+        snprintf(text, size, "e1 from '%.80s' to '%.80s', e2 from '%.80s' to '%.80s', e3 across both", axes->from[0],
+                 axes->to[0], axes->from[1], axes->to[1]);
+        return;
+    case OST_AXES_NONE:
+    case OST_AXES_FIXED:
+    case OST_AXES_EULER:
+    case OST_AXES_QUATERNION:
+        break;
+    }
+    snprintf(text, size, "e1 = (%.4g, %.4g, %.4g), e2 = (%.4g, %.4g, %.4g), e3 = (%.4g, %.4g, %.4g)", e[0] + 0.0,
+             e[1] + 0.0, e[2] + 0.0, e[3] + 0.0, e[4] + 0.0, e[5] + 0.0, e[6] + 0.0, e[7] + 0.0, e[8] + 0.0);
+}
+
+/* The materials that the case states. Into which direction each modulus goes is easily mistaken. */
+static json_t *materials_json(const OstCase *c)
+{
+    json_t *materials = json_array();
+    for (int i = 0; i < c->material_count; i++) {
+        const OstCaseMaterial *stated = &c->materials[i];
+        char moduli[OST_MODULI_WORDS], axes[512];
+        ost_orthotropic_words(&stated->material.constants, moduli);
+        axes_words(&stated->axes, axes, sizeof axes);
+        json_array_append_new(materials, json_pack("{s:o, s:s, s:o}", "region", ost_json_text(stated->region), "moduli",
+                                                   moduli, "axes", ost_json_text(axes)));
+    }
+    return materials;
+}
+
+static void print_materials(const OstCase *c)
+{
+    if (c->material_count > 0)
+        printf("\nMaterials\n");
+    for (int i = 0; i < c->material_count; i++) {
+        const OstCaseMaterial *stated = &c->materials[i];
+        char words[512];
+        ost_orthotropic_words(&stated->material.constants, words);
+        printf("  %-20s %s\n", stated->region, words);
+        if (stated->material.isotropic)
+            continue;
+        axes_words(&stated->axes, words, sizeof words);
+        printf("  %-20s %s\n", "", words);
+    }
+}
+
 static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 {
     printf("%s: %s\n\nEffects\n", c->path, c->title);
@@ -125,6 +188,7 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
         const OstEffectState *state = ost_effect_state(&plan->effects, (OstEffect)e);
         printf("  %-23s %-4s %s\n", ost_effect_label((OstEffect)e), state->on ? "on" : "off", state->reason);
     }
+    print_materials(c);
     print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
@@ -147,14 +211,15 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
 static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
 {
     json_t *root = json_pack(
-        "{s:s, s:s, s:o, s:{s:s, s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:{s:f, s:f, s:f, s:f, s:f, s:f, s:f}}",
-        "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "solver", "method",
-        ost_method_name(plan->solver.first), "engine", ost_method_engine(plan->solver.first), "reasons",
-        ost_solver_reasons_json(&plan->solver), "relative_residual", c->solver.relative_residual, "vertices",
+        "{s:s, s:s, s:o, s:o, s:{s:s, s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:o, s:{s:f, s:f, s:f, s:f, s:f, s:f, "
+        "s:f}}",
+        "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "materials", materials_json(c),
+        "solver", "method", ost_method_name(plan->solver.first), "engine", ost_method_engine(plan->solver.first),
+        "reasons", ost_solver_reasons_json(&plan->solver), "relative_residual", c->solver.relative_residual, "vertices",
         (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns,
-        "ranks", ranks, "ranks_at_least", plan->least_ranks, "bytes", "mesh", plan->bytes_mesh, "stiffness",
-        plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects, "in_all", total_bytes(plan),
-        "free", plan->facts.free_memory, "output_file", plan->bytes_output);
+        "ranks", ranks, "ranks_at_least", plan->least_ranks, "warnings", ost_json_warnings(c->ctx), "bytes", "mesh",
+        plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects,
+        "in_all", total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

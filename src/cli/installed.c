@@ -59,3 +59,28 @@ OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *firs
     return WIFEXITED(ending) && WEXITSTATUS(ending) == 0 ? OST_SUCCESS
                                                          : OST_RAISE(ctx, OST_FILE_FAILED, "'%s' failed", script);
 }
+
+OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(const void *study, const char *path),
+                       const void *study, const char *picture)
+{
+    enum { LONGEST = 4096 };
+    char folder[LONGEST], numbers[LONGEST + 16];
+    const char *place = getenv("TMPDIR");
+    if (ost_rank(ctx) != 0)
+        return OST_SUCCESS;
+    if (!place || !place[0])
+        place = "/tmp";
+    snprintf(folder, sizeof folder, "%s/orthostat-study-XXXXXX", place); /* if truncated, mkdtemp fails with EINVAL */
+    if (!mkdtemp(folder))
+        return OST_RAISE(
+            ctx, OST_FILE_FAILED,
+            "cannot make a folder in '%.200s' for the picture's numbers: %s; TMPDIR can name another place", place,
+            strerror(errno));
+    snprintf(numbers, sizeof numbers, "%s/study.json", folder);
+    OstStatus status = write(study, numbers);
+    if (status == OST_SUCCESS)
+        status = ost_cli_run_script(ctx, script, numbers, picture);
+    remove(numbers);
+    rmdir(folder);
+    return status;
+}

@@ -11,6 +11,11 @@
  * script itself prints why. */
 OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *first, const char *second);
 
+/* Collective; rank 0 draws. Writes the numbers of a study (`write` writes it as JSON to a path) to a file in a new
+ * folder, where none of the user's can be in the way, and has a script draw them. Raises as ost_cli_run_script does. */
+OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(const void *study, const char *path),
+                       const void *study, const char *picture);
+
 /* Local. The folder of the program's cases: ORTHOSTAT_CASES of the environment, else the installed one, else ./cases,
  * else the source's. */
 void ost_cli_cases_folder(char *path, size_t size);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "core/address_space.h"
 
 #include <errno.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 static const struct {
     const char *name, *summary;
@@ -14,6 +16,7 @@ static const struct {
     {"solve", "solve a case and write its fields for ParaView", ost_cli_solve},
     {"check", "read a case and its mesh, and report what is wrong with them", ost_cli_check},
     {"explain", "list the effects that a case calls for, and what it will cost", ost_cli_explain},
+    {"effects", "measure what each effect changes and costs: solve with each one left out", ost_cli_effects},
     {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
      ost_cli_cost},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
@@ -109,12 +112,32 @@ static int end_with(int exit_code)
     return lost && exit_code == 0 ? ost_status_exit_code(OST_FILE_FAILED) : exit_code;
 }
 
+/* MPI takes some 200 MiB of address space when it starts, and fails in ways of its own, or crashes, where a limit
+ * leaves less; OpenBLAS, which takes 128 MiB, waits for ever. Every rank says so: the limits of machines may differ. */
+static int has_room_to_start(void)
+{
+    enum { MIB_TO_START = 512 };
+    struct rlimit limit = {.rlim_cur = RLIM_INFINITY};
+    if (ost_address_space_has(MIB_TO_START))
+        return 1;
+    getrlimit(RLIMIT_AS, &limit);
+    fprintf(stderr, "orthostat: error: MPI and OpenBLAS need %d MiB of address space to start, and there is less",
+            MIB_TO_START);
+    if (limit.rlim_cur != RLIM_INFINITY)
+        fprintf(stderr, ": ulimit -v is %llu KiB; raise it (ulimit -v unlimited), and limit resident memory instead",
+                (unsigned long long)limit.rlim_cur / 1024);
+    fputc('\n', stderr);
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     const OstLogLevel level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)
         return end_with(answered);
+    if (!has_room_to_start())
+        return ost_status_exit_code(OST_OUT_OF_MEMORY);
     ost_keep_freed_memory();
     if (MPI_Init(&argc, &argv) != MPI_SUCCESS) {
         fputs("orthostat: error: MPI could not be started\n", stderr);

@@ -31,8 +31,8 @@ enum { GROUP_FAMILY = 1, GROUP_NINE, GROUP_TRANSVERSE, GROUP_REPORT, GROUP_REGIO
     X(G12, "G12", "G", NINE, GROUP_NINE, "Shear modulus in the plane 1-2")                                           \
     X(G23, "G23", "G", NINE, GROUP_NINE, "")                                                                         \
     X(G31, "G31", "G", NINE, GROUP_NINE, "")                                                                         \
-    X(PLANE_YOUNGS, "plane-youngs", "E", TRANSVERSE, GROUP_TRANSVERSE, "E1 = E2 of the plane")                       \
-    X(AXIS_YOUNGS, "axis-youngs", "E", TRANSVERSE, GROUP_TRANSVERSE, "E3 of the axis")                               \
+    X(PLANE_YOUNGS, "plane-youngs", "E", TRANSVERSE, GROUP_TRANSVERSE, "E1 = E2, along e1 and e2: the plane")        \
+    X(AXIS_YOUNGS, "axis-youngs", "E", TRANSVERSE, GROUP_TRANSVERSE, "E3, along e3: the axis")                       \
     X(PLANE_NU, "plane-nu", "NU", TRANSVERSE, GROUP_TRANSVERSE, "nu12 within the plane")                             \
     X(PLANE_AXIS_NU, "plane-axis-nu", "NU", TRANSVERSE, GROUP_TRANSVERSE, "nu13 = nu23 (default: the family's)")     \
     X(AXIS_SHEAR, "axis-shear", "G", TRANSVERSE, GROUP_TRANSVERSE, "G23 = G31 (default: the family's)")              \

@@ -81,7 +81,9 @@ static void print_stable_range(const Report *report)
 static void print(const Report *report)
 {
     const OstOrthotropic *constants = &report->material.constants;
-    printf("%s material\n", report->kind);
+    char moduli[OST_MODULI_WORDS];
+    ost_orthotropic_words(constants, moduli);
+    printf("%s material: %s\n", report->kind, moduli);
     print_numbers("E1 E2 E3", 3, constants->youngs_modulus);
     print_numbers("nu12 nu23 nu31", 3, constants->poissons_ratio);
     print_numbers("nu21 nu32 nu13", 3, report->reverse_ratio);
@@ -142,8 +144,10 @@ static json_t *report_json(const Report *report)
     json_t *range =
         json_pack("{s:o, s:[ff], s:[ff], s:[ff], s:[ff]}", "scale", ost_json_number(report->scale), "nu12", low[0],
                   high[0], "nu23", low[1], high[1], "nu31", low[2], high[2], "family_nu", -1.0, 0.5);
-    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", report->kind,
-                             "youngs_modulus", add_named(json_object(), "E1 E2 E3", own->youngs_modulus),
+    char moduli[OST_MODULI_WORDS];
+    ost_orthotropic_words(own, moduli);
+    json_t *root = json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", report->kind, "moduli",
+                             moduli, "youngs_modulus", add_named(json_object(), "E1 E2 E3", own->youngs_modulus),
                              "poissons_ratio", add_named(ratios, "nu21 nu32 nu13", report->reverse_ratio),
                              "shear_modulus", add_named(json_object(), "G12 G23 G31", own->shear_modulus), "stiffness",
                              matrix(report->material.stiffness), "compliance", matrix(report->material.compliance),

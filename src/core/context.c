@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
 
+#include "core/address_space.h"
+
 #include <stdlib.h>
 
 OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx)
 {
     OstContext *made = calloc(1, sizeof *made);
     *ctx = NULL;
-    if (!made)
+    if (!made || !ost_start_blas()) {
+        free(made);
         return OST_OUT_OF_MEMORY;
+    }
     if (MPI_Comm_dup(comm, &made->comm) != MPI_SUCCESS ||
         MPI_Comm_set_errhandler(made->comm, MPI_ERRORS_RETURN) != MPI_SUCCESS ||
         MPI_Comm_rank(made->comm, &made->rank) != MPI_SUCCESS ||
@@ -28,6 +32,9 @@ void ost_context_destroy(OstContext **ctx)
         return;
     ost_progress(*ctx, "", -1.0);
     MPI_Comm_free(&(*ctx)->comm);
+    for (int i = 0; i < (*ctx)->warnings; i++)
+        free((*ctx)->warning[i]);
+    free((*ctx)->warning);
     free(*ctx);
     *ctx = NULL;
 }

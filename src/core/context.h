@@ -14,6 +14,8 @@ struct OstContext {
     OstLogLevel level;
     void (*hear)(void *listener, const char *text);
     void *listener;
+    char **warning;
+    int warnings;
     int progress_shown;
     double progress_time;
     char error_text[OST_ERROR_TEXT_SIZE];

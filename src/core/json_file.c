@@ -36,6 +36,14 @@ json_t *ost_json_text(const char *text)
     return json;
 }
 
+json_t *ost_json_warnings(const OstContext *ctx)
+{
+    json_t *warnings = json_array();
+    for (int i = 0; i < ost_warning_count(ctx); i++)
+        json_array_append_new(warnings, ost_json_text(ost_warning(ctx, i)));
+    return warnings;
+}
+
 OstStatus ost_json_write(OstContext *ctx, json_t *document, const char *path)
 {
     const Document content = {ctx, document};

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -28,22 +29,16 @@ OstLogLevel ost_log_level(const OstContext *ctx)
     return ctx->level;
 }
 
-static void print_line(OstContext *ctx, const char *prefix, const char *format, va_list arguments)
-{
-    ost_progress(ctx, "", -1.0);
-    fputs(prefix, stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-}
-
 void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...)
 {
     if (ctx->rank != 0 || level > ctx->level || ctx->level == OST_LOG_QUIET)
         return;
     va_list arguments;
+    ost_progress(ctx, "", -1.0);
     va_start(arguments, format);
-    print_line(ctx, "", format, arguments);
+    vfprintf(stderr, format, arguments);
     va_end(arguments);
+    fputc('\n', stderr);
 }
 
 void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener)
@@ -52,21 +47,46 @@ void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *t
     ctx->listener = listener;
 }
 
+int ost_warning_count(const OstContext *ctx)
+{
+    return ctx->warnings;
+}
+
+const char *ost_warning(const OstContext *ctx, int number)
+{
+    return ctx->warning[number];
+}
+
+/* Not booked to the ledger, and left out where memory is short: the warning is printed all the same. */
+static void keep_warning(OstContext *ctx, const char *text)
+{
+    for (int i = 0; i < ctx->warnings; i++)
+        if (strcmp(ctx->warning[i], text) == 0)
+            return;
+    char **grown = realloc(ctx->warning, ((size_t)ctx->warnings + 1) * sizeof *grown);
+    if (!grown)
+        return;
+    ctx->warning = grown;
+    grown[ctx->warnings] = strdup(text);
+    ctx->warnings += grown[ctx->warnings] != NULL;
+}
+
 void ost_warn(OstContext *ctx, const char *format, ...)
 {
+    char text[OST_ERROR_TEXT_SIZE];
     va_list arguments;
-    if (ctx->rank == 0 && ctx->hear) {
-        char text[OST_ERROR_TEXT_SIZE];
-        va_start(arguments, format);
-        vsnprintf(text, sizeof text, format, arguments);
-        va_end(arguments);
-        ctx->hear(ctx->listener, text);
-    }
-    if (ctx->rank != 0 || ctx->level == OST_LOG_QUIET)
+    if (ctx->rank != 0)
         return;
     va_start(arguments, format);
-    print_line(ctx, "orthostat: warning: ", format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    keep_warning(ctx, text);
+    if (ctx->hear)
+        ctx->hear(ctx->listener, text);
+    if (ctx->level == OST_LOG_QUIET)
+        return;
+    ost_progress(ctx, "", -1.0);
+    fprintf(stderr, "orthostat: warning: %s\n", text);
 }
 
 /* Does standard error end at a terminal? mpirun stands between, so scripts/orthostat finds out before it starts that

@@ -160,6 +160,9 @@ void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
 #define OST_EFFECT_RULE(name, label, rule) rule(facts, &effects->state[name - OST_EFFECT_FIRST]);
     OST_EFFECT_TABLE(OST_EFFECT_RULE)
 #undef OST_EFFECT_RULE
+    for (int e = 0; e < OST_EFFECT_COUNT; e++)
+        if (facts->without & 1u << e)
+            off(&effects->state[e], "left out, to see what it changes");
 }
 
 void ost_effects_name_accounts(OstContext *ctx)

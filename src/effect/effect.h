@@ -49,6 +49,7 @@ typedef struct OstEffectFacts {
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
     double nodes, tets, regions; /* of the mesh */
+    unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 
 /* An effect of one scene. `bytes`: estimated peak memory on one rank, without ghosts; 0 if it is negligible or not
@@ -65,7 +66,7 @@ typedef struct OstEffects {
     OstEffectState state[OST_EFFECT_COUNT];
 } OstEffects;
 
-/* Local. Applies every rule of the table. */
+/* Local. Applies every rule of the table; what is left out is off. */
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects);
 
 /* Local. Gives the effects' accounts their labels in the ledger. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/number_range.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "effect/effect.h"
@@ -17,26 +18,23 @@ static OstStatus take_objection(OstContext *ctx, OstStatus status, OstVerdict *b
     return OST_SUCCESS;
 }
 
-/* Do stiffness and right-hand side (3 × rows) keep all computed numbers within double precision? Norms and energies are
- * sums of squares, which can hold 1e-308 to 1e308: displacements must stay within 1e-150 to 1e150, and so their
- * factors, loads and stiffness, within 1e-75 to 1e75. Beyond, a norm underflows to zero and a displacement of zero
- * would pass for an answer. Both tests are collective and raise OST_INVALID_INPUT with the number and what to do. A
- * right-hand side of zeros is fine. */
-static const double least = 1e-75;
-static const double most = 1e75;
-
+/* Do stiffness and right-hand side (3 × rows) keep all computed numbers within double precision (core/number_range.h)?
+ * Both tests are collective and raise OST_INVALID_INPUT with the number and what to do. A right-hand side of zeros is
+ * fine. */
 static OstStatus check_size(OstContext *ctx, const char *where, const char *what, double size)
 {
-    if (size >= least && size <= most)
+    if (size >= OST_LEAST_NUMBER && size <= OST_MOST_NUMBER)
         return OST_SUCCESS;
     if (!isfinite(size))
-        return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "%s: the %s are not finite everywhere; look for a value that is infinite or no number", where,
-                         what);
+        return OST_RAISE(
+            ctx, OST_INVALID_INPUT,
+            "%s: the %s are not finite everywhere: a value is no number, or beyond 1.8e308, the largest that "
+            "double precision holds; choose units of length and force that bring them nearer to 1",
+            where, what);
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "%s: the %s are of size %.2g in the case's units; beyond %g to %g, squares leave the range of "
                      "double precision: choose units of length and force that bring them nearer to 1",
-                     where, what, size, least, most);
+                     where, what, size, OST_LEAST_NUMBER, OST_MOST_NUMBER);
 }
 
 /* Largest absolute value; infinite if a value is NaN. */
@@ -77,7 +75,8 @@ static OstStatus number_range_of_load(const OstBlockMatrix *matrix, const double
     OstContext *ctx = matrix->ctx;
     double largest = largest_of(3 * (size_t)matrix->rows, rhs);
     OST_TRY(ost_max(ctx, 1, &largest));
-    return largest > 0.0 ? check_size(ctx, where, "loads", largest) : OST_SUCCESS;
+    return largest > 0.0 ? check_size(ctx, where, "loads, with the forces that prescribed displacements take,", largest)
+                         : OST_SUCCESS;
 }
 
 /* Loads may be out of balance by this share of their sizes: they are typed, and summed, with rounding. */

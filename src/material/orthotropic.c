@@ -3,6 +3,7 @@
 #include "orthostat/material.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Both nu_ij and nu_ji may be given if they agree to this; printed tables have few digits. */
 static const double pair_tolerance = 1e-6;
@@ -65,6 +66,37 @@ OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double 
     if (!isnan(g_axis))
         constants.shear_modulus[1] = constants.shear_modulus[2] = g_axis;
     return constants;
+}
+
+/* The same but for rounding. */
+static int same(double a, double b)
+{
+    return fabs(a - b) <= 1e-9 * fmax(fabs(a), fabs(b));
+}
+
+/* Equally stiff in all directions of the plane across e_axis: constants of eq. 19 and 20, in the order 12, 23, 31. */
+static int is_transverse_about(const OstOrthotropic *k, int axis)
+{
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3; /* nu and G of a: a with b; of b: b with the axis */
+    const double *e = k->youngs_modulus, *nu = k->poissons_ratio, *g = k->shear_modulus;
+    return same(e[a], e[b]) && same(g[b], g[axis]) && same(nu[b] / e[b], nu[axis] / e[axis]) &&
+           same(g[a], e[a] / (2.0 * (1.0 + nu[a])));
+}
+
+void ost_orthotropic_words(const OstOrthotropic *constants, char text[OST_MODULI_WORDS])
+{
+    const double *e = constants->youngs_modulus;
+    int odd = 0; /* the axis whose modulus the other two do not share */
+    while (odd < 3 && !same(e[(odd + 1) % 3], e[(odd + 2) % 3]))
+        odd++;
+    if (odd == 3)
+        snprintf(text, OST_MODULI_WORDS, "E = %.6g along e1, %.6g along e2, %.6g along e3", e[0], e[1], e[2]);
+    else if (same(e[0], e[1]) && same(e[1], e[2]))
+        snprintf(text, OST_MODULI_WORDS, "E = %.6g along e1, e2 and e3", e[0]);
+    else
+        snprintf(text, OST_MODULI_WORDS, "E = %.6g along e%d%s, %.6g along e%d and e%d", e[odd], odd + 1,
+                 is_transverse_about(constants, odd) ? " (the axis)" : "", e[(odd + 1) % 3], odd == 0 ? 2 : 1,
+                 odd == 2 ? 2 : 3);
 }
 
 /* nu_ij as the user gave it, or from nu_ji by nu_ij / E_i = nu_ji / E_j. */

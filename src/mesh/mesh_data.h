@@ -43,6 +43,7 @@ struct OstMeshChunk {
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
+    int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
 };
 
 /* One rank's part of the partitioned mesh: its owned nodes, every tet that touches one of them, and the other nodes of
@@ -67,6 +68,7 @@ struct OstMesh {
     int boundary_count;
     OstBoundary *boundaries;
     struct OstHalo *halo; /* over nodes */
+    int straighten;       /* as in the chunk */
 };
 
 /* The local numbers of a tet's nodes. */

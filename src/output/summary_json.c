@@ -70,9 +70,10 @@ static json_t *checks_json(const OstChecks *checks)
         ost_json_number(checks->largest_rotation));
 }
 
-static json_t *warnings_json(const OstChecks *checks)
+/* What standard error warned of, and what the summary does. */
+static json_t *warnings_json(const OstContext *ctx, const OstChecks *checks)
 {
-    json_t *warnings = json_array();
+    json_t *warnings = ost_json_warnings(ctx);
     char text[OST_LONGEST_WARNING];
     if (ost_linearity_warning(checks, text))
         json_array_append_new(warnings, ost_json_text(text));
@@ -132,9 +133,9 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
         "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
         scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
-        warnings_json(&result->checks), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
-        "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
-        solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
+        warnings_json(scene->ctx, &result->checks), "ranks", ost_size(scene->ctx), "vertices",
+        (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns,
+        "solver", solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
         ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
         watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
         ledger_json(scene->ctx, summary), "output", file);

@@ -157,12 +157,27 @@ static OstStatus change_order(const OstCase *c, const OstShapeSurface *surface, 
     return OST_SUCCESS;
 }
 
+/* A rank without a vertex has nothing to do, and many of them keep the others waiting. */
+static OstStatus check_ranks(const OstCase *c, const OstMeshChunk *chunk)
+{
+    const int ranks = ost_size(c->ctx);
+    if (ranks <= chunk->global_nodes)
+        return OST_SUCCESS;
+    return OST_RAISE(
+        c->ctx, OST_INVALID_INPUT,
+        "%s: %d ranks are more than the %lld vertices of the mesh; use %lld at most, and one for a mesh as "
+        "small as this",
+        c->path, ranks, (long long)chunk->global_nodes, (long long)chunk->global_nodes);
+}
+
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
                                OstMesh **mesh, OstSceneMaterials *materials)
 {
     const OstShapeSurface surface = true_surface(c);
     *mesh = NULL;
-    OstStatus status = ost_scene_materials(c, &(*chunk)->regions, from_file, materials);
+    OstStatus status = check_ranks(c, *chunk);
+    OST_THEN(ost_scene_materials(c, &(*chunk)->regions, from_file, materials));
+    (*chunk)->straighten = c->straighten;
     OST_THEN(partition(materials, chunk, mesh));
     OST_THEN(refine(c, &surface, mesh));
     OST_THEN(change_order(c, &surface, mesh));

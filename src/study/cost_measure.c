@@ -2,7 +2,7 @@
 #include "study/cost.h"
 
 #include "core/error.h"
-#include "core/parallel/reduce.h"
+#include "study/meter.h"
 
 #include <string.h>
 
@@ -35,34 +35,13 @@ static OstCostPhase phase_of(OstAccount account)
     }
 }
 
-/* This rank's ledger when a run began. */
-typedef struct Meter {
-    double start;
-    double seconds[OST_EFFECT_END];
-    size_t bytes;
-} Meter;
-
-static OstStatus start_meter(OstContext *ctx, Meter *meter)
+static void note(const OstMeter *meter, OstCostRun *run)
 {
-    OST_TRY(OST_MPI(ctx, MPI_Barrier(ost_comm(ctx))));
-    for (int a = 0; a < OST_EFFECT_END; a++)
-        meter->seconds[a] = ost_ledger_entry(ctx, a).seconds;
-    ost_ledger_restart_peak(ctx);
-    meter->bytes = ost_ledger_bytes(ctx);
-    meter->start = ost_seconds();
-    return OST_SUCCESS;
-}
-
-static OstStatus read_meter(OstContext *ctx, const Meter *meter, OstCostRun *run)
-{
-    run->seconds = ost_seconds() - meter->start;
-    run->bytes = (double)(ost_ledger_peak_bytes(ctx) - meter->bytes);
+    run->seconds = meter->seconds;
+    run->bytes = meter->bytes;
     memset(run->phase, 0, sizeof run->phase);
     for (int a = 0; a < OST_EFFECT_END; a++)
-        run->phase[phase_of(a)] += ost_ledger_entry(ctx, a).seconds - meter->seconds[a];
-    OST_TRY(ost_max(ctx, 1, &run->seconds));
-    OST_TRY(ost_max(ctx, OST_COST_PHASES, run->phase));
-    return ost_sum(ctx, 1, &run->bytes);
+        run->phase[phase_of(a)] += meter->account[a];
 }
 
 static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)
@@ -89,14 +68,15 @@ static OstStatus measure_once(OstCost *cost, const OstCase *variant, OstCostRun 
     const OstLogLevel level = ost_log_level(cost->ctx);
     OstScene *scene = NULL;
     OstResult *result = NULL;
-    Meter meter;
+    OstMeter meter;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(start_meter(cost->ctx, &meter));
+    OST_TRY_DONE(ost_meter_start(cost->ctx, &meter));
     if (cost->heard[variant->order - 1] && level == OST_LOG_NORMAL) /* warnings of the first run of an order suffice */
         ost_log_set_level(cost->ctx, OST_LOG_QUIET);
     OST_TRY_DONE(ost_scene_create(variant, &scene));
     OST_TRY_DONE(ost_scene_solve(scene, &result));
-    OST_TRY_DONE(read_meter(cost->ctx, &meter, run));
+    OST_TRY_DONE(ost_meter_read(cost->ctx, &meter));
+    note(&meter, run);
     ost_log_set_level(cost->ctx, level);
     status = evaluate(cost, scene, result, run);
     cost->heard[variant->order - 1] = 1;

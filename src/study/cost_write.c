@@ -186,9 +186,9 @@ static json_t *study_json(const OstCost *cost)
     json_t *runs = json_array();
     for (int i = 0; i < cost->run_count; i++)
         json_array_append_new(runs, run_json(cost, &cost->run[i]));
-    return json_pack("{s:s, s:s, s:i, s:f, s:f, s:o, s:o}", "case", cost->c->path, "title", cost->c->title, "ranks",
-                     ost_size(cost->ctx), "max_seconds", cost->variants.max_seconds, "seconds", cost->seconds,
-                     "quantities", quantities_json(cost), "runs", runs);
+    return json_pack("{s:s, s:s, s:i, s:f, s:f, s:o, s:o, s:o}", "case", cost->c->path, "title", cost->c->title,
+                     "ranks", ost_size(cost->ctx), "max_seconds", cost->variants.max_seconds, "seconds", cost->seconds,
+                     "warnings", ost_json_warnings(cost->ctx), "quantities", quantities_json(cost), "runs", runs);
 }
 
 OstStatus ost_cost_write_json(const OstCost *cost, const char *path)

@@ -160,8 +160,8 @@ OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *con
         json_array_append_new(cases, case_json(reports[i]));
         passed &= reports[i]->passed;
     }
-    json_t *document =
-        json_pack("{s:b, s:b, s:i, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx), "cases", cases);
+    json_t *document = json_pack("{s:b, s:b, s:i, s:o, s:o}", "passed", passed, "quick", quick, "ranks", ost_size(ctx),
+                                 "warnings", ost_json_warnings(ctx), "cases", cases);
     if (!document)
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
     return ost_json_write(ctx, document, path);

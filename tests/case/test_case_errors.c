@@ -82,6 +82,18 @@ static void numbers_are_whole_and_finite(void **state)
                    "3:35: materials[0].youngs_modulus: found '-Infinity', expected a finite number");
     assert_refused(MATERIAL("youngs_modulus: 1e400, poissons_ratio: 0.3"),
                    "3:35: materials[0].youngs_modulus: found '1e400', expected a finite number (below 1.8e308)");
+    assert_refused(MATERIAL("youngs_modulus: 1e308, poissons_ratio: 0.3"),
+                   "3:35: materials[0].youngs_modulus: found '1e308', expected a number of at most 1e75 in size "
+                   "(squares of larger ones leave double precision; choose other units)");
+    assert_refused(MATERIAL("youngs_modulus: 1e-308, poissons_ratio: 0.3"),
+                   "3:35: materials[0].youngs_modulus: found '1e-308', expected a number of at least 1e-75 (squares of "
+                   "smaller ones ...");
+    assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [1e200, 0, 0]}\n",
+                   "4:38: constraints[0].displacement[0]: found '1e200', expected a number of at most 1e75 in size "
+                   "(squares of larger ones leave double precision; choose other units)");
+    assert_refused("mesh: {block: {size: [1e308, 1, 1], divisions: [1, 1, 1]}}\n" STEEL,
+                   "1:23: mesh.block.size[0]: found '1e308', expected a number of at most 1e75 in size (squares of "
+                   "larger ones leave double precision; choose other units)");
     assert_refused(MATERIAL("youngs_modulus: 0x10, poissons_ratio: 0.3"),
                    "3:35: materials[0].youngs_modulus: found '0x10', expected a number");
     assert_refused(MATERIAL("youngs_modulus: [1, stiff, 1], poissons_ratio: 0.3"),
@@ -125,7 +137,7 @@ static void constants_that_do_not_go_together_are_refused(void **state)
 {
     (void)state;
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
-                   "3:54: poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}");
+                   "3:54: poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}, where the axis is e3");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),
                    "3:62: nu12, nu23 and nu31 need shear_modulus {G12, G23, G31}; ...");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: {G12: 1, G21: 1}"),
@@ -137,7 +149,8 @@ static void constants_that_do_not_go_together_are_refused(void **state)
         "3:74: unknown shear rule 'geometrical'; did you mean 'geometric'? Known: geometric, arithmetic, min, "
         "max");
     assert_refused(MATERIAL("youngs_modulus: {plane: 1, axis: 2}, poissons_ratio: {nu12: 0.1}"),
-                   "3:72: with youngs_modulus {plane, axis}, poissons_ratio is a number or {plane, plane_axis}; ...");
+                   "3:72: with youngs_modulus {plane, axis} (the axis is e3), poissons_ratio is a number or {plane, "
+                   "plane_axis}; ...");
 }
 
 static void bad_axes_are_refused_where_they_stand(void **state)
@@ -196,7 +209,7 @@ static void what_no_version_does_is_refused_in_words(void **state)
     assert_refused(CUBE STEEL "effects: {large_rotation: auto}\n",
                    "3:1: unknown key 'effects' in the case. Known keys: ...");
     assert_refused(CUBE STEEL "output: {fields: [displacement, error]}\n",
-                   "3:33: unknown field 'error'. Known: displacement, reaction, stress, node_stress, strain, "
+                   "3:33: unknown field 'error'. Known: displacement, reaction, stress, node_stress, strain_tensor, "
                    "strain_energy_density, "
                    "axes, region, rank");
 }
@@ -220,7 +233,8 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "solver: {factor_memory: 0}\n",
                    "3:25: solver.factor_memory: found '0', expected a number of MiB above 0, at most 1e12");
     assert_refused(CUBE STEEL "solver: {factor_memory: 1e300}\n",
-                   "3:25: solver.factor_memory: found '1e300', expected a number of MiB above 0, at most 1e12");
+                   "3:25: solver.factor_memory: found '1e300', expected a number of at most 1e75 in size (squares of "
+                   "larger ones leave double precision; choose other units)");
     assert_refused(CUBE STEEL "solver: {aggregate_nodes: 1}\n",
                    "3:27: solver.aggregate_nodes: found '1', expected a number of nodes above 1, at most 1e6");
     assert_refused(CUBE STEEL "solver: {coarse_aggregate_nodes: 2e6}\n",

@@ -32,6 +32,7 @@ static void the_smallest_case_has_the_defaults(void **state)
     assert_string_equal(c->title, "untitled");
     assert_int_equal(c->mesh_kind, OST_MESH_BLOCK);
     assert_int_equal(c->order, 0);
+    assert_int_equal(c->straighten, 0);
     assert_int_equal(c->refinement, 0);
     assert_int_equal(c->constraint_count + c->load_count, 0);
     assert_null(c->output_file);
@@ -336,7 +337,7 @@ static void settings_are_read(void **state)
     (void)state;
     char whole[2048];
     snprintf(whole, sizeof whole,
-             "%s%selement: {order: 1}\naccuracy: {relative_residual: 1e-10, "
+             "%s%selement: {order: 1, straighten: true}\naccuracy: {relative_residual: 1e-10, "
              "out_of_reach: accept, relative_error: 0.001}\n"
              "solver: {method: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
              "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"
@@ -345,6 +346,7 @@ static void settings_are_read(void **state)
              cube, steel);
     assert_success(read_text(whole, &c));
     assert_int_equal(c->solver.method, OST_METHOD_PLAIN);
+    assert_int_equal(c->straighten, 1);
     assert_close(c->solver.relative_residual, 1e-10, 0.0);
     assert_close(c->relative_error, 0.001, 0.0);
     assert_int_equal(c->solver.max_iterations, 77);

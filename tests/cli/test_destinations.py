@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 
-from program import PROGRAM, SOURCE, check, new_folder, run
+from program import PROGRAM, check, new_folder, run
 
 CASE = """mesh:
   block: {size: [2, 1, 1], divisions: [2, 1, 1]}
@@ -215,29 +215,6 @@ def a_place_between_vertices_is_pointed_out(folder):
               f"{command}: {finished.errors}")
 
 
-def the_script_takes_words_in_any_order(folder):
-    """scripts/orthostat hands on what comes first; its program here is one that says how it was called."""
-    scripts = os.path.join(folder, "scripts")
-    os.mkdir(scripts)
-    shutil.copy(os.path.join(SOURCE, "scripts", "orthostat"), scripts)
-    write(scripts, "environment", f"cores=3 build={folder}/bin\nbuild_program() {{ :; }}\n"
-          f"mpirun() {{ echo mpirun \"$@\"; }}\nexec() {{ \"$@\"; exit 0; }}\n")
-    os.mkdir(os.path.join(folder, "bin"))
-    write(folder, "bin/orthostat", "#!/bin/sh\necho alone \"$@\"\n")
-    os.chmod(os.path.join(folder, "bin", "orthostat"), 0o755)
-    program = os.path.join(folder, "bin", "orthostat")
-    for words, expected in [
-            ("-q -n 2 solve a.yaml -v", f"mpirun --quiet -n 2 {program} -q solve a.yaml -v"),
-            ("-n 2 -v -q check a.yaml", f"mpirun --quiet -n 2 {program} -v -q check a.yaml"),
-            ("solve -n", f"mpirun --quiet -n 3 {program} solve -n"),
-            ("-v material x", "alone -v material x"),
-            ("-q --help", "alone -q --help"),
-            ("-n 2", "alone")]:
-        said = subprocess.run(["bash", os.path.join(scripts, "orthostat"), *words.split()], text=True,
-                              stdout=subprocess.PIPE).stdout.strip()
-        check(said == expected, f"scripts/orthostat {words}: {said}")
-
-
 def main():
     folder = new_folder()
     os.mkdir(os.path.join(folder, "folder"))
@@ -252,7 +229,6 @@ def main():
     check_says_where_it_goes(folder)
     a_body_at_rest_is_pointed_out(folder)
     a_place_between_vertices_is_pointed_out(folder)
-    the_script_takes_words_in_any_order(folder)
 
 
 main()

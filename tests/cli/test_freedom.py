@@ -1,7 +1,7 @@
 """What nothing holds is refused in words, before the solve; a floating body under balanced loads is solved when asked."""
 import os
 
-from program import check, new_folder, read_points, run, solve
+from program import check, fewer, new_folder, read_points, run, solve
 
 TETS = [(0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3)]
 
@@ -71,11 +71,11 @@ REFUSED = [
         for at, f in (([0, 0, 0], 0.1), ([1, 0, 0], 0.2), ([0, 1, 0], -0.3)))), [ONE],
      "leave a force (0, 0, 0) of loads of size 0.6, and a moment (-0.3, -0.2, 0)"),
     ("moduli beyond the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e180"), [ONE],
-     "the stiffest nodes are of size"),
+     "youngs_modulus: found '2e180', expected a number of at most 1e75 in size"),
     ("moduli below the range of numbers", case(HELD).replace("modulus: 1000", "modulus: 2e-150"), [ONE],
-     "the stiffest nodes are of size"),
-    ("loads beyond the range of numbers", case(HELD, "  - {on: {nearest: [1, 1, 1]}, point_force: [0, 0, -1e120]}"), [ONE],
-     "the loads are of size 1e+120"),
+     "youngs_modulus: found '2e-150', expected a number of at least 1e-75"),
+    ("loads beyond the range of numbers", case(HELD, "  - {on: {nearest: [1, 1, 1]}, point_force: [0, 0, -1e75]}\n" * 2), [ONE],
+     "the loads, with the forces that prescribed displacements take, are of size 2e+75"),
     ("a free body in two parts", case("free_body"), [ONE, EDGE], "free_body takes one connected body"),
     ("a merge of a shape", case(HELD, mesh=BEAM + ", merge: 1e-6"), [], "merge joins coincident vertices of a mesh file"),
     ("a merge of nothing", case(HELD, mesh="file: m.veg, merge: 0"), [ONE], "merge"),
@@ -87,9 +87,7 @@ def refusals():
     for name, text, cells, wanted in REFUSED:
         messages = set()
         for command in ("solve", "check"):
-            for ranks in (1, 3):
-                if command == "check" and ranks > 1:
-                    continue
+            for ranks in (1,) if command == "check" else fewer((1, 3)):
                 folder = new_folder()
                 for file, content in (("m.veg", veg(cells)), ("case.yaml", text), ("result.vtkhdf", "precious")):
                     with open(os.path.join(folder, file), "w") as stream:
@@ -113,7 +111,7 @@ def merged():
     energies = {}
     for name, mesh, cells in (("whole", "file: m.veg", [ONE, (1, 0, 0, 0)]),
                               ("merged", "file: m.veg, merge: 0.01", [ONE, SIDE])):
-        for ranks in (1, 4):
+        for ranks in fewer((1, 4)):
             folder = new_folder()
             with open(os.path.join(folder, "m.veg"), "w") as stream:
                 stream.write(veg(cells))
@@ -122,7 +120,7 @@ def merged():
             joined = "joined 4 vertices" in finished.errors
             check(joined == (name == "merged"), f"{name} on {ranks} ranks: {finished.errors}")
             energies[name, ranks] = report["checks"]["strain_energy"]
-    whole = energies["whole", 1]
+    whole = energies["whole", fewer((1, 4))[0]]
     for key, energy in energies.items():
         check(abs(energy - whole) <= 1e-9 * whole, f"{key}: energy {energy}, whole {whole}")
 
@@ -132,7 +130,7 @@ def held_apart():
     folder = new_folder()
     with open(os.path.join(folder, "m.veg"), "w") as stream:
         stream.write(veg([ONE, SIDE]))
-    for ranks in (1, 3):
+    for ranks in fewer((1, 3)):
         finished, _, _ = solve(case("[{on: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, displacement: [0, 0, 0]}]"),
                                ranks=ranks, folder=folder)
         check(finished.exit_code == 0, finished.errors)
@@ -149,7 +147,7 @@ def free_body():
     check(finished.exit_code == 0, finished.errors)
     check(abs(held["checks"]["strain_energy"] - exact) <= 1e-9 * exact, f"held: {held['checks']['strain_energy']}")
     for method in ("direct", "metric"):
-        for ranks in (1, 2, 4):
+        for ranks in fewer((1, 2, 4)):
             text = case("free_body", PULL, BEAM) + f"solver: {{method: {method}, coarsest_unknowns: 100}}\n"
             finished, report, path = solve(text, ranks=ranks)
             where = f"free body, {method} on {ranks} ranks"

@@ -2,7 +2,7 @@
 import json
 import os
 
-from program import check, new_folder, read_points, run as run_program, solve
+from program import SANITIZED, check, new_folder, read_points, run as run_program, solve
 
 CASE = """
 title: a short tube of quadratic tets
@@ -61,7 +61,8 @@ def main():
     foreseen_sizes_are_the_real_ones()
     linear, _ = run(1, "metric", 1)
     reference = None
-    for method, ranks in (("metric", 1), ("metric", 2), ("metric", 4), ("direct", 1), ("direct", 2), ("plain", 2)):
+    runs = [("metric", 1), ("metric", 2), ("metric", 4), ("direct", 1), ("direct", 2), ("plain", 2)]
+    for method, ranks in runs[1::2] if SANITIZED else runs:
         report, points = run(2, method, ranks)
         check(len(points) == 48 * 5 * 21, f"{len(points)} nodes: one on every edge is expected")
         energy = report["checks"]["strain_energy"]

@@ -1,4 +1,6 @@
 """The pose does not depend on the number of ranks beyond rounding."""
+import os
+
 from program import check, read_points, solve
 
 CASE = """
@@ -21,7 +23,22 @@ solver: {method: METHOD, coarsest_unknowns: 200}
 """
 
 
+SMALL = """
+mesh: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [1, 0, 0]}]
+"""
+
+
+def more_ranks_than_vertices_are_refused():
+    finished, _, path = solve(SMALL, ranks=9)
+    check(finished.exit_code == 2 and finished.errors.count("9 ranks are more than the 8 vertices of the mesh; use 8 at"
+          " most") == 1 and not os.path.exists(path), f"9 ranks for 8 vertices: {finished.exit_code} {finished.errors}")
+
+
 def main():
+    more_ranks_than_vertices_are_refused()
     for method in ("metric", "plain", "direct"):
         reference = None
         for ranks in (1, 2, 3, 4):

@@ -29,6 +29,12 @@ def a_full_standard_output_is_no_success(folder):
               f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
+def a_case_comes_from_standard_input(folder):
+    process = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=folder, input=CASE, stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, text=True, timeout=240)
+    check(process.returncode == 0 and json.loads(process.stdout)["loads"] == 1, f"check -: {process}")
+
+
 def impossible_sizes_are_told_by_their_limit(folder):
     """2^31 - 1 unknowns are 715,827,882 nodes, which no ranks help beyond; the nonzeros of a rank they do help."""
     for divisions, refine in (([100000, 100000, 100000], 0), ([1000000, 1000000, 1000000], 8), ([894, 894, 894], 0)):
@@ -47,6 +53,19 @@ def impossible_sizes_are_told_by_their_limit(folder):
     ranks = json.loads(run("explain", "large.yaml", "--json", folder=folder).output)["ranks_at_least"]
     check(abs(ranks - least) <= 1 + 0.01 * least, f"at least {ranks} ranks, {least} by hand")
     check("ranks  " not in run("explain", "bar.yaml", folder=folder).output, "one rank will do, and nothing is said")
+
+
+def explain_says_where_each_modulus_goes(folder):
+    """Axes with the fibre along e1, but a material whose axis is e3: nothing else would show it."""
+    with open(os.path.join(folder, "fibre.yaml"), "w") as stream:
+        stream.write(CASE.replace("youngs_modulus: 1000", "axes: {fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]}, "
+                                  "youngs_modulus: {plane: 1, axis: 88}"))
+    words = "E = 88 along e3 (the axis), 1 along e1 and e2"
+    axes = "e1 = (0, 1, 0), e2 = (-1, 0, 0), e3 = (0, 0, 1)"
+    told = run("explain", "fibre.yaml", folder=folder)
+    check(words in told.output and axes in told.output, f"explain: {told.output}{told.errors}")
+    told = json.loads(run("explain", "fibre.yaml", "--json", folder=folder).output)
+    check(told["materials"] == [{"region": "all", "moduli": words, "axes": axes}], f"explain --json: {told}")
 
 
 def what_does_not_fit_is_said(folder):
@@ -68,6 +87,7 @@ def main():
     with open(os.path.join(folder, "bar.yaml"), "w") as stream:
         stream.write(CASE)
     what_does_not_fit_is_said(folder)
+    explain_says_where_each_modulus_goes(folder)
 
     helped = run("--help")
     check(helped.exit_code == 0 and "solve" in helped.output and not helped.errors, "orthostat --help")
@@ -131,6 +151,7 @@ def main():
     check(full.exit_code == 2, "an impossible JSON path")
     a_full_standard_output_is_no_success(folder)
     impossible_sizes_are_told_by_their_limit(folder)
+    a_case_comes_from_standard_input(folder)
 
 
 main()

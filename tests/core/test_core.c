@@ -105,6 +105,10 @@ static void warnings_are_heard_even_when_quiet(void **state)
     ost_warn(ctx, "unheard");
     ost_log_set_level(ctx, before);
     assert_string_equal(heard, "2 of 3");
+    ost_warn(ctx, "unheard");
+    assert_int_equal(ost_warning_count(ctx), 2); /* each once */
+    assert_string_equal(ost_warning(ctx, 0), "2 of 3");
+    assert_string_equal(ost_warning(ctx, 1), "unheard");
 }
 
 static void every_status_has_its_exit_code(void **state)

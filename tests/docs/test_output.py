@@ -60,3 +60,21 @@ for on, data in (("points", reader.GetOutput().GetPointData()), ("cells", reader
         check(rows.pop(data.GetArrayName(i), None) == found,
               f"docs/output.md does not have {data.GetArrayName(i)} on {found[0]} with {found[1]} components")
 check(not rows, f"docs/output.md has fields that are not in the file: {sorted(rows)}")
+
+# The field of strains is the tensor that VTK itself makes of the displacement, so that principal strains are right.
+from vtkmodules.vtkFiltersGeneral import vtkCellDerivatives  # noqa: E402
+
+grid = reader.GetOutput()
+grid.GetPointData().SetActiveVectors("displacement")
+derivatives = vtkCellDerivatives()
+derivatives.SetInputData(grid)
+derivatives.SetVectorModeToPassVectors()
+derivatives.SetTensorModeToComputeStrain()
+derivatives.Update()
+expected = derivatives.GetOutput().GetCellData().GetTensors()
+written = grid.GetCellData().GetArray("strain_tensor")
+largest = max(abs(x) for tet in range(grid.GetNumberOfCells()) for x in expected.GetTuple(tet))
+for tet in range(grid.GetNumberOfCells()):
+    whole = expected.GetTuple(tet)
+    for value, place in zip(written.GetTuple(tet), (0, 4, 8, 1, 5, 2)):
+        check(abs(value - whole[place]) < 1e-9 * largest, f"strain of tet {tet}: {written.GetTuple(tet)}, VTK: {whole}")

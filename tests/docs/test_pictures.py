@@ -56,6 +56,11 @@ finished = run("solve", "plank.yaml", "-q", "--json", "plank.json", folder=folde
 check(finished.exit_code == 0 and not finished.errors, finished.errors)
 check_drawn("plank.png", pictures.numbers_of_solve(report_of("plank.json")), 0.02, "plank")
 
+# What the effects of a tube change.
+check(run("effects", os.path.join(SOURCE, pictures.EFFECTS), "-q", "--json", "effects.json", folder=folder).exit_code == 0,
+      "orthostat effects failed")
+check_drawn("effects-tube.png", pictures.numbers_of_effects(report_of("effects.json")), 1e-3, "effects")
+
 # Where nine constants are stable.
 check(run("material", "--stability-region", "region.csv", folder=folder).exit_code == 0, "the stability region failed")
 check_drawn("stability-region.png", pictures.numbers_of_region(os.path.join(folder, "region.csv")), 1e-4, "stability")

@@ -30,7 +30,7 @@
 #define POKED "loads: [{on: {box: {min: [2, 1, 1], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define SPREAD "loads: [{on: {box: {min: [2, 0, 0], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
-#define ALL_FIELDS "output: {fields: [displacement, strain, stress, node_stress, strain_energy_density]}\n"
+#define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {

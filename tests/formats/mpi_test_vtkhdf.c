@@ -144,6 +144,24 @@ static OstContext *create_lone_context(void)
     return lone;
 }
 
+/* Open MPI holds paths in 256 bytes, with letters of its own. */
+static void long_paths_are_written(void **state)
+{
+    (void)state;
+    OstHdf5 file;
+    char letters[200] = "";
+    memset(letters, 'n', 190);
+    name_file(letters);
+    assert_true(strlen(path) > 200);
+    assert_success(ost_hdf5_create(ctx, path, &file));
+    assert_success(ost_hdf5_close(&file));
+    write_tube(ctx, path);
+    OstMeshChunk *read = NULL;
+    assert_success(ost_vtkhdf_read(ctx, path, &read));
+    expect_tube(ctx, &read);
+    remove_file();
+}
+
 static void one_rank_reads_the_pieces_of_all(void **state)
 {
     (void)state;
@@ -349,6 +367,7 @@ static void a_file_can_be_left_for_vtk(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_mesh_comes_back_as_it_was),
     cmocka_unit_test(what_was_read_can_be_distributed_and_written_again),
+    cmocka_unit_test(long_paths_are_written),
     cmocka_unit_test(one_rank_reads_the_pieces_of_all),
     cmocka_unit_test(all_ranks_share_the_piece_of_one),
     cmocka_unit_test(without_labels_equal_places_are_one_node),

@@ -13,21 +13,23 @@ static OstStatus read_mesh(const char *path)
     return ost_mesh_file_read(ctx, path, &chunk, &materials);
 }
 
-/* The last warning, and how many there were. */
-static char warning[512];
+/* All warnings as lines, the last one, and how many there were. */
+static char heard[2048], warning[512];
 static int warnings;
 
 static void hear(void *listener, const char *text)
 {
     (void)listener;
+    const size_t length = strlen(heard);
     snprintf(warning, sizeof warning, "%s", text);
+    snprintf(heard + length, sizeof heard - length, "%s\n", text);
     warnings++;
 }
 
 static OstStatus read_and_listen(const char *path)
 {
     warnings = 0;
-    warning[0] = '\0';
+    warning[0] = heard[0] = '\0';
     ost_log_set_level(ctx, OST_LOG_QUIET);
     ost_warn_listen(ctx, hear, NULL);
     const OstStatus status = read_mesh(path);
@@ -225,12 +227,13 @@ static void groups_of_one_name_are_one(void **state)
         assert_int_equal(chunk->regions.count, 2);
         assert_int_equal(chunk->tet_region[0], chunk->tet_region[1]);
         assert_int_equal(warnings, 2);
-        assert_non_null(strstr(warning, "several physical faces are named 'skin'; they are taken as one"));
+        assert_non_null(
+            strstr(warning, "the physical surfaces 5 and 6 have the same name 'skin'; they are taken as one"));
         drop_mesh();
     }
     model.names = "2\n1 4 \"skin\"\n2 6 \"skin\"\n";
     assert_failure(read_mesh(msh_write(&model, msh_flavours[MSH_22_TEXT], "skin.msh")), OST_INVALID_INPUT,
-                   "physical name 'skin' stands for faces and for curves");
+                   "the physical name 'skin' stands for surface 6 and curve 4; give each its own");
 }
 
 static void refuse(const MshElement *elements, int count, const char *text)
@@ -277,30 +280,66 @@ static void quadrilaterals_in_a_boundary_are_refused(void **state)
            "boundary 'surface-5' holds elements of Gmsh's type 'Quadrilateral 4', expected 'Triangle 3'");
 }
 
-static void a_tet_in_two_regions_is_refused(void **state)
+/* Version 2 has such a tet once for each volume, version 4 says it of the entity. Volumes of one tet, and of all. */
+static void a_tet_in_several_volumes_is_in_the_smallest(void **state)
 {
     (void)state;
-    MshElement again = tet_a;
+    MshElement again = tet_a, all = tet_a;
     again.tag = 20;
     again.physical = 2;
     again.entity = 6;
-    refuse((MshElement[]){tet_a, tet_b, tet_c, again}, 4, "tets 7 (region 'volume-1') and 20 (region 'volume-2') have");
-    const char *twice = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 2 3 4 0\n"
-                        "$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
-                        "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
-    assert_failure(read_mesh(write_text("twice.msh", twice)), OST_INVALID_INPUT,
-                   "volume 1 belongs to the physical volumes 3 and 4");
+    const MshModel model = {NULL, 6, 4, nodes4, (MshElement[]){tet_a, tet_b, tet_c, again}};
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_success(read_and_listen(msh_write(&model, msh_flavours[f], "shared.msh")));
+        assert_int_equal(warnings, 1);
+        assert_non_null(strstr(warning, "shared.msh: tets in several physical volumes: 1; each is put into the "
+                                        "smallest of these only"));
+        assert_int_equal(chunk->tet_count, 3);
+        assert_int_equal(chunk->global_tets, 3);
+        assert_int_equal(chunk->tet_label[0], 7);
+        assert_string_equal(chunk->regions.name[chunk->tet_region[0]], "volume-2");
+        assert_string_equal(chunk->regions.name[chunk->tet_region[1]], "volume-1");
+        drop_mesh();
+    }
+    static const char all_and_parts[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"all\"\n"
+                                        "3 3 \"low\"\n3 4 \"high\"\n$EndPhysicalNames\n$Entities\n0 0 0 2\n"
+                                        "1 0 0 0 1 1 1 2 1 3 0\n2 0 0 0 1 1 1 2 -4 1 0\n$EndEntities\n"
+                                        "$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                        "1.25 1 1\n$EndNodes\n$Elements\n2 2 1 2\n3 1 4 1\n1 1 2 3 4\n"
+                                        "3 2 4 1\n2 2 3 4 5\n$EndElements\n";
+    assert_success(read_and_listen(write_text("all.msh", all_and_parts)));
+    assert_int_equal(warnings, 2);
+    assert_non_null(strstr(warning, "region 'all' has no tets that are in no smaller region, and is left out"));
+    assert_int_equal(chunk->tet_count, 2);
+    assert_int_equal(chunk->regions.count, 2);
+    assert_string_equal(chunk->regions.name[chunk->tet_region[0]], "low");
+    assert_string_equal(chunk->regions.name[chunk->tet_region[1]], "high");
+    drop_mesh();
+    all.tag = 20;
+    refuse((MshElement[]){tet_a, tet_b, tet_c, all}, 4, "tets 7 and 20 of region 'volume-1' have the same vertices");
 }
 
-static void repeated_tags_are_refused(void **state)
+static void repeated_tags_of_tets_are_replaced(void **state)
 {
     (void)state;
     MshElement again = tet_b;
     again.tag = tet_a.tag;
     const MshModel twice = {NULL, 6, 3, nodes4, (MshElement[]){tet_a, again, tet_c}};
-    for (int f = 0; f < MSH_FLAVOURS; f++)
-        assert_failure(read_mesh(msh_write(&twice, msh_flavours[f], "repeated.msh")), OST_INVALID_INPUT,
-                       "element tag 7 is given to two tets");
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        assert_success(read_and_listen(msh_write(&twice, msh_flavours[f], "repeated.msh")));
+        assert_int_equal(warnings, 1);
+        assert_non_null(strstr(warning, "repeated.msh: element tag 7 is given to several tets; tets are numbered from "
+                                        "1 as they come"));
+        for (int t = 0; t < 3; t++)
+            assert_int_equal(chunk->tet_label[t], t + 1);
+        assert_nodes(chunk->tet_nodes + 4, 4, tet_b.nodes);
+        drop_mesh();
+    }
+}
+
+static void repeated_tags_of_nodes_are_refused(void **state)
+{
+    (void)state;
     MshNode nodes[6];
     memcpy(nodes, nodes4, sizeof nodes);
     nodes[5].tag = 55;
@@ -480,16 +519,17 @@ static void what_is_no_mesh_is_refused(void **state)
 static void wrong_files_are_refused_where_they_are_wrong(void **state)
 {
     (void)state;
-    refuse_text("$MeshFormat\n3.0 0 8\n$EndMeshFormat\n",
-                "text.msh:2: version 3 of the format found, expected 1, 2.0 to 2.2, 4.0 or 4.1; convert the file with "
-                "gmsh -save FILE.msh -format msh41 -o NEW.msh");
+    refuse_text("$MeshFormat\n5.0 0 8\n$EndMeshFormat\n",
+                "text.msh:2: version 5 of the format found, expected 1 to 4.1; convert the file with gmsh -save "
+                "FILE.msh -format msh41 -o NEW.msh");
     refuse_text("$MeshFormat\nx 0 8\n$EndMeshFormat\n", "text.msh:2: 'x' found, expected the version");
     refuse_text("$MeshFormat\n4.1 1 4\n$EndMeshFormat\n", "text.msh:2: numbers of 4 bytes");
     refuse_text("$MeshFormat\n4.1 1 8\nabcde\n$EndMeshFormat\n", "byte 20: 1684234849 found where the number one");
     refuse_text(HEAD22, "the file ends without a section $Nodes");
     refuse_text(NODES22, "the file ends without a section $Elements");
-    refuse_text(NODES22 NODES, "text.msh:11: a section $Nodes found, expected");
-    refuse_text(NODES22 TET22 TET22, "text.msh:15: a section $Elements found, expected");
+    refuse_text(NODES22 "$Nodes\n1\n1 0 0 0\n$EndNodes\n", "text.msh:11: a section $Nodes found, expected");
+    refuse_text(NODES22 TET22 "$Elements\n1\n2 4 2 1 1 1 2 3 4\n$EndElements\n",
+                "text.msh:15: a section $Elements found, expected");
     refuse_text(HEAD22 TET22 NODES, "text.msh:4: a section $Elements found, expected $Entities, one $Nodes");
     refuse_text(HEAD22 "$Nodes\n999999999\n", "text.msh:5: 999999999 nodes stated, which do not fit");
     refuse_text(HEAD22 "$Nodes\n-1\n", "text.msh:5: '-1' found");
@@ -516,7 +556,7 @@ static void wrong_files_are_refused_where_they_are_wrong(void **state)
     refuse_text(HEAD41 "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n", "nodes of an entity of dimension 4");
     refuse_text(HEAD41 "$Nodes\n0 1000000000000 1 1\n", "1000000000000 nodes stated");
     refuse_text(HEAD41 "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 99999999999\n", "99999999999 physical groups");
-    refuse_text(MESH41 ENTITIES41, "a section $Entities found, expected");
+    refuse_text(MESH41 "$Entities\n0 0 0 0\n$EndEntities\n", "a section $Entities found, expected");
 }
 
 /* Sections that tell nothing of the mesh, as PyMesh, meshio, TetWild and Gmsh write them; words where Gmsh does not
@@ -635,8 +675,10 @@ static void partitioned_files_are_one_body(void **state)
     assert_string_equal(chunk->regions.name[0], "bone");
     assert_int_equal(chunk->boundary_count, 1);
     assert_int_equal(boundary("skin")->count, 1);
-    assert_int_equal(warnings, 1);
-    assert_non_null(strstr(warning, "parts.msh: ghost elements, which other partitions have too, are left out: 1"));
+    assert_int_equal(warnings, 2);
+    assert_non_null(strstr(heard, "parts.msh: ghost elements, which other partitions have too, are left out: 1\n"));
+    assert_non_null(strstr(heard, "parts.msh: the faces, curves and points between partitions are left out of "
+                                  "boundaries\n"));
     drop_mesh();
 }
 
@@ -716,8 +758,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(other_solid_elements_are_refused_by_name),
     cmocka_unit_test(a_mesh_without_tets_is_refused),
     cmocka_unit_test(quadrilaterals_in_a_boundary_are_refused),
-    cmocka_unit_test(a_tet_in_two_regions_is_refused),
-    cmocka_unit_test(repeated_tags_are_refused),
+    cmocka_unit_test(a_tet_in_several_volumes_is_in_the_smallest),
+    cmocka_unit_test(repeated_tags_of_tets_are_replaced),
+    cmocka_unit_test(repeated_tags_of_nodes_are_refused),
     cmocka_unit_test(nodes_of_no_tet_are_left_out),
     cmocka_unit_test(tets_the_other_way_round_are_turned),
     cmocka_unit_test(turned_tets_keep_their_middles),

@@ -76,6 +76,7 @@ class Material(unittest.TestCase):
         self.assertEqual(found["youngs_modulus"], {"E1": 1, "E2": 1, "E3": 100})
         self.assertAlmostEqual(found["poissons_ratio"]["nu23"], 0.03, delta=1e-15)  # eq. 20
         self.assertEqual(found["shear_modulus"]["G23"], 2.5)
+        self.assertEqual(found["moduli"], "E = 100 along e3 (the axis), 1 along e1 and e2")
 
     def test_indefinite_constants_are_refused_with_the_way_out(self):
         arguments = "--youngs 1,1,4 --nu12 .45 --nu23 .45 --nu31 .45 --G12 1 --G23 1 --G31 1".split()

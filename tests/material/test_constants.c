@@ -264,7 +264,32 @@ static void transverse_constants_follow_section_3_1(void **state)
     assert_close(m.shear_modulus[1], m.shear_modulus[2], 1e-15);
 }
 
+static void words_name_the_axis_of_each_modulus(void **state)
+{
+    (void)state;
+    char text[OST_MODULI_WORDS];
+    OstOrthotropic constants = ost_orthotropic_transverse(1.0, 88.0, 0.3, NAN, NAN);
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 88 along e3 (the axis), 1 along e1 and e2");
+    constants.shear_modulus[0] *= 1.1; /* the plane is no longer isotropic */
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 88 along e3, 1 along e1 and e2");
+    constants = ost_orthotropic_family((const double[3]){2.0, 5.0, 2.0}, 0.3, OST_SHEAR_GEOMETRIC);
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 5 along e2 (the axis), 2 along e1 and e3");
+    constants = ost_orthotropic_family((const double[3]){7.0, 5.0, 5.0}, 0.3, OST_SHEAR_GEOMETRIC);
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 7 along e1 (the axis), 5 along e2 and e3");
+    constants = ost_orthotropic_family((const double[3]){1.0, 5.0, 2e11}, 0.3, OST_SHEAR_GEOMETRIC);
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 1 along e1, 5 along e2, 2e+11 along e3");
+    constants = ost_orthotropic_isotropic(3.0, 0.3);
+    ost_orthotropic_words(&constants, text);
+    assert_string_equal(text, "E = 3 along e1, e2 and e3");
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(words_name_the_axis_of_each_modulus),
     cmocka_unit_test(stiffness_and_compliance_are_those_of_equations_4_to_8),
     cmocka_unit_test(stiffness_times_compliance_is_identity),
     cmocka_unit_test(matrices_are_symmetric_to_the_last_bit),

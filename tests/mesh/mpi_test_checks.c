@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
 
+#include "core/parallel/reduce.h"
 #include "mesh/distribution/graph.h"
 #include "mesh/distribution/partition.h"
 #include "mesh_support.h"
@@ -127,6 +128,68 @@ static void numbers_must_fit_the_mesh(void **state)
     refuses(&cube, "8 nodes and no tet");
 }
 
+/* The mid-edge node of a chunk of 27 vertices with the lowest (or highest) sum of coordinates; rank 0 has all nodes. */
+static OstLocal extreme_middle(const OstMeshChunk *cube, double sign)
+{
+    OstLocal best = 27;
+    for (OstLocal n = 28; n < cube->node_count; n++) {
+        const double *x = cube->coordinates + 3 * (size_t)n, *least = cube->coordinates + 3 * (size_t)best;
+        if (sign * (x[0] + x[1] + x[2]) < sign * (least[0] + least[1] + least[2]))
+            best = n;
+    }
+    return best;
+}
+
+/* A cube with one edge bent so far that tets fold, and at the opposite corner one bent a little. */
+static OstMeshChunk *bent_cube(void)
+{
+    OstMeshChunk *cube = quadratic_cube(2);
+    if (ost_rank(ctx) == 0) {
+        cube->coordinates[3 * (size_t)extreme_middle(cube, 1.0)] += 0.3;
+        cube->coordinates[3 * (size_t)extreme_middle(cube, -1.0)] += 0.02;
+    }
+    return cube;
+}
+
+static void hear_once(void *heard, const char *text)
+{
+    assert_non_null(strstr(text, "straighten: the edges of "));
+    assert_non_null(strstr(text, " curved tets that folded over are now straight; the worst, tet "));
+    ++*(int *)heard;
+}
+
+static void tets_that_fold_are_made_straight_if_asked(void **state)
+{
+    (void)state;
+    OstMeshChunk *cube = bent_cube();
+    OstMesh *mesh = NULL;
+    int warnings = 0;
+    assert_failure(ost_mesh_distribute(ctx, &cube, &mesh), OST_INVALID_INPUT,
+                   "such tets; give them straight edges (element: {straighten: true}), or refine");
+    cube = bent_cube();
+    cube->straighten = 1;
+    const OstLogLevel level = ost_log_level(ctx);
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    ost_warn_listen(ctx, hear_once, &warnings);
+    assert_success(ost_mesh_distribute(ctx, &cube, &mesh));
+    ost_warn_listen(ctx, NULL, NULL);
+    ost_log_set_level(ctx, level);
+    assert_int_equal(warnings, ost_rank(ctx) == 0);
+    double farthest = 0.0;
+    for (OstLocal t = 0; t < mesh->tet_count; t++)
+        for (int e = 0; e < 6; e++) {
+            const OstLocal *nodes = mesh->tet_nodes + 10 * (size_t)t;
+            const double *a = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][0]];
+            const double *b = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][1]];
+            const double *middle = mesh->coordinates + 3 * (size_t)nodes[4 + e];
+            for (int d = 0; d < 3; d++)
+                farthest = fmax(farthest, fabs(middle[d] - 0.5 * (a[d] + b[d])));
+        }
+    assert_success(ost_max(ctx, 1, &farthest));
+    assert_close(farthest, 0.02, 1e-15);
+    ost_mesh_destroy(&mesh);
+}
+
 static void labels_of_the_file_are_used(void **state)
 {
     (void)state;
@@ -195,6 +258,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(coordinates_must_be_finite),
     cmocka_unit_test(vertices_without_tet_are_listed),
     cmocka_unit_test(numbers_must_fit_the_mesh),
+    cmocka_unit_test(tets_that_fold_are_made_straight_if_asked),
     cmocka_unit_test(labels_of_the_file_are_used),
     cmocka_unit_test(a_boundary_belongs_to_the_body),
     cmocka_unit_test(fewer_nodes_than_ranks_are_refused),

@@ -110,7 +110,7 @@ class Cost(unittest.TestCase):
                               capture_output=True, text=True, timeout=100,
                               env={**os.environ, "TMPDIR": self.path("somewhere")})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue(done.stdout.startswith(self.path("somewhere/orthostat-prices-")), done.stdout)
+        self.assertTrue(done.stdout.startswith(self.path("somewhere/orthostat-study-")), done.stdout)
         self.assertFalse(os.path.exists(done.stdout.strip()))
 
     def test_picture_is_drawn(self):

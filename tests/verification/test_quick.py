@@ -4,7 +4,8 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SOURCE, check, new_folder, run  # noqa: E402
+from balance import check_cases  # noqa: E402
+from program import SANITIZED, SOURCE, check, new_folder, run  # noqa: E402
 
 CASES = os.path.join(SOURCE, "cases")
 os.environ["ORTHOSTAT_CASES"] = CASES
@@ -27,22 +28,16 @@ def fails_when(folder, name, old, new):
     check("FAIL" in finished.output, f"{name}: no quantity is said to fail\n{finished.output}")
 
 
-def main():
-    folder = new_folder()
+def coarse_meshes_pass(folder):
     report = os.path.join(folder, "verify.json")
-    finished = run("verify", "--quick", "--json", report, ranks=2)
+    finished = run("verify", "--quick", "--json", report, ranks=2, timeout=540)
     check(finished.exit_code == 0, f"verify --quick: {finished.output[-4000:]}{finished.errors}")
     with open(report) as stream:
-        cases = json.load(stream)["cases"]
-    check(len(cases) == len([f for f in os.listdir(os.path.join(CASES, "verify")) if f.endswith(".yaml")]),
-          f"{len(cases)} cases were run")
-    for case in cases:
-        check(case["passed"] and case["quantities"] and case["runs"], f"{case['name']} is not whole")
-        for one in case["runs"]:
-            check(max(one["force_imbalance"], one["moment_imbalance"]) <= 1e-10, f"{case['name']} is out of balance")
-            check(one["energy_imbalance"] <= 1e-9, f"{case['name']}: energy is not work")
+        check_cases(json.load(stream)["cases"])
 
-    # A sign, a factor, a wrong material, a wrong shear modulus, an axis that points elsewhere.
+
+def mistakes_fail(folder):
+    """A sign, a factor, a wrong material, a wrong shear modulus, an axis that points elsewhere."""
     fails_when(folder, "tube-lekhnitskii", "pressure: 1}\naccuracy", "pressure: -1}\naccuracy")
     fails_when(folder, "axial-pull", "total_force: [2,", "total_force: [2.0000001,")
     fails_when(folder, "hanging-bar", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.80]")
@@ -50,6 +45,14 @@ def main():
     fails_when(folder, "torsion-1-5", "scale: 2e4", "scale: 1e4")
     fails_when(folder, "cantilever-shear-20", "expected: tip_deflection", "expected: 4.2")
     fails_when(folder, "given-displacement", "[0.02, free, free]", "[0.0200001, free, free]")
+
+
+def main():
+    folder = new_folder()
+    if SANITIZED:  # the release build's test_all.py runs these meshes too; mistakes are about numbers
+        coarse_meshes_pass(folder)
+    else:
+        mistakes_fail(folder)
 
     # What is not a case of this kind is refused.
     check(run("verify", "--quick", "no-such-case").exit_code == 2, "a case that is not there")

@@ -2,6 +2,7 @@
 #include "case/yaml/read.h"
 
 #include "core/error.h"
+#include "core/number_range.h"
 #include "core/small.h"
 
 #include <stdio.h>
@@ -184,12 +185,18 @@ OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *
                                    " (write no units; use consistent ones)");
     if (!isfinite(*number))
         return ost_yaml_raise_type(yaml, node, "a finite number", " (below 1.8e308)");
+    if (fabs(*number) > OST_MOST_NUMBER)
+        return ost_yaml_raise_type(yaml, node, "a number of at most 1e75 in size",
+                                   "(squares of larger ones leave double precision; choose other units)");
     return OST_SUCCESS;
 }
 
 OstStatus ost_yaml_positive(const OstYaml *yaml, const OstYamlNode *node, double *number)
 {
     OST_TRY(ost_yaml_number(yaml, node, number));
+    if (*number > 0.0 && *number < OST_LEAST_NUMBER)
+        return ost_yaml_raise_type(yaml, node, "a number of at least 1e-75",
+                                   "(squares of smaller ones leave double precision; choose other units)");
     return *number > 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a number above 0", "");
 }
 

@@ -34,8 +34,8 @@ enum { OST_YAML_MOST_ENTRIES = 10000 };
 OstStatus ost_yaml_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
 OstStatus ost_yaml_short_list(const OstYaml *yaml, const OstYamlNode *node, const char *expected, int *count);
 
-/* Scalars. A number is finite, with nothing after it; an integer lies in [low, high]. The text lives as long as the
- * tree. */
+/* Scalars. A number is finite, at most 1e75 in size, with nothing after it; an integer lies in [low, high]. The text
+ * lives as long as the tree. */
 int ost_yaml_says(const OstYaml *yaml, const OstYamlNode *node, const char *word);
 OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char **text);
 OstStatus ost_yaml_number(const OstYaml *yaml, const OstYamlNode *node, double *number);

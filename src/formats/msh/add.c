@@ -109,7 +109,7 @@ OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group
     OST_TRY(OST_RESIZE(msh->cursor.ctx, &msh->group, msh->group_count + 1));
     *group = msh->group + low;
     memmove(*group + 1, *group, (size_t)(msh->group_count++ - low) * sizeof **group);
-    **group = (OstMshGroup){.dimension = dimension, .tag = tag};
+    **group = (OstMshGroup){.dimension = dimension, .tag = tag, .number = -1};
     return OST_SUCCESS;
 }
 
@@ -141,14 +141,33 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal 
     return OST_SUCCESS;
 }
 
+/* Counts an element once for each of its groups but the first of a tet. */
+static OstStatus count_item(OstMsh *msh)
+{
+    if (++msh->items <= (msh->cursor.end - msh->cursor.bytes) / SMALLEST_SHARE)
+        return OST_SUCCESS;
+    return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
+}
+
+/* A tet in several physical volumes is added once for each. */
+static OstStatus add_tets(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
+                          const int *groups)
+{
+    OST_TRY(add_tet(msh, width, tag, nodes, group_count > 0 ? abs(groups[0]) : 0));
+    for (OstGlobal i = 1; i < group_count; i++) {
+        OST_TRY(count_item(msh));
+        OST_TRY(add_tet(msh, width, tag, nodes, abs(groups[i])));
+    }
+    return OST_SUCCESS;
+}
+
 /* A group of several element types is an error: the first type, and one that differs, are remembered for the message.
  */
 static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag)
 {
     const OstMshType *facts = &ost_msh_types[type];
     OstMshGroup *group = NULL;
-    if (++msh->items > (msh->cursor.end - msh->cursor.bytes) / SMALLEST_SHARE)
-        return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
+    OST_TRY(count_item(msh));
     OST_TRY(ost_msh_group(msh, facts->dimension, tag, &group));
     if (group->count == 0)
         group->type = type;
@@ -175,8 +194,7 @@ OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlo
     if (type == OST_MSH_TET4 || type == OST_MSH_TET10) {
         if (msh->tet_type == 0)
             msh->tet_type = type;
-        return type == msh->tet_type ? add_tet(msh, facts->nodes, tag, nodes, group_count > 0 ? abs(groups[0]) : 0)
-                                     : OST_SUCCESS;
+        return type == msh->tet_type ? add_tets(msh, facts->nodes, tag, nodes, group_count, groups) : OST_SUCCESS;
     }
     for (OstGlobal i = 0; i < group_count && facts->dimension < 3; i++)
         if (groups[i] != 0)

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/serial/line_reader.h"
+#include "formats/serial/input_file.h"
 #include "mesh/mesh_data.h"
 
 #include <inttypes.h>
@@ -16,7 +16,7 @@
 #include <zlib.h>
 
 /* gzip packs meshes to a fifth, regular ones to a twentieth. A damaged file may claim a thousandth. */
-enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, MESSAGE_SIZE = 1024 };
+enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, PLACE_SIZE = 4200 };
 
 static OstStatus raise_unpacking(const OstMshCursor *cursor, gzFile file)
 {
@@ -77,21 +77,19 @@ void ost_msh_close(OstMshCursor *cursor)
 
 OstStatus ost_msh_raise(const OstMshCursor *cursor, const char *file, int line, const char *format, ...)
 {
-    char text[MESSAGE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = '?';
-    if (cursor->binary)
-        return ost_error_set(cursor->ctx, OST_INVALID_INPUT, file, line, "%s, near byte %td: %s", cursor->path,
-                             cursor->place - cursor->bytes, text);
+    char place[PLACE_SIZE];
     OstGlobal lines = 1;
+    va_list arguments;
     for (const char *c = cursor->bytes; c < cursor->place; c++)
         lines += *c == '\n';
-    return ost_error_set(cursor->ctx, OST_INVALID_INPUT, file, line, "%s:%" PRId64 ": %s", cursor->path, lines, text);
+    if (cursor->binary)
+        snprintf(place, sizeof place, "%s, near byte %td", cursor->path, cursor->place - cursor->bytes);
+    else
+        snprintf(place, sizeof place, "%s:%" PRId64, cursor->path, lines);
+    va_start(arguments, format);
+    const OstStatus status = ost_file_raise(cursor->ctx, file, line, place, format, arguments);
+    va_end(arguments);
+    return status;
 }
 
 static int is_blank(char c)
@@ -176,18 +174,22 @@ OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value)
     return OST_SUCCESS;
 }
 
+static OstStatus read_double(OstMshCursor *cursor, const char *what, double *value)
+{
+    char *end = NULL;
+    if (cursor->binary)
+        return read_bytes(cursor, what, sizeof *value, value);
+    skip_blanks(cursor);
+    *value = strtod(cursor->next, &end);
+    if (end == cursor->next || !word_ends(cursor, end))
+        return raise_word(cursor, what);
+    cursor->next = end;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value)
 {
-    if (cursor->binary) {
-        OST_TRY(read_bytes(cursor, what, sizeof *value, value));
-    } else {
-        char *end = NULL;
-        skip_blanks(cursor);
-        *value = strtod(cursor->next, &end);
-        if (end == cursor->next || !word_ends(cursor, end))
-            return raise_word(cursor, what);
-        cursor->next = end;
-    }
+    OST_TRY(read_double(cursor, what, value));
     if (!isfinite(*value))
         return OST_RAISE_MSH(cursor, "%g found, expected %s that is finite", *value, what);
     return OST_SUCCESS;
@@ -197,7 +199,7 @@ OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal
 {
     double value = 0.0;
     for (OstGlobal i = 0; i < count; i++)
-        OST_TRY(ost_msh_double(cursor, what, &value));
+        OST_TRY(read_double(cursor, what, &value));
     return OST_SUCCESS;
 }
 
@@ -208,6 +210,14 @@ OstStatus ost_msh_check_count(const OstMshCursor *cursor, const char *what, OstG
         return OST_RAISE_MSH(cursor, "%" PRId64 " %s stated, which do not fit into the %" PRId64 " bytes left", count,
                              what, left);
     return OST_SUCCESS;
+}
+
+OstStatus ost_msh_count(OstMshCursor *cursor, const char *what, OstGlobal bytes_each, OstGlobal *count)
+{
+    char message[64];
+    snprintf(message, sizeof message, "the number of %s", what);
+    OST_TRY(ost_msh_size(cursor, message, count));
+    return ost_msh_check_count(cursor, what, *count, bytes_each);
 }
 
 OstStatus ost_msh_count_line(OstMshCursor *cursor, const char *what, OstGlobal *count)

@@ -25,6 +25,7 @@ void ost_msh_close(OstMshCursor *cursor);
 OstStatus ost_msh_int(OstMshCursor *cursor, const char *what, int *value);
 OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value);
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value);
+/* Local. Skips numbers, which need not be finite: Gmsh writes boxes of empty entities as infinite. */
 OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal count);
 
 /* Local. A count at the start of a line, which is text even in a binary file. */
@@ -32,6 +33,9 @@ OstStatus ost_msh_count_line(OstMshCursor *cursor, const char *what, OstGlobal *
 
 /* Local. Refuses a count of items of at least `bytes_each` bytes if so many do not fit into the rest of the file. */
 OstStatus ost_msh_check_count(const OstMshCursor *cursor, const char *what, OstGlobal count, OstGlobal bytes_each);
+
+/* Local. The next number, a count that ost_msh_check_count accepts; `what` is counted. */
+OstStatus ost_msh_count(OstMshCursor *cursor, const char *what, OstGlobal bytes_each, OstGlobal *count);
 
 /* Local. The rest of the line without blanks at its ends; goes to the next line. */
 typedef struct OstMshText {

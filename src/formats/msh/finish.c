@@ -12,7 +12,7 @@
 
 /* Turns what was read into a chunk. */
 
-static const char *const kind[] = {"points", "curves", "faces"};
+static const char *const entity[] = {"point", "curve", "surface", "volume"};
 
 static OstStatus check_volume_elements(const OstMsh *msh)
 {
@@ -50,7 +50,6 @@ static OstStatus size_tets(OstMsh *msh)
 /* The name of a physical group, or a default like "surface-3". */
 static OstStatus copy_group_name(const OstMsh *msh, int dimension, int tag, char **name)
 {
-    static const char *const entity[] = {"point", "curve", "surface", "volume"};
     char text[256] = "";
     for (const OstMshName *n = msh->name; n < msh->name + msh->name_count; n++)
         if (n->tag == tag && (n->dimension == dimension || n->dimension < 0))
@@ -60,10 +59,20 @@ static OstStatus copy_group_name(const OstMsh *msh, int dimension, int tag, char
     return ost_copy_string(msh->cursor.ctx, text, name);
 }
 
-static void warn_of_shared_name(const OstMsh *msh, const char *what, const char *name)
+/* The first group of a region (or boundary), by its number. */
+static const OstMshGroup *first_group(const OstMsh *msh, int is_region, int number)
 {
-    ost_warn(msh->cursor.ctx, "%s: several physical %s are named '%s'; they are taken as one", msh->cursor.path, what,
-             name);
+    const OstMshGroup *group = msh->group;
+    while ((group->dimension == 3) != is_region || group->number != number)
+        group++;
+    return group;
+}
+
+static void warn_of_shared_name(const OstMsh *msh, const OstMshGroup *group, const char *name)
+{
+    const OstMshGroup *first = first_group(msh, group->dimension == 3, group->number);
+    ost_warn(msh->cursor.ctx, "%s: the physical %ss %d and %d have the same name '%s'; they are taken as one",
+             msh->cursor.path, entity[group->dimension], first->tag, group->tag, name);
 }
 
 /* Physical volumes with the same name are one region. */
@@ -73,11 +82,11 @@ static OstStatus name_region(const OstMsh *msh, OstMshGroup *group)
     char *name = NULL;
     OST_TRY(copy_group_name(msh, 3, group->tag, &name));
     OstStatus status = OST_SUCCESS;
-    group->region = ost_names_find(regions, name);
-    if (group->region >= 0) {
-        warn_of_shared_name(msh, "volumes", name);
+    group->number = ost_names_find(regions, name);
+    if (group->number >= 0) {
+        warn_of_shared_name(msh, group, name);
     } else {
-        group->region = regions->count;
+        group->number = regions->count;
         status = ost_names_add(msh->cursor.ctx, regions, name);
     }
     OST_FREE(name);
@@ -94,13 +103,13 @@ static OstStatus make_regions(OstMsh *msh)
         if (group[volumes].tag != 0)
             OST_TRY(name_region(msh, &group[volumes]));
     if (group[0].tag == 0) {
-        group[0].region = chunk->regions.count;
+        group[0].number = chunk->regions.count;
         OST_TRY(ost_names_add_unique(chunk->ctx, &chunk->regions, volumes > 1 ? "unnamed" : "volume"));
     }
     for (OstLocal t = 0; t < chunk->tet_count; t++) {
         if (group->dimension != 3 || group->tag != chunk->tet_region[t])
             OST_TRY(ost_msh_group(msh, 3, chunk->tet_region[t], &group));
-        chunk->tet_region[t] = group->region;
+        chunk->tet_region[t] = group->number;
     }
     return OST_SUCCESS;
 }
@@ -125,12 +134,13 @@ static OstStatus merge_group(const OstMsh *msh, const OstMshGroup *group, OstBou
     const size_t width = (size_t)boundary->nodes_per_item;
     if (boundary->dimension != group->dimension)
         return OST_RAISE(msh->cursor.ctx, OST_INVALID_INPUT,
-                         "%s: physical name '%s' stands for %s and for %s; give each its own", msh->cursor.path,
-                         boundary->name, kind[boundary->dimension], kind[group->dimension]);
+                         "%s: the physical name '%s' stands for %s %d and %s %d; give each its own", msh->cursor.path,
+                         boundary->name, entity[boundary->dimension], first_group(msh, 0, group->number)->tag,
+                         entity[group->dimension], group->tag);
     if (group->count > INT_MAX - boundary->count)
         return OST_RAISE(msh->cursor.ctx, OST_LIMIT_EXCEEDED, "%s: boundary '%s' has more than %d items",
                          msh->cursor.path, boundary->name, INT_MAX);
-    warn_of_shared_name(msh, kind[boundary->dimension], boundary->name);
+    warn_of_shared_name(msh, group, boundary->name);
     OST_TRY(OST_RESIZE(msh->cursor.ctx, &boundary->nodes, (size_t)(boundary->count + group->count) * width));
     memcpy(boundary->nodes + (size_t)boundary->count * width, group->nodes,
            (size_t)group->count * width * sizeof *group->nodes);
@@ -144,8 +154,11 @@ static OstStatus add_boundary(const OstMsh *msh, OstMshGroup *group, char **name
     OstMeshChunk *chunk = msh->chunk;
     OST_TRY(check_group(msh, group, *name));
     for (int b = 0; b < chunk->boundary_count; b++)
-        if (strcmp(chunk->boundaries[b].name, *name) == 0)
+        if (strcmp(chunk->boundaries[b].name, *name) == 0) {
+            group->number = b;
             return merge_group(msh, group, &chunk->boundaries[b]);
+        }
+    group->number = chunk->boundary_count;
     OST_TRY(OST_RESIZE(chunk->ctx, &chunk->boundaries, chunk->boundary_count + 1));
     chunk->boundaries[chunk->boundary_count++] =
         (OstBoundary){*name, group->dimension, ost_msh_types[group->type].nodes, group->count, group->nodes};
@@ -177,6 +190,7 @@ OstStatus ost_msh_finish(OstMsh *msh)
     OST_TRY(size_tets(msh));
     OST_TRY(make_regions(msh));
     OST_TRY(make_boundaries(msh));
+    OST_TRY(ost_tets_join_same(msh->chunk, path));
     OST_TRY(ost_tets_sort(msh->chunk, path));
     if (msh->tets_out_of_order)
         ost_warn(msh->cursor.ctx,
@@ -186,7 +200,9 @@ OstStatus ost_msh_finish(OstMsh *msh)
     if (msh->ghosts > 0)
         ost_warn(msh->cursor.ctx, "%s: ghost elements, which other partitions have too, are left out: %" PRId64, path,
                  msh->ghosts);
+    if (msh->borders)
+        ost_warn(msh->cursor.ctx, "%s: the faces, curves and points between partitions are left out of boundaries",
+                 path);
     ost_tets_turn(msh->chunk, path);
-    OST_TRY(ost_nodes_leave_out(msh->chunk, path));
-    return ost_tets_refuse_same(msh->chunk, path);
+    return ost_nodes_leave_out(msh->chunk, path);
 }

@@ -6,6 +6,8 @@
 #include "formats/serial/label_index.h"
 #include "mesh/mesh_data.h"
 
+#include <stddef.h>
+
 /* Gmsh's numbers of the element types in use. */
 enum {
     OST_MSH_LINE2 = 1,
@@ -35,17 +37,25 @@ typedef struct OstMshName {
 /* A physical group, by dimension and tag: a region, or a boundary with its nodes. */
 typedef struct OstMshGroup {
     int dimension, tag;
-    int region;           /* number, if of dimension 3 */
+    int number;           /* of its region or boundary; -1 at first */
     int type, other_type; /* of the first element; of one of another type, or 0 */
     OstLocal count, room;
     OstGlobal *nodes; /* count × nodes of the type: positions in the chunk */
 } OstMshGroup;
 
+/* Where a section lies in memory; a large one is longer than OstMshText can say. */
+typedef struct OstMshBytes {
+    const char *start; /* NULL: not read yet */
+    ptrdiff_t length;
+} OstMshBytes;
+enum { OST_MSH_SECTIONS = 8 };
+
 /* A .msh file while it is read. tet_region then holds physical tags, 0 for none. */
 typedef struct OstMsh {
     OstMshCursor cursor;
-    int version; /* 10, 20, 21, 22, 40 or 41 */
+    int version; /* 10, 20, 21, 22, 30, 40 or 41 */
     int stage;   /* the last section that was read */
+    OstMshBytes text[OST_MSH_SECTIONS];
     OstMeshChunk *chunk;
     OstLabelIndex nodes;           /* tag to position, once all are read */
     OstGlobal elements;            /* number that the file states */
@@ -58,8 +68,9 @@ typedef struct OstMsh {
     int group_count;
     OstMshGroup *group; /* volumes first, points last; by tag */
     OstGlobal ghosts;   /* elements that other partitions own; left out */
-    OstGlobal items;    /* elements in groups of dimension 0 to 2 */
-    /* Entities of version 4, and the physical groups they belong to. */
+    int borders;        /* are there borders between partitions, with physical groups? Left out */
+    OstGlobal items;    /* elements in groups, once for each group but the first of a tet */
+    /* Entities of versions 3 and 4, and the physical groups they belong to. */
     OstGlobal entity_count;
     OstGlobal *entity;       /* dimension and tag in one number */
     OstGlobal *entity_start; /* entity_count + 1, into entity_group */
@@ -67,10 +78,13 @@ typedef struct OstMsh {
     OstLabelIndex entities;
 } OstMsh;
 
-/* Local. Read the sections of versions 1 and 2 (or 4), after the line that names them. */
+/* Local. Read the sections of versions 1 and 2 (or 3, or 4), after the line that names them. */
 OstStatus ost_msh2_nodes(OstMsh *msh);
 OstStatus ost_msh2_parametric_nodes(OstMsh *msh);
 OstStatus ost_msh2_elements(OstMsh *msh);
+OstStatus ost_msh3_entities(OstMsh *msh);
+OstStatus ost_msh3_nodes(OstMsh *msh);
+OstStatus ost_msh3_elements(OstMsh *msh);
 OstStatus ost_msh4_entities(OstMsh *msh);
 OstStatus ost_msh4_partitioned_entities(OstMsh *msh);
 OstStatus ost_msh4_nodes(OstMsh *msh);
@@ -89,6 +103,12 @@ OstStatus ost_msh_index_nodes(OstMsh *msh);
 OstStatus ost_msh_add_node(OstMsh *msh, OstGlobal tag, const double x[3]);
 OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
                               const int *groups);
+
+/* Local. Once all entities are read, indexes them; then: is a volume one of elements that other partitions own, and
+ * which physical groups is an entity in? */
+OstStatus ost_msh_index_entities(OstMsh *msh);
+int ost_msh_is_ghost(const OstMsh *msh, int tag);
+void ost_msh_find_groups(const OstMsh *msh, int dimension, int tag, OstGlobal *count, const int **groups);
 
 /* Local. The group of a dimension and tag; a new one if there is none. */
 OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group);

@@ -31,10 +31,10 @@ static OstStatus read_format(OstMsh *msh)
     OST_TRY(ost_msh_int(cursor, "8, the bytes of a number", &size));
     ost_msh_rest_of_line(cursor);
     msh->version = number >= 1.0 && number < 5.0 ? (int)(10.0 * number + 1e-6) : 0;
-    if (msh->version < 10 || msh->version / 10 == 3)
+    if (msh->version < 10)
         return OST_RAISE_MSH(cursor,
-                             "version %g of the format found, expected 1, 2.0 to 2.2, 4.0 or 4.1; convert the file "
-                             "with gmsh -save FILE.msh -format msh41 -o NEW.msh",
+                             "version %g of the format found, expected 1 to 4.1; convert the file with gmsh -save "
+                             "FILE.msh -format msh41 -o NEW.msh",
                              number);
     if (binary != 0 && size != 8)
         return OST_RAISE_MSH(cursor, "numbers of %d bytes found, expected 8", size);
@@ -92,16 +92,17 @@ enum { ENTITIES = 1, NODES = 2, ELEMENTS = 3 };
 static const struct {
     const char *name;
     int stage;
-    OstStatus (*read)(OstMsh *msh);  /* up to version 2.2 */
-    OstStatus (*read4)(OstMsh *msh); /* from version 4.0 */
-} section[] = {{"PhysicalNames", 0, read_names, read_names},
-               {"Entities", ENTITIES, NULL, ost_msh4_entities},
-               {"PartitionedEntities", ENTITIES, NULL, ost_msh4_partitioned_entities},
-               {"NOD", NODES, ost_msh2_nodes, NULL},
-               {"Nodes", NODES, ost_msh2_nodes, ost_msh4_nodes},
-               {"ParametricNodes", NODES, ost_msh2_parametric_nodes, NULL},
-               {"ELM", ELEMENTS, ost_msh2_elements, NULL},
-               {"Elements", ELEMENTS, ost_msh2_elements, ost_msh4_elements}};
+    OstStatus (*read[5])(OstMsh *msh); /* by the version's whole number, from 1 */
+} section[OST_MSH_SECTIONS] = {
+    {"PhysicalNames", 0, {NULL, read_names, read_names, read_names, read_names}},
+    {"Entities", ENTITIES, {NULL, NULL, NULL, ost_msh3_entities, ost_msh4_entities}},
+    {"PartitionedEntities", ENTITIES, {NULL, NULL, NULL, NULL, ost_msh4_partitioned_entities}},
+    {"NOD", NODES, {NULL, ost_msh2_nodes, ost_msh2_nodes}},
+    {"Nodes", NODES, {NULL, ost_msh2_nodes, ost_msh2_nodes, ost_msh3_nodes, ost_msh4_nodes}},
+    {"ParametricNodes", NODES, {NULL, ost_msh2_parametric_nodes, ost_msh2_parametric_nodes}},
+    {"ELM", ELEMENTS, {NULL, ost_msh2_elements, ost_msh2_elements}},
+    {"Elements", ELEMENTS, {NULL, ost_msh2_elements, ost_msh2_elements, ost_msh3_elements, ost_msh4_elements}},
+};
 
 /* Goes to the $End line of a section, which follows a line end or, in a binary file, any byte. */
 static OstStatus skip_section(OstMshCursor *cursor, const char *name)
@@ -118,17 +119,27 @@ static OstStatus skip_section(OstMshCursor *cursor, const char *name)
     return OST_SUCCESS;
 }
 
+/* Gmsh repeats the whole mesh in files to which it appends views. */
+static int repeats(OstMsh *msh, OstMshBytes before)
+{
+    OstMshCursor *cursor = &msh->cursor;
+    if (!before.start || cursor->end - cursor->next < before.length ||
+        memcmp(cursor->next, before.start, (size_t)before.length) != 0)
+        return 0;
+    cursor->next += before.length;
+    return 1;
+}
+
 static OstStatus read_section(OstMsh *msh, const char *name)
 {
-    OstStatus (*read)(OstMsh * msh) = NULL;
-    int stage = 0;
-    for (size_t i = 0; i < sizeof section / sizeof *section && !read; i++)
-        if (strcmp(name, section[i].name) == 0) {
-            read = msh->version < 40 ? section[i].read : section[i].read4;
-            stage = section[i].stage;
-        }
-    if (!read)
+    int i = 0;
+    while (i < OST_MSH_SECTIONS && (strcmp(name, section[i].name) != 0 || !section[i].read[msh->version / 10]))
+        i++;
+    if (i == OST_MSH_SECTIONS)
         return skip_section(&msh->cursor, name);
+    if (repeats(msh, msh->text[i]))
+        return OST_SUCCESS;
+    const int stage = section[i].stage;
     if (stage > 0 && (stage < msh->stage || (stage == msh->stage && stage != ENTITIES) ||
                       (stage == ELEMENTS && msh->stage != NODES)))
         return OST_RAISE_MSH(&msh->cursor,
@@ -136,7 +147,10 @@ static OstStatus read_section(OstMsh *msh, const char *name)
                              "this order",
                              name);
     msh->stage = stage > 0 ? stage : msh->stage;
-    return read(msh);
+    msh->text[i].start = msh->cursor.next;
+    OST_TRY(section[i].read[msh->version / 10](msh));
+    msh->text[i].length = msh->cursor.next - msh->text[i].start;
+    return OST_SUCCESS;
 }
 
 /* The first word of a line, without the $. */

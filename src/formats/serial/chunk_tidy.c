@@ -8,7 +8,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static OstStatus permute(OstContext *ctx, const OstLabelIndex *index, size_t size, void **values)
@@ -22,15 +21,22 @@ static OstStatus permute(OstContext *ctx, const OstLabelIndex *index, size_t siz
     return OST_SUCCESS;
 }
 
+static void number_by_position(OstMeshChunk *chunk, const char *path, OstGlobal repeated)
+{
+    for (OstLocal t = 0; t < chunk->tet_count; t++)
+        chunk->tet_label[t] = t + 1;
+    ost_warn(chunk->ctx, "%s: element tag %" PRId64 " is given to several tets; tets are numbered from 1 as they come",
+             path, repeated);
+}
+
 OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path)
 {
     OstLabelIndex index = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_label_index_create(chunk->ctx, chunk->tet_count, chunk->tet_label, &index));
     if (index.repeated)
-        status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: element tag %" PRId64 " is given to two tets", path,
-                           index.repeated_label);
-    if (status != OST_SUCCESS || !index.sorted)
+        number_by_position(chunk, path, index.repeated_label);
+    if (index.repeated || !index.sorted)
         goto done;
     OST_TRY_DONE(
         permute(chunk->ctx, &index, sizeof(OstGlobal) * (size_t)chunk->nodes_per_tet, (void **)&chunk->tet_nodes));
@@ -83,54 +89,6 @@ void ost_tets_turn(OstMeshChunk *chunk, const char *path)
     for (size_t t = 0; t < count; t++)
         reorder(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
     ost_warn(chunk->ctx, "%s: all tets are inverted; their vertices were reordered", path);
-}
-
-/* A tet's vertices in ascending order, and which tet it is. */
-typedef struct VertexSet {
-    OstLocal vertex[4];
-    OstLocal tet;
-} VertexSet;
-
-static int compare_sets(const void *a, const void *b)
-{
-    const VertexSet *x = a, *y = b;
-    for (int i = 0; i < 4; i++)
-        if (x->vertex[i] != y->vertex[i])
-            return x->vertex[i] < y->vertex[i] ? -1 : 1;
-    return 0;
-}
-
-static VertexSet vertex_set(const OstMeshChunk *chunk, OstLocal tet)
-{
-    const OstGlobal *nodes = chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
-    VertexSet set = {.tet = tet};
-    for (int i = 0; i < 4; i++) {
-        int place = i;
-        for (; place > 0 && set.vertex[place - 1] > nodes[i]; place--)
-            set.vertex[place] = set.vertex[place - 1];
-        set.vertex[place] = (OstLocal)nodes[i];
-    }
-    return set;
-}
-
-OstStatus ost_tets_refuse_same(const OstMeshChunk *chunk, const char *path)
-{
-    VertexSet *set = NULL;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY(OST_NEW(chunk->ctx, &set, chunk->tet_count));
-    for (OstLocal t = 0; t < chunk->tet_count; t++)
-        set[t] = vertex_set(chunk, t);
-    qsort(set, (size_t)chunk->tet_count, sizeof *set, compare_sets);
-    for (OstLocal t = 1; t < chunk->tet_count && status == OST_SUCCESS; t++)
-        if (compare_sets(&set[t - 1], &set[t]) == 0)
-            status = OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
-                               "%s: tets %" PRId64 " (region '%s') and %" PRId64 " (region '%s') have the same "
-                               "vertices; a tet can be in one region only",
-                               path, chunk->tet_label[set[t - 1].tet],
-                               chunk->regions.name[chunk->tet_region[set[t - 1].tet]], chunk->tet_label[set[t].tet],
-                               chunk->regions.name[chunk->tet_region[set[t].tet]]);
-    OST_FREE(set);
-    return status;
 }
 
 /* Numbers the nodes that tets use, in their order; -1 for the others. Returns how many are used. */

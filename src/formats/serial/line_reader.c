@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/input_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -10,28 +11,11 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-enum { FIRST_CAPACITY = 256, SHOWN_WORD = 40, MESSAGE_SIZE = 2048 };
+enum { FIRST_CAPACITY = 256, SHOWN_WORD = 40, PLACE_SIZE = 4200 };
 
 static const char separators[] = " \t,";
 static const char word_ends[] = " \t,:#";
-
-OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes)
-{
-    struct stat facts;
-    *file = NULL;
-    if (stat(path, &facts) != 0)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be read: %s", path, strerror(errno));
-    if (!S_ISREG(facts.st_mode))
-        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: is %s, expected a file", path,
-                         S_ISDIR(facts.st_mode) ? "a folder" : "no regular file");
-    *file = fopen(path, "rb");
-    if (!*file)
-        return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
-    *bytes = (OstGlobal)facts.st_size;
-    return OST_SUCCESS;
-}
 
 OstStatus ost_lines_open(OstContext *ctx, const char *path, OstLineReader *reader)
 {
@@ -59,16 +43,13 @@ void ost_lines_close(OstLineReader *reader)
 
 OstStatus ost_lines_raise(const OstLineReader *reader, const char *file, int line, const char *format, ...)
 {
-    char text[MESSAGE_SIZE];
+    char place[PLACE_SIZE];
     va_list arguments;
+    snprintf(place, sizeof place, "%s:%" PRId64, reader->path, reader->line);
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    const OstStatus status = ost_file_raise(reader->ctx, file, line, place, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = '?';
-    return ost_error_set(reader->ctx, OST_INVALID_INPUT, file, line, "%s:%" PRId64 ": %s", reader->path, reader->line,
-                         text);
+    return status;
 }
 
 /* Reads a line; *found is 0 at the end of the file. */

@@ -19,9 +19,6 @@ typedef struct OstLineReader {
     const char *next; /* where in it the next word is sought */
 } OstLineReader;
 
-/* Local. Opens a regular file for reading; fills its size. */
-OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes);
-
 /* Local. */
 OstStatus ost_lines_open(OstContext *ctx, const char *path, OstLineReader *reader);
 void ost_lines_close(OstLineReader *reader);

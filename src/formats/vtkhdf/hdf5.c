@@ -2,7 +2,6 @@
 #include "formats/vtkhdf/hdf5.h"
 
 #include "core/error.h"
-#include "core/memory.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 
@@ -49,7 +48,7 @@ static void begin(OstContext *ctx, const char *path, OstHdf5 *h5)
     *h5 = (OstHdf5){.ctx = ctx,
                     .path = path,
                     .file = H5I_INVALID_HID,
-                    .folder = -1,
+                    .opened = -1,
                     .transfer = H5P_DEFAULT,
                     .links = H5P_DEFAULT,
                     .block_bytes = default_block_bytes};
@@ -80,24 +79,17 @@ static OstStatus prepare_transfers(OstHdf5 *h5)
     return OST_SUCCESS;
 }
 
-/* The path for MPI: a long one is given relative to its folder, which is opened for that. */
+/* The path for MPI: a file with a long one, which exists, is opened and named by its descriptor. */
 static OstStatus shorten_path(OstHdf5 *h5, char path[LONGEST_MPI_PATH + 1])
 {
-    const char *slash = strrchr(h5->path, '/');
-    char *folder = NULL;
     if (strlen(h5->path) <= LONGEST_MPI_PATH) {
         strcpy(path, h5->path);
         return OST_SUCCESS;
     }
-    if (!slash || strlen(slash) > LONGEST_MPI_PATH - 32)
-        return OST_RAISE(h5->ctx, OST_FILE_FAILED, "%s: the file's name is too long for MPI", h5->path);
-    OST_TRY(ost_copy_string(h5->ctx, h5->path, &folder));
-    folder[slash - h5->path] = 0;
-    h5->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
-    OST_FREE(folder);
-    if (h5->folder < 0)
-        return OST_RAISE(h5->ctx, OST_FILE_FAILED, "%s: the folder could not be opened: %s", h5->path, strerror(errno));
-    snprintf(path, LONGEST_MPI_PATH + 1, "/proc/self/fd/%d%s", h5->folder, slash);
+    h5->opened = open(h5->path, O_PATH | O_CLOEXEC);
+    if (h5->opened < 0)
+        return OST_RAISE(h5->ctx, OST_FILE_FAILED, "%s: could not be opened: %s", h5->path, strerror(errno));
+    snprintf(path, LONGEST_MPI_PATH + 1, "/proc/self/fd/%d", h5->opened);
     return OST_SUCCESS;
 }
 
@@ -146,10 +138,10 @@ OstStatus ost_hdf5_close(OstHdf5 *h5)
         H5Pclose(h5->links);
     if (h5->file >= 0 && H5Fclose(h5->file) < 0)
         status = ost_hdf5_raise(h5, "finish the file", "");
-    if (h5->folder >= 0)
-        close(h5->folder);
+    if (h5->opened >= 0)
+        close(h5->opened);
     h5->file = H5I_INVALID_HID;
-    h5->folder = -1;
+    h5->opened = -1;
     H5Eset_auto2(H5E_DEFAULT, h5->printer, h5->printer_data);
     return status;
 }

@@ -13,7 +13,7 @@ typedef struct OstHdf5 {
     OstContext *ctx;
     const char *path; /* for messages; not owned */
     hid_t file;
-    int folder;         /* descriptor of the file's folder where its path is long, or -1 */
+    int opened;         /* descriptor of a file with a long path, or -1 */
     hid_t transfer;     /* transfer mode: collective, or each rank alone */
     hid_t links;        /* creates the groups in a dataset's path */
     size_t block_bytes; /* largest transfer of a rank at once: MPI counts bytes in 32 bits */

@@ -10,11 +10,12 @@
  */
 OstStatus ost_check_chunk(OstMeshChunk *chunk);
 
-/* Collective. Checks the rest on the distributed mesh: no tet is inverted or flat, every vertex is used, and every
- * boundary item is a face, an edge or a vertex of a tet. */
-OstStatus ost_check_mesh(const OstMesh *mesh);
+/* Collective. Checks the rest on the distributed mesh: no tet is inverted, flat or folded, every vertex is used, and
+ * every boundary item is a face, an edge or a vertex of a tet. */
+OstStatus ost_check_mesh(OstMesh *mesh);
 
-/* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices. */
-OstStatus ost_check_folds(const OstMesh *quadratic);
+/* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices; or, where
+ * the mesh says `straighten`, straightens the edges of such tets and warns. */
+OstStatus ost_check_folds(OstMesh *quadratic);
 
 #endif

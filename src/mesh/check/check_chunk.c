@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/number_range.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "mesh/check/check.h"
@@ -52,7 +53,8 @@ static OstStatus check_kind(const OstMeshChunk *chunk)
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes, expected 4 or 10",
                          chunk->nodes_per_tet);
     if (chunk->global_tets < 1)
-        return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has %lld nodes and no tet; give it at least one",
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "the mesh has %lld nodes and no tet; mesh the volume of the body, not its surface alone",
                          (long long)chunk->global_nodes);
     return OST_SUCCESS;
 }
@@ -62,10 +64,12 @@ static OstStatus check_coordinates(const OstMeshChunk *chunk)
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         const double *x = chunk->coordinates + 3 * (size_t)i;
         for (int d = 0; d < 3; d++)
-            if (!isfinite(x[d]))
-                return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
-                                 "vertex %lld has coordinate %g in (%g, %g, %g); every coordinate must be finite",
-                                 (long long)node_label(chunk, i), x[d], x[0], x[1], x[2]);
+            if (!(fabs(x[d]) <= OST_MOST_NUMBER))
+                return OST_RAISE(
+                    chunk->ctx, OST_INVALID_INPUT,
+                    "vertex %lld has coordinate %g in (%g, %g, %g); coordinates up to %g in size can be computed "
+                    "with: mend the mesh, or choose another unit of length",
+                    (long long)node_label(chunk, i), x[d], x[0], x[1], x[2], OST_MOST_NUMBER);
     }
     return OST_SUCCESS;
 }

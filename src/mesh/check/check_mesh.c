@@ -176,7 +176,7 @@ static OstStatus check_items(const OstMesh *mesh, const Incidence *incidence)
     return OST_SUCCESS;
 }
 
-OstStatus ost_check_mesh(const OstMesh *mesh)
+OstStatus ost_check_mesh(OstMesh *mesh)
 {
     Incidence incidence = {0};
     OstStatus status = OST_SUCCESS;

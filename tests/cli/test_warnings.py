@@ -1,0 +1,61 @@
+"""Every warning that goes to standard error stands in the JSON report too."""
+import json
+import os
+
+from program import check, new_folder, run
+
+# A block in which a vertex is used by no tet, nearly incompressible, with a vertex watched where there is none.
+MESH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 9 9 9
+$EndNodes
+$Elements
+1
+1 4 2 1 1 1 2 3 4
+$EndElements
+"""
+CASE = """mesh: {file: tet.msh}
+materials:
+  - {region: all, youngs_modulus: 1, poissons_ratio: 0.4995}
+constraints:
+  - {on: {vertices: [1, 2, 3]}, displacement: [0, 0, 0]}
+loads:
+  - {on: {vertices: [4]}, point_force: [0, 0, 1e-9]}
+watch: {top: {displacement: {nearest: [0, 0.3, 0.9]}, component: z}}
+output: {file: result.vtkhdf}
+"""
+KINDS = ["tet.msh: 1 vertex is used by no tet", "linear tets lock", "'top' is taken at (0, 0, 1)"]
+
+
+def compare(words, folder, kinds, json_words, exit_code=0):
+    ended = run(*words, *json_words, folder=folder)
+    check(ended.exit_code == exit_code, f"{words}: {ended.errors}")
+    start = "orthostat: warning: "
+    printed = [line[len(start):] for line in ended.errors.splitlines() if line.startswith(start)]
+    reported = json.loads(ended.output)["warnings"]
+    check(printed == reported, f"{words}: standard error warns of {printed}, the report of {reported}")
+    for kind in kinds:
+        check(any(kind in text for text in reported), f"{words}: no warning '{kind}' in {reported}")
+    quiet = json.loads(run(*words, "-q", *json_words, folder=folder).output)["warnings"]
+    check(quiet == reported, f"{words}: with -q the report has {quiet} in place of {reported}")
+
+
+def main():
+    folder = new_folder()
+    for name, text in [("tet.msh", MESH), ("case.yaml", CASE)]:
+        with open(os.path.join(folder, name), "w") as stream:
+            stream.write(text)
+    compare(["solve", "case.yaml"], folder, KINDS, ["--json", "-"])
+    compare(["check", "case.yaml"], folder, KINDS, ["--json"])
+    compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])
+    compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8"], folder, KINDS[:2], ["--json", "-"])
+
+
+main()

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "mesh/mesh_data.h"
+#include "orthostat/mesh_file.h"
+
+/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8 and meshio 5.0 write it; the counts are those of libgmsh. In two
+ * of the files the volumes are also in a third group, 'all'. */
+static const struct {
+    const char *name;
+    int nodes, named, boundaries, warnings;
+} files[] = {
+    {"gmsh1", 23, 0, 1, 0},
+    {"gmsh2-binary", 23, 1, 1, 0},
+    {"gmsh2-groups", 23, 1, 1, 2},
+    {"gmsh3", 23, 1, 1, 0},
+    {"gmsh3-binary", 23, 1, 1, 0},
+    {"gmsh40", 23, 1, 1, 0},
+    {"gmsh41-groups-binary", 23, 1, 1, 2},
+    {"gmsh41-parametric", 23, 1, 1, 0},
+    {"gmsh41-partitioned", 23, 1, 1, 2},
+    {"gmsh41-quadratic-binary", 113, 1, 1, 0},
+    {"gmsh41-views", 23, 1, 1, 0},
+    {"meshio22-binary", 23, 1, 1, 0},
+    {"meshio41-binary", 23, 0, 0, 0},
+};
+enum { FILES = sizeof files / sizeof *files };
+
+static void count(void *listener, const char *text)
+{
+    assert_non_null(strstr(text, ".msh: "));
+    ++*(int *)listener;
+}
+
+static double volume_of(const OstMeshChunk *chunk, OstLocal tet)
+{
+    const OstGlobal *nodes = chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
+    double e[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int d = 0; d < 3; d++)
+            e[i][d] = chunk->coordinates[3 * nodes[i + 1] + d] - chunk->coordinates[3 * nodes[0] + d];
+    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+           6.0;
+}
+
+/* Tets of the left cube are in region 'left', and fill it; faces of 'clamp' have x = 0. */
+static void check_regions(const OstMeshChunk *chunk, int named)
+{
+    double volume[2] = {0.0, 0.0};
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const OstGlobal *nodes = chunk->tet_nodes + (size_t)t * (size_t)chunk->nodes_per_tet;
+        double x = 0.0;
+        for (int v = 0; v < 4; v++)
+            x += chunk->coordinates[3 * nodes[v]] / 4.0;
+        volume[x > 1.0] += volume_of(chunk, t);
+        if (named)
+            assert_string_equal(chunk->regions.name[chunk->tet_region[t]], x > 1.0 ? "right" : "left");
+    }
+    assert_close(volume[0], 1.0, 1e-12);
+    assert_close(volume[1], 1.0, 1e-12);
+}
+
+static void check_boundary(const OstMeshChunk *chunk, int named)
+{
+    const OstBoundary *clamp = &chunk->boundaries[0];
+    assert_string_equal(clamp->name, named ? "clamp" : "surface-7");
+    assert_int_equal(clamp->count, 4);
+    for (int i = 0; i < clamp->count * clamp->nodes_per_item; i++)
+        assert_true(chunk->coordinates[3 * clamp->nodes[i]] == 0.0);
+}
+
+static void stored_files_are_read_as_gmsh_reads_them(void **state)
+{
+    (void)state;
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    for (int f = 0; f < FILES; f++) {
+        char path[512];
+        int warnings = 0;
+        OstMeshChunk *chunk = NULL;
+        snprintf(path, sizeof path, "%s/tests/formats/msh/%s.msh", getenv("ORTHOSTAT_SOURCE"), files[f].name);
+        ost_warn_listen(ctx, count, &warnings);
+        assert_success(ost_chunk_read(ctx, path, &chunk));
+        ost_warn_listen(ctx, NULL, NULL);
+        assert_int_equal(warnings, files[f].warnings);
+        assert_int_equal(chunk->global_nodes, files[f].nodes);
+        assert_int_equal(chunk->global_tets, 48);
+        assert_int_equal(chunk->boundary_count, files[f].boundaries);
+        check_regions(chunk, files[f].named);
+        if (files[f].boundaries > 0)
+            check_boundary(chunk, files[f].named);
+        ost_chunk_destroy(&chunk);
+    }
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(stored_files_are_read_as_gmsh_reads_them)};
+OST_TEST_MAIN(tests)
