@@ -46,7 +46,7 @@ check(not any(warnings.values()), f"beast warns: {warnings}")
 for name, numbers in found.items():
     (title, row), = numbers.items()
     old = record[name + ".png"]["numbers"][title]
-    differences = pictures.differences({**old, "seconds": row["seconds"]}, row, 0.02)
+    differences = pictures.differences({**old, "CPU seconds": row["CPU seconds"]}, row, 0.02)
     check(not differences, f"docs/pictures/{name}.png is stale (scripts/gallery beast):\n" + "\n".join(differences))
 volumes = [row["volume"] for title, row in record["beast-volume.png"]["numbers"].items() if title.startswith("nu")]
 check(volumes == sorted(volumes, reverse=True), f"the volume changes by {volumes}")
