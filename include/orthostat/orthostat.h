@@ -27,11 +27,13 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"
+#include "orthostat/path.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
 #include "orthostat/result.h"
 #include "orthostat/scene.h"
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
+#include "orthostat/time_table.h"
 
 #endif

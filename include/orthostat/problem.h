@@ -5,12 +5,14 @@
 #include "orthostat/field.h"
 #include "orthostat/formulation.h"
 #include "orthostat/mesh.h"
+#include "orthostat/time_table.h"
 
 OST_API_BEGIN
 
-/* The discrete problem: mesh, materials, supports and loads as functions of the displacement u and the load factor t.
- * At rest, force(u) = load(t) in every direction that the supports leave free, and u is the prescribed displacement,
- * times t, in the others. How that is solved is no concern of the problem (orthostat/analysis.h).
+/* The discrete problem: mesh, materials, supports and loads as functions of the displacement u and the pseudo-time t.
+ * At rest, force(u) = load(t) in every direction that the supports leave free, and u is the displacement prescribed at
+ * t in the others. Loads and prescribed displacements grow with t, unless they follow a time table. How that is solved
+ * is no concern of the problem (orthostat/analysis.h).
  *
  * Displacements have 3 numbers for each local node, ghosts included; forces 3 for each owned node. */
 typedef struct OstProblem OstProblem;
@@ -22,6 +24,13 @@ typedef struct OstNodeConstraint {
     double displacement;
 } OstNodeConstraint;
 
+/* What follows a time table, at factor 1. */
+typedef struct OstTimedParts {
+    OstTimeTable table;
+    const double *force;        /* 3 × owned_nodes, or NULL for none */
+    const double *displacement; /* one along each of the constraints, or NULL for none */
+} OstTimedParts;
+
 /* A problem from the caller's own parts. Mesh and field outlive the problem; the arrays are copied. */
 typedef struct OstProblemParts {
     const OstMesh *mesh;
@@ -30,7 +39,9 @@ typedef struct OstProblemParts {
     OstLocal constraint_count;  /* on this rank; directions of one node may repeat, but not contradict each other */
     int free_body;              /* nothing holds the body, its loads balance, and there are no constraints */
     const double *force;        /* 3 × owned_nodes: the load at t = 1, or NULL for none */
-    OstFormulation formulation; /* 0: linear */
+    OstFormulation formulation; /* of the answer; 0: linear */
+    int timed_count;            /* the same on all ranks, as are the tables */
+    const OstTimedParts *timed;
 } OstProblemParts;
 
 /* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
@@ -57,10 +68,10 @@ const OstMesh *ost_problem_mesh(const OstProblem *problem);
 const OstMaterialField *ost_problem_field(const OstProblem *problem);
 OstGlobal ost_problem_unknowns(const OstProblem *problem); /* 0 until the stiffness has been asked for */
 
-/* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's. */
+/* Local. Puts another load (3 × owned_nodes, at t = 1; copied) in place of the problem's that grows with t. */
 void ost_problem_set_load(OstProblem *problem, const double *force);
 
-/* Local. load(t): t times the load at t = 1. */
+/* Local. load(t): t times the load that grows with t, and what follows time tables. */
 void ost_problem_load(const OstProblem *problem, double t, double *force);
 
 /* Collective. The strain energy of the body under u. (The classical formulation's force is not its gradient.) */
@@ -103,7 +114,7 @@ typedef struct OstWorstTet {
 OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst);
 
 /* Local. Drops the map by which tets are added to the matrix, about a fifth as large as the values on linear tets. The
- * stiffness of a linear problem then stays as it is; that of a nonlinear one makes map and pattern anew when asked for.
+ * stiffness of a linear problem then stays as it is; that of a nonlinear one makes the map anew when asked for.
  */
 void ost_problem_release_scatter(OstProblem *problem);
 

@@ -11,10 +11,9 @@ typedef struct OstChecks {
     double relative_residual;  /* ||P (f - K u)|| / ||f_rhs||, K u summed tet by tet without the matrix */
     double rounding;           /* what of it rounding may explain: a few 1e-16 of || |K| |u| || / ||f_rhs|| */
     double rigid_motion;       /* most that a tet, or a row of the matrix, resisted rigid motion, over |K| |motion| */
-    double displacement_error; /* relative error of the displacement in the equations: the solver's error_estimate,
-                                  or energy_imbalance if that is larger and no support moves; NAN if not known */
-    double force_error;        /* the same of reactions and stresses, about: the largest of the imbalances below and of
-                                  the displacement's error relative to what strains the body; NAN if not known */
+    double displacement_error; /* relative error of the displacement in the equations, 2-norm; NAN if not known */
+    double force_error;        /* the same of reactions and stresses: the larger of them, or of the imbalances of force
+                                  and moment; NAN if not known */
     double load[3], reaction[3];
     double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
     double moment_imbalance; /* likewise about the body's centre */
@@ -27,6 +26,30 @@ typedef struct OstChecks {
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
 } OstChecks;
+
+/* What was found out about large rotations, and what was done about them (large_rotation in docs/case.md). */
+typedef struct OstNewtonReport {
+    int judged;           /* was linear theory's error estimated? */
+    double linear_error;  /* that estimate, relative */
+    double accuracy;      /* what it was compared with */
+    double linear_strain; /* largest strain and rotation (radians) of the linear solution */
+    double linear_rotation;
+    int used;              /* was the nonlinear problem solved, by Newton's method? What follows is 0 if not. */
+    double reached;        /* load factor of the last state at rest: 1 is all of the load */
+    int load_steps;        /* taken */
+    int cut_backs;         /* load steps given up, and tried again half as large */
+    int iterations;        /* of Newton's method, given-up steps included */
+    int definite;          /* those of them with the stiffness made positive definite, the exact one being indefinite */
+    int cuts;              /* of the line search */
+    int linear_iterations; /* of the linear solver, over all of them */
+    int setups;            /* of its hierarchy, or factorisations */
+    double relative_residual; /* of the last state, relative to loads and reactions */
+    double change;            /* its last correction over the displacement, in the 2-norm */
+    int rounding_limited;     /* rounding, and not the residual asked for, ended an iteration */
+    int jumps;                /* load steps over which the body jumped from one state to another: snap-through */
+    double jump_at;           /* load factor at the end of the last of these */
+    double seconds;           /* of Newton's method */
+} OstNewtonReport;
 
 /* One rank's piece of the answer, on one piece of a mesh; the mesh outlives it. */
 typedef struct OstResult OstResult;
@@ -57,6 +80,7 @@ OstGlobal ost_result_unknowns(const OstResult *result);
  * add to the ends of these structs, which only the library makes. */
 const OstSolveReport *ost_result_solve_report(const OstResult *result);
 const OstChecks *ost_result_checks(const OstResult *result);
+const OstNewtonReport *ost_result_newton_report(const OstResult *result);
 
 /* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result
  * has. A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it), field data

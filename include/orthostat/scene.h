@@ -30,7 +30,8 @@ const OstMaterialField *ost_scene_field(const OstScene *scene);
 OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem);
 
 /* Collective. ost_problem_dry_run and ost_problem_solve of the scene's problem, with the solver's options and the
- * fields that the case asks for. The scene outlives the result. */
+ * fields that the case asks for; where the case has a path (orthostat/path.h), the result is that at its end. The scene
+ * outlives the result. */
 OstStatus ost_scene_dry_run(const OstScene *scene);
 OstStatus ost_scene_solve(const OstScene *scene, OstResult **result);
 

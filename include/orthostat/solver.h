@@ -102,6 +102,7 @@ typedef struct OstSolveReport {
     OstSolverPlan plan;
     int steps; /* strategies tried */
     OstSolveStep step[OST_MAX_STEPS];
+    int indefinite; /* did p·Ap < 0 show that the matrix is? */
 } OstSolveReport;
 
 /* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, patience 150, 40 / 8 / 7 nodes, degree 3,

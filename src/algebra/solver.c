@@ -20,6 +20,8 @@ struct OstSolver {
     const OstBlockMatrix *matrix;
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
+    OstSolverAim aim;
+    int aged; /* have the matrix's values changed since the current strategy was built? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -27,6 +29,7 @@ struct OstSolver {
     OstMetric *metric;
     OstDirect *direct;
     OstEpetraMap *map;
+    double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
     int steps;               /* strategies that could not be built before the current one */
@@ -75,7 +78,18 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
     solver->method = status == OST_SUCCESS ? options->method : OST_METHOD_AUTO;
+    solver->aged = 0;
     return status;
+}
+
+static void current_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner)
+{
+    *system = (OstCgSystem){.matrix = solver->matrix};
+    *preconditioner = (OstPreconditioner){.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
+    if (solver->metric)
+        ost_metric_system(solver->metric, system, preconditioner);
+    if (solver->direct)
+        ost_direct_system(solver->direct, system, preconditioner);
 }
 
 /* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
@@ -85,8 +99,9 @@ static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal 
         return ost_metric_improve(solver->metric, f, u, goal, report);
     if (solver->direct)
         return ost_direct_solve(solver->direct, f, u, goal, report);
-    const OstPreconditioner cycle = {.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
-    const OstCgSystem system = {.matrix = solver->matrix};
+    OstPreconditioner cycle;
+    OstCgSystem system;
+    current_system(solver, &system, &cycle);
     ost_smoothed_aggregation_report(solver->plain, report);
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML V-cycle of %d levels of its own", report->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
@@ -113,7 +128,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
         solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
-        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status))
+        if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status) || solver->aim.probing)
             return status;
         note_step(step, steps, method, ost_error_text(solver->ctx))->seconds = solver->strategy_seconds;
         if (method == OST_METHOD_DIRECT)
@@ -173,6 +188,8 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
     OstStatus status = OST_SUCCESS;
     solver->steps = 0;
     ost_solver_plan(options, &facts, &solver->plan);
+    if (may_change(solver) && solver->aim.first > solver->plan.first)
+        solver->plan.first = solver->aim.first;
     tell_plan(solver);
     if (solver->matrix->global_rows > 0)
         status = build_first(solver, options);
@@ -205,10 +222,17 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
 {
     /* PLAIN's smoother would combine the new matrix with the old eigenvalue bounds and may not be definite. */
     const int may_stay = solver->method >= OST_METHOD_METRIC && solver->method <= OST_METHOD_TWO_LEVEL;
-    if (how == OST_UPDATE_KEEP && may_stay)
+    if (how == OST_UPDATE_KEEP && may_stay) {
+        solver->aged = 1;
         return OST_SUCCESS;
+    }
     destroy_strategy(solver);
     return start(solver, &solver->options);
+}
+
+void ost_solver_aim(OstSolver *solver, OstSolverAim aim)
+{
+    solver->aim = aim;
 }
 
 void ost_solver_destroy(OstSolver **solver)
@@ -264,9 +288,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
 /* Is there a next strategy that could succeed? */
 static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
-    const int mendable =
-        goal->end == OST_END_SLOW || goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
-    return may_change(solver) && mendable && solver->method < OST_METHOD_DIRECT;
+    const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
+    const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
+    return may_change(solver) && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
@@ -316,11 +340,16 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
             solver->ctx, OST_NOT_CONVERGED,
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
+    if (solver->aim.relative_residual > 0.0)
+        goal.target = solver->aim.relative_residual * goal.start;
+    goal.crude = solver->aim.crude;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     report->iterations = goal.iterations;
+    solver->smallest = goal.smallest;
+    report->indefinite = goal.indefinite;
     if (goal.start > 0.0) {
         report->relative_residual = goal.norm / goal.start;
         report->attainable_residual = ost_goal_attainable(&goal);
@@ -330,6 +359,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
+    if (goal.crude)
+        return OST_SUCCESS;
     return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 
@@ -363,6 +394,21 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     const OstStatus status = solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    *found = 0;
+    if (solver->method == OST_METHOD_AUTO || !(solver->smallest > 0.0))
+        return OST_SUCCESS;
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    current_system(solver, &system, &preconditioner);
+    const OstStatus status =
+        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
     return status;
 }

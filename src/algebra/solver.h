@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_SOLVER_H
 #define ORTHOSTAT_ALGEBRA_SOLVER_H
 
+#include "algebra/krylov/error_of_residual.h"
 #include "algebra/matrix/geometry.h"
 #include "orthostat/solver.h"
 
@@ -19,10 +20,22 @@ void ost_solver_destroy(OstSolver **solver);
 /* Collective. To be called after the values of the matrix have changed on the same pattern. OST_UPDATE_REBUILD plans
  * and builds the first strategy again, as ost_solver_create. OST_UPDATE_KEEP keeps a multigrid hierarchy as
  * preconditioner of the new matrix, which pays if the values have changed little; the solution is that of the new
- * matrix either way. PLAIN's hierarchy and factors are always rebuilt. Raises what ost_solver_create raises; the solver
- * is then without a strategy and can only be destroyed or updated again. */
+ * matrix either way. Where such an old hierarchy is too slow, a solve ends with OST_NOT_CONVERGED: a new one comes
+ * before another strategy. PLAIN's hierarchy and factors are always rebuilt. Raises what ost_solver_create raises; the
+ * solver is then without a strategy and can only be destroyed or updated again. */
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
+
+/* Local. How later solves go about it, in place of the options' relative residual: Newton's method needs little at
+ * first. `crude`: the error of the solution is not estimated. `probing`: the matrix may be indefinite, and the first
+ * sign of it ends update and solve with OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried
+ * otherwise. */
+typedef struct OstSolverAim {
+    double relative_residual; /* 0: the options' */
+    int crude, probing;
+    OstMethod first; /* an update that rebuilds begins with this strategy, or a later one that the plan names */
+} OstSolverAim;
+void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
 
 /* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm.
  * The residual is recomputed from A, u and f; if the recursive one has drifted from it, the iteration continues. f and
@@ -38,5 +51,10 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
  * smaller residual (report.attainable_residual), where another strategy cannot help. u and the report are filled either
  * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
+/* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
+ * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.
+ */
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
 
+#include "element/large_rotation.h"
+
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered)
 {
     for (int a = 0; a < nodes; a++)
@@ -20,7 +22,7 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const OstLocal tet = tets[slot < count ? slot : count - 1];
         batch->tet[slot] = tet;
-        ost_order_nodes(nodes, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[slot]);
+        ost_order_nodes(nodes, mesh->node_label, mesh->tet_nodes + (size_t)nodes * (size_t)tet, batch->node[slot]);
     }
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
     if (field->region_formula && element->points > 0)
@@ -41,6 +43,12 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
                      void *data)
 {
+    ost_visit_means_of(mesh, field, OST_FORMULATION_LINEAR, u, visit, data);
+}
+
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, const double *u,
+                        OstMeansVisit visit, void *data)
+{
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
@@ -49,7 +57,10 @@ void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const d
         OstMeans means;
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
         ost_batch_gather_vectors(&batch, element->nodes, u, of_nodes);
-        element->means(batch.x, &batch.elasticity, of_nodes, &means);
+        if (formulation == OST_FORMULATION_LINEAR)
+            element->means(batch.x, &batch.elasticity, of_nodes, &means);
+        else
+            ost_large_rotation_means(element, batch.x, &batch.elasticity, of_nodes, &means);
         visit(data, &batch, element, of_nodes, &means);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "element/element.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/formulation.h"
 
 /* OST_SIMD_WIDTH tets side by side, with what the kernels read of them. If only `count` tets are left, the last one
  * fills the other slots; only the first `count` results mean something. */
@@ -15,27 +16,34 @@ typedef struct OstBatch {
     OstElasticity elasticity;
 } OstBatch;
 
-/* A linear tet's vertices in ascending order. Stiffness and forces do not depend on the order, and with this one the
- * upper triangle of the tet's matrix adds to the upper triangle of K. */
-static inline void ost_sort_vertices(const OstLocal *vertices, OstLocal *sorted)
+/* A linear tet's vertices in ascending order of their labels (a sorting network). */
+static inline void ost_sort_vertices(const OstGlobal *label, const OstLocal *vertices, OstLocal *sorted)
 {
-    const OstLocal low01 = vertices[0] < vertices[1] ? vertices[0] : vertices[1];
-    const OstLocal high01 = vertices[0] < vertices[1] ? vertices[1] : vertices[0];
-    const OstLocal low23 = vertices[2] < vertices[3] ? vertices[2] : vertices[3];
-    const OstLocal high23 = vertices[2] < vertices[3] ? vertices[3] : vertices[2];
-    const OstLocal low = low01 < low23 ? low23 : low01;
-    const OstLocal high = high01 < high23 ? high01 : high23;
-    sorted[0] = low01 < low23 ? low01 : low23;
-    sorted[1] = low < high ? low : high;
-    sorted[2] = low < high ? high : low;
-    sorted[3] = high01 < high23 ? high23 : high01;
+    static const int pair[5][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {1, 2}};
+    OstGlobal key[4];
+    for (int a = 0; a < 4; a++) {
+        sorted[a] = vertices[a];
+        key[a] = label[vertices[a]];
+    }
+    for (int k = 0; k < 5; k++) {
+        const int a = pair[k][0], b = pair[k][1], swap = key[b] < key[a];
+        const OstGlobal low = swap ? key[b] : key[a], high = swap ? key[a] : key[b];
+        const OstLocal first = swap ? sorted[b] : sorted[a], second = swap ? sorted[a] : sorted[b];
+        key[a] = low;
+        key[b] = high;
+        sorted[a] = first;
+        sorted[b] = second;
+    }
 }
 
-/* A tet's nodes in the order that batches and the matrix's pattern use. */
-static inline void ost_order_nodes(int count, const OstLocal *nodes, OstLocal *ordered)
+/* A tet's nodes in the order that batches and the matrix's pattern use. All ranks must compute a tet in the same order:
+ * the determinant of a flat one depends on it by far more than 1e-16, and rows of different ranks would not fit
+ * together. With labels that ascend as the local numbers do, which is usual, a linear tet's upper triangle adds to the
+ * upper triangle of K. */
+static inline void ost_order_nodes(int count, const OstGlobal *label, const OstLocal *nodes, OstLocal *ordered)
 {
     if (count == 4) {
-        ost_sort_vertices(nodes, ordered);
+        ost_sort_vertices(label, nodes, ordered);
         return;
     }
     for (int a = 0; a < count; a++)
@@ -61,5 +69,9 @@ typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElemen
  * batch by batch. */
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstMeansVisit visit,
                      void *data);
+
+/* Local. The same of any formulation: with large rotations the strain is U - I, and the stress is conjugate to it. */
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, const double *u,
+                        OstMeansVisit visit, void *data);
 
 #endif

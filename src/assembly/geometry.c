@@ -72,11 +72,29 @@ static void project_modes(const OstSystem *system, double *modes)
     }
 }
 
+OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes)
+{
+    const OstLocal rows = system->matrix->rows;
+    double *moved = NULL, middle[3];
+    OST_TRY(ost_agree(system->ctx, OST_NEW(system->ctx, &moved, 3 * (size_t)rows)));
+    for (size_t row = 0; row < (size_t)rows; row++)
+        for (size_t i = 0; i < 3; i++) {
+            const size_t at = 3 * (size_t)system->node_of_row[row] + i;
+            moved[3 * row + i] = system->mesh->coordinates[at] + (displacement ? displacement[at] : 0.0);
+        }
+    const OstStatus status = find_middle(system, moved, middle);
+    if (status == OST_SUCCESS) {
+        ost_rigid_body_modes(rows, moved, middle, modes);
+        project_modes(system, modes);
+    }
+    OST_FREE(moved);
+    return status;
+}
+
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes)
 {
     const OstLocal rows = system->matrix->rows;
-    double middle[3];
     OstStatus status = OST_SUCCESS;
     for (OstLocal row = 0; row < rows; row++)
         memcpy(coordinates + 3 * (size_t)row, system->mesh->coordinates + 3 * (size_t)system->node_of_row[row],
@@ -86,8 +104,5 @@ OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *f
     else if (metric)
         status = mean_metric(system, field, metric);
     OST_TRY(ost_agree(system->ctx, status));
-    OST_TRY(find_middle(system, coordinates, middle));
-    ost_rigid_body_modes(rows, coordinates, middle, modes);
-    project_modes(system, modes);
-    return OST_SUCCESS;
+    return ost_system_modes(system, NULL, modes);
 }

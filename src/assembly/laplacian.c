@@ -21,7 +21,7 @@ static void laplacian_of(const OstMesh *mesh, const OstElement *element, OstLoca
 {
     const int n = element->nodes;
     double x[3 * OST_MAX_TET_NODES];
-    ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)tet, laplacian->node);
+    ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)tet, laplacian->node);
     ost_gather3(n, laplacian->node, mesh->coordinates, x);
     element->laplacian(x, laplacian->pairs);
 }

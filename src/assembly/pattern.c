@@ -32,7 +32,7 @@ static OstStatus incidence_create(const OstSystem *system, RowTets *incidence)
     OstLocal *start = incidence->tet_start;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         OstLocal ordered[OST_MAX_TET_NODES];
-        ost_order_nodes(n, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
+        ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)t, ordered);
         for (OstLocal a = 0; a < n; a++) {
             const OstLocal row = system->row_of_node[ordered[a]];
             incidence->row[n * t + a] = row;
@@ -169,4 +169,40 @@ done:
     OST_FREE(seen);
     OST_FREE(block_of_column);
     return status;
+}
+
+/* The block of a row's column, which is there. */
+static OstLocal find_block(const OstBlockMatrix *matrix, OstLocal row, OstLocal column)
+{
+    OstLocal low = matrix->row_start[row], high = matrix->row_start[row + 1] - 1;
+    while (low < high) {
+        const OstLocal middle = low + (high - low) / 2;
+        if (matrix->column[middle] < column)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+OstStatus ost_system_restore_scatter(OstSystem *system)
+{
+    const OstMesh *mesh = system->mesh;
+    const int n = mesh->nodes_per_tet;
+    const size_t pairs = (size_t)ost_pair_count(n);
+    OST_TRY(OST_NEW(system->ctx, &system->block_of_tet, pairs * (size_t)mesh->tet_count));
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        OstLocal ordered[OST_MAX_TET_NODES];
+        OstLocal *block = system->block_of_tet + pairs * (size_t)tet;
+        ost_order_nodes(n, mesh->node_label, mesh->tet_nodes + (size_t)n * (size_t)tet, ordered);
+        for (int a = 0; a < n; a++)
+            for (int b = a; b < n; b++, block++) {
+                const OstLocal of_a = system->row_of_node[ordered[a]], of_b = system->row_of_node[ordered[b]];
+                const OstLocal row = of_a < of_b ? of_a : of_b;
+                *block = -1;
+                if (row >= 0 && row < system->matrix->rows)
+                    *block = find_block(system->matrix, row, of_a < of_b ? of_b : of_a);
+            }
+    }
+    return OST_SUCCESS;
 }

@@ -9,8 +9,11 @@
 
 #include <string.h>
 
-/* A direction counts as dependent on the constrained ones if less than this of it is left, and displacements agree if
- * they differ by no more than this, relative to the largest. */
+/* A direction counts as dependent on the constrained ones if less than this of it is left: normals of one plane that
+ * come from rounded coordinates must not hold the tangent too. */
+static const double parallel = 1e-6;
+
+/* Displacements agree if they differ by no more than this, relative to the largest. */
 static const double same = 1e-10;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports)
@@ -112,7 +115,7 @@ OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const dou
     double rest[3] = {unit[0], unit[1], unit[2]};
     const double earlier = remove_constrained_part(support, rest);
     const double rest_length = ost_norm3(rest);
-    if (rest_length <= same || support->constrained == 3) {
+    if (rest_length <= parallel || support->constrained == 3) {
         if (fabs(prescribed - earlier) > same * largest_prescribed(support, prescribed))
             return raise_contradiction(supports, node, unit, earlier, prescribed);
         return OST_SUCCESS;
@@ -210,6 +213,17 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
                 projector[3 * i + j] -= along[i] * along[j];
         }
     return constrained;
+}
+
+void ost_supports_add(const OstSupports *supports, double factor, double *u)
+{
+    for (OstLocal node = 0; node < supports->mesh->node_count; node++) {
+        const OstLocal index = supports->index[node];
+        const OstSupport *support = index < 0 ? NULL : &supports->support[index];
+        for (int k = 0; support && k < support->constrained; k++)
+            for (int i = 0; i < 3; i++)
+                u[3 * (size_t)node + (size_t)i] += factor * support->prescribed[k] * support->direction[3 * k + i];
+    }
 }
 
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,

@@ -44,4 +44,7 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
  * identity). */
 int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3]);
 
+/* Local. Adds `factor` times what the supports prescribe to a displacement of all local nodes. */
+void ost_supports_add(const OstSupports *supports, double factor, double *u);
+
 #endif

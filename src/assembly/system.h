@@ -46,8 +46,9 @@ typedef struct OstTangent {
 /* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
 OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent);
 
-/* Local. Frees block_of_tet; the system cannot be filled again. */
+/* Local. Frees block_of_tet; the system cannot be filled again until it is restored. */
 void ost_system_release_scatter(OstSystem *system);
+OstStatus ost_system_restore_scatter(OstSystem *system);
 
 /* Local. Right-hand side of the rows, P (force - K g): `force` are the loads on local nodes (3 × node_count, complete
  * on owned nodes); K g is computed only on tets that touch a node with g != 0. `rhs` has 3 × matrix->rows numbers. */
@@ -87,6 +88,9 @@ void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const
  * P (column-major, 6 × 3 × rows). `metric` may be NULL. */
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
+
+/* Collective. The modes alone, of the shape that `displacement` (3 × node_count; NULL: none) gives the body. */
+OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes);
 
 /* Local. Turns the filled K into P K P + s(I - P) at nodes that are constrained in one or two directions. s is the mean
  * stiffness of the node's diagonal block along its free directions, so that the added entries have the node's own

@@ -4,6 +4,7 @@
 #include "case/sections.h"
 #include "case/verify.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/memory.h"
 #include "formats/serial/formats.h"
 
@@ -65,19 +66,81 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
+static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const OstCase *c)
+{
+    if (path && c->verify)
+        return ost_yaml_raise(yaml, path,
+                              "a case with a verify section is solved at t = 1 alone; leave out one of them");
+    if (path || c->table_count == 0)
+        return OST_SUCCESS;
+    return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                     "%s:%d: 'time' has a meaning along a path only, and the case has none; add one, as in path: "
+                     "{steps: 10}",
+                     yaml->path, c->first_table_line);
+}
+
+static OstStatus check_large_rotation(const OstYaml *yaml, const OstYamlKey *large_rotation,
+                                      const OstYamlKey *formulation, const OstCase *c)
+{
+    if (c->large_rotation == OST_LARGE_ROTATION_ON && c->free_body)
+        return ost_yaml_raise(yaml, large_rotation->value,
+                              "a free body is solved linearly: nothing says how far it turns as a whole; constrain six "
+                              "of its components, or leave large_rotation out");
+    if (c->large_rotation == OST_LARGE_ROTATION_OFF && formulation->value)
+        return ost_yaml_raise(yaml, formulation->value,
+                              "formulation says how large rotations are computed, and large_rotation is off; leave out "
+                              "one of them");
+    return OST_SUCCESS;
+}
+
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
-    enum { TITLE, MESH, ELEMENT, MATERIALS, CONSTRAINTS, LOADS, ACCURACY, SOLVER, OUTPUT, WATCH, VERIFY, SECTIONS };
+    enum {
+        TITLE,
+        MESH,
+        ELEMENT,
+        MATERIALS,
+        CONSTRAINTS,
+        LOADS,
+        ACCURACY,
+        SOLVER,
+        OUTPUT,
+        WATCH,
+        PATH,
+        LARGE_ROTATION,
+        FORMULATION,
+        VERIFY,
+        SECTIONS
+    };
     OstYamlKey keys[SECTIONS] = {
-        [TITLE] = {.name = "title"},         [MESH] = {.name = "mesh", .needed = 1},  [ELEMENT] = {.name = "element"},
-        [MATERIALS] = {.name = "materials"}, [CONSTRAINTS] = {.name = "constraints"}, [LOADS] = {.name = "loads"},
-        [ACCURACY] = {.name = "accuracy"},   [SOLVER] = {.name = "solver"},           [OUTPUT] = {.name = "output"},
-        [WATCH] = {.name = "watch"},         [VERIFY] = {.name = "verify"},
+        [TITLE] = {.name = "title"},
+        [MESH] = {.name = "mesh", .needed = 1},
+        [ELEMENT] = {.name = "element"},
+        [MATERIALS] = {.name = "materials"},
+        [CONSTRAINTS] = {.name = "constraints"},
+        [LOADS] = {.name = "loads"},
+        [ACCURACY] = {.name = "accuracy"},
+        [SOLVER] = {.name = "solver"},
+        [OUTPUT] = {.name = "output"},
+        [WATCH] = {.name = "watch"},
+        [PATH] = {.name = "path"},
+        [LARGE_ROTATION] = {.name = "large_rotation"},
+        [FORMULATION] = {.name = "formulation"},
+        [VERIFY] = {.name = "verify"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,     [ELEMENT] = ost_read_element,         [MATERIALS] = ost_read_materials,
-        [LOADS] = ost_read_loads,   [CONSTRAINTS] = ost_read_constraints, [ACCURACY] = ost_read_accuracy,
-        [SOLVER] = ost_read_solver, [OUTPUT] = ost_read_output,           [WATCH] = ost_read_watches,
+        [MESH] = ost_read_mesh,
+        [ELEMENT] = ost_read_element,
+        [MATERIALS] = ost_read_materials,
+        [LOADS] = ost_read_loads,
+        [CONSTRAINTS] = ost_read_constraints,
+        [ACCURACY] = ost_read_accuracy,
+        [SOLVER] = ost_read_solver,
+        [OUTPUT] = ost_read_output,
+        [WATCH] = ost_read_watches,
+        [PATH] = ost_read_load_path,
+        [LARGE_ROTATION] = ost_read_large_rotation,
+        [FORMULATION] = ost_read_formulation,
         [VERIFY] = ost_read_verify,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
@@ -89,6 +152,8 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         if (keys[s].value)
             OST_TRY(read[s](yaml, keys[s].value, c));
     OST_TRY(check_materials(yaml, c));
+    OST_TRY(check_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
+    OST_TRY(check_path(yaml, keys[PATH].value, c));
     return check_gravity(yaml, c);
 }
 
@@ -146,7 +211,9 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     (*c)->solver = ost_solver_default_options();
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
+    (*c)->formulation = OST_FORMULATION_CONSISTENT;
     (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
+    (*c)->text_hash = ost_hash(OST_HASH_START, size, bytes);
     OST_TRY(ost_copy_string(ctx, path, &(*c)->path));
     OST_TRY(ost_yaml_parse(ctx, (*c)->path, bytes, size, &yaml));
     const OstStatus status = read_sections(yaml, *c);
@@ -255,6 +322,10 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);
+    for (int i = 0; i < (*c)->table_count; i++)
+        ost_time_table_release(&(*c)->tables[i]);
+    OST_FREE((*c)->tables);
+    OST_FREE((*c)->path_times);
     ost_verify_release(&(*c)->verify);
     OST_FREE((*c)->materials);
     OST_FREE((*c)->constraints);

@@ -6,7 +6,9 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
+#include "orthostat/formulation.h"
 #include "orthostat/material.h"
+#include "orthostat/time_table.h"
 
 /* A case as its YAML file states it. Plain data; every pointer is owned by the case. */
 
@@ -44,7 +46,8 @@ typedef struct OstConstraint {
     OstSelection on;
     int constrained[3]; /* DISPLACEMENT: is the component constrained? (0: the word free) */
     int exact[3];       /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/closed_form.h */
-    double displacement[3]; /* DISPLACEMENT: the prescribed value */
+    double displacement[3]; /* DISPLACEMENT: the prescribed value, at factor 1 */
+    int table;              /* DISPLACEMENT: 0 if it grows with t, or 1 + its place in the case's tables */
     double normal[3];       /* SLIDE: the plane's normal */
 } OstConstraint;
 
@@ -68,6 +71,7 @@ typedef struct OstLoad {
     double vector[3];
     double pressure;
     int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */
+    int table;      /* 0 if it grows with t, or 1 + its place in the case's tables */
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
@@ -107,6 +111,9 @@ typedef enum {
     OST_MESH_FROM_PROGRAM /* the word from_program: who creates the scene passes the mesh */
 } OstMeshKind;
 
+/* Is the case solved for large rotations? AUTO: where linear theory is off by more than the accuracy asked for. */
+typedef enum { OST_LARGE_ROTATION_AUTO, OST_LARGE_ROTATION_ON, OST_LARGE_ROTATION_OFF } OstLargeRotation;
+
 struct OstCase {
     OstContext *ctx;
     char *path; /* of the case file */
@@ -129,6 +136,14 @@ struct OstCase {
     OstConstraint *constraints;
     int load_count;
     OstLoad *loads;
+    OstLargeRotation large_rotation;
+    OstFormulation formulation; /* of large rotations */
+    int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
+    double *path_times;         /* of the outputs, ascending, not negative */
+    int table_count;
+    OstTimeTable *tables; /* of loads and prescribed displacements, each different */
+    int first_table_line;
+    uint64_t text_hash; /* of the case's text */
     int watch_count;
     OstWatch *watches;
     struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */

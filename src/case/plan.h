@@ -21,7 +21,7 @@ typedef struct OstPlan {
     int least_ranks;       /* predicted: on fewer ranks, one would hold more than it can number */
     /* Predicted, over all ranks (by src/case/plan_memory.c and the effects' rules): pieces of the mesh with their
      * halos; K by blocks, its pattern and its scatter map; the solver's copies and vectors; arrays of the effects; the
-     * output file. */
+     * output files. */
     double bytes_mesh, bytes_matrix, bytes_solver, bytes_effects, bytes_output;
 } OstPlan;
 

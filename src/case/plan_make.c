@@ -49,6 +49,13 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
+    facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
+                           : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
+                                                                        : 1;
+    facts.formulation = c->formulation == OST_FORMULATION_CLASSICAL ? "classical" : "consistent";
+    facts.accuracy = c->relative_error;
+    facts.path_steps = c->path_steps;
+    facts.tables = c->table_count;
     facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
                         ost_plan_writes(c, OST_FIELD_ENERGY);
     facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);

@@ -91,5 +91,5 @@ void ost_plan_memory(const OstCase *c, int quadratic, int ranks, OstPlan *plan)
     plan->bytes_solver = solver_bytes(plan, quadratic, blocks * block_bytes);
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
-    plan->bytes_output = output_bytes(c, plan);
+    plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }

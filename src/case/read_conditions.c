@@ -31,13 +31,24 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
     return OST_SUCCESS;
 }
 
-static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+static OstStatus read_displacement_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c,
+                                        OstConstraint *constraint)
 {
-    enum { KINDS = 2, ON = KINDS };
+    const double *u = constraint->displacement;
+    const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
+    if (constraint->kind == OST_CONSTRAIN_SLIDE || (!exact && u[0] == 0.0 && u[1] == 0.0 && u[2] == 0.0))
+        return ost_yaml_raise(yaml, node, "'time' belongs to a displacement other than zero; leave it out here");
+    return ost_read_time(yaml, node, c, &constraint->table);
+}
+
+static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstConstraint *constraint)
+{
+    enum { KINDS = 2, ON = KINDS, TIME };
     OstYamlKey keys[] = {
         [OST_CONSTRAIN_DISPLACEMENT] = {.name = "displacement"},
         [OST_CONSTRAIN_SLIDE] = {.name = "slide"},
         [ON] = {.name = "on", .needed = 1},
+        [TIME] = {.name = "time"},
     };
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
@@ -45,8 +56,9 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
     constraint->kind = (OstConstraintKind)kind;
     constraint->line = ost_yaml_line(node);
     OST_TRY(ost_read_selection(yaml, keys[ON].value, &constraint->on));
-    return constraint->kind == OST_CONSTRAIN_SLIDE ? ost_yaml_direction(yaml, keys[kind].value, constraint->normal)
-                                                   : read_displacement(yaml, keys[kind].value, constraint);
+    OST_TRY(constraint->kind == OST_CONSTRAIN_SLIDE ? ost_yaml_direction(yaml, keys[kind].value, constraint->normal)
+                                                    : read_displacement(yaml, keys[kind].value, constraint));
+    return keys[TIME].value ? read_displacement_time(yaml, keys[TIME].value, c, constraint) : OST_SUCCESS;
 }
 
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -60,11 +72,11 @@ OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, Ost
     c->constraint_count = count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_constraint(yaml, item, &c->constraints[i]));
+        OST_TRY(read_constraint(yaml, item, c, &c->constraints[i]));
     return OST_SUCCESS;
 }
 
-enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, LOAD_KEYS };
+enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, TIME, LOAD_KEYS };
 
 static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
@@ -94,7 +106,7 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
     return OST_SUCCESS;
 }
 
-static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstLoad *load)
 {
     OstYamlKey keys[LOAD_KEYS] = {
         [OST_LOAD_TOTAL_FORCE] = {.name = "total_force"},
@@ -106,6 +118,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
         [ON] = {.name = "on"},
         [SHARE] = {.name = "share"},
         [REGION] = {.name = "region"},
+        [TIME] = {.name = "time"},
     };
     int kind;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, LOAD_KEYS));
@@ -125,6 +138,8 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstLoad
     }
     if (load->region && ost_is_every_region(load->region))
         OST_FREE(load->region);
+    if (keys[TIME].value)
+        OST_TRY(ost_read_time(yaml, keys[TIME].value, c, &load->table));
     if (load->kind == OST_LOAD_PRESSURE)
         return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
     load->exact =
@@ -140,6 +155,6 @@ OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *
     c->load_count = count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_load(yaml, item, &c->loads[i]));
+        OST_TRY(read_load(yaml, item, c, &c->loads[i]));
     return OST_SUCCESS;
 }

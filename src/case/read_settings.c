@@ -21,6 +21,25 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
     return OST_SUCCESS;
 }
 
+OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {
+        [OST_LARGE_ROTATION_AUTO] = "auto", [OST_LARGE_ROTATION_ON] = "on", [OST_LARGE_ROTATION_OFF] = "off"};
+    int which;
+    OST_TRY(ost_yaml_word(yaml, node, "answer", words, OST_COUNT_OF(words), &which));
+    c->large_rotation = (OstLargeRotation)which;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {"consistent", "classical"};
+    int which;
+    OST_TRY(ost_yaml_word(yaml, node, "formulation", words, OST_COUNT_OF(words), &which));
+    c->formulation = which == 0 ? OST_FORMULATION_CONSISTENT : OST_FORMULATION_CLASSICAL;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};

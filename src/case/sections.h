@@ -15,11 +15,16 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_load_path(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 
 /* Parts of sections. */
 OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
+/* A time table, added to those of the case unless it has the same already; `number` is 1 + its place there. */
+OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, int *number);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
 
 /* Copies a text, or a path, which is made relative to the case file's folder. */
@@ -29,6 +34,7 @@ OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **pat
 /* Does a path end in `ending`, in upper or lower case? */
 int ost_has_ending(const char *path, const char *ending);
 
+void ost_time_table_release(OstTimeTable *table);
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
 struct OstVerify;

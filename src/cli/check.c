@@ -2,10 +2,12 @@
 #include "case/select.h"
 #include "cli/command.h"
 #include "cli/destination.h"
+#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "output/path_files.h"
 #include "problem/scene_data.h"
 #include "study/watch.h"
 
@@ -26,6 +28,7 @@ static const struct argp check_argp = {
 typedef struct Findings {
     OstGlobal constrained; /* vertices that constraints select, counted once for each constraint */
     char output[OST_LONGEST_PATH];
+    char first_step[OST_LONGEST_PATH]; /* of a path */
 } Findings;
 
 static OstStatus count_nodes(const OstScene *scene, const OstSelection *selection, OstGlobal *total)
@@ -112,7 +115,8 @@ static void look_for_oddities(const OstScene *scene, const Findings *findings)
         ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that can move freely", c->path);
     if (!ost_plan_acts(c, &scene->plan))
         ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
-    if (ost_check_outputs(c, 1, (const char *const[]){findings->output}) != OST_SUCCESS)
+    if ((c->path_steps > 0 ? ost_cli_check_path_outputs(c, findings->output)
+                           : ost_check_outputs(c, 1, (const char *const[]){findings->output})) != OST_SUCCESS)
         ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind != OST_AXES_NONE && !ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
@@ -135,7 +139,11 @@ static void print_findings(const OstScene *scene, const Findings *findings)
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
            (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", c->load_count,
            plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
-    printf("solve will write its fields to %s\n", findings->output);
+    if (c->path_steps > 0)
+        printf("solve will write the fields of %d step%s beside %s, the first to %s\n", c->path_steps,
+               plural(c->path_steps), findings->output, findings->first_step);
+    else
+        printf("solve will write its fields to %s\n", findings->output);
 }
 
 static OstStatus print_json(const OstScene *scene, const Findings *findings)
@@ -167,6 +175,7 @@ static OstStatus check_case(OstContext *ctx, void *input)
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
     OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
+    ost_path_step_name(findings.output, 1, sizeof findings.first_step, findings.first_step);
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(check_conditions(scene, &findings));
     OST_TRY_DONE(dry_run(scene));

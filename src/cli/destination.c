@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 /* Letters left for the name under which a file is written aside. */
-enum { LONGEST_OUTPUT = OST_LONGEST_PATH - 32, MOST_OUTPUTS = 3 };
+enum { LONGEST_OUTPUT = OST_LONGEST_PATH - 32, MOST_OUTPUTS = 4 };
 
 static const char *name_in_folder(const char *path)
 {

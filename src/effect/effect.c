@@ -85,6 +85,21 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
+/* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
+static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
+{
+    const double bytes = 216.0 * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
+    if (f->large_rotation == 0)
+        off(state, "the case says so: linear theory, which takes rotations and strains as small");
+    else if (f->free_body)
+        off(state, "a free body is solved linearly");
+    else if (f->large_rotation == 2)
+        on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
+    else
+        on(state, 0.0, "auto: a linear solve, and Newton's method (%s) if linear theory is off by more than %g %%",
+           f->formulation, 100.0 * f->accuracy);
+}
+
 /* The linear mesh and its matrix, the scatter map while the matrix is filled, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -144,6 +159,16 @@ static void surface_load(const OstEffectFacts *f, OstEffectState *state)
 static void body_force(const OstEffectFacts *f, OstEffectState *state)
 {
     loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
+}
+
+/* The load of each table, and the displacement of each function of time. */
+static void path(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->path_steps > 0)
+        on(state, 24.0 * f->nodes * (1.0 + 2.0 * f->tables), "%d step%s, %d time table%s", f->path_steps,
+           f->path_steps == 1 ? "" : "s", f->tables, f->tables == 1 ? "" : "s");
+    else
+        off(state, "the case has no path: the answer is that at t = 1");
 }
 
 static void recovery(const OstEffectFacts *f, OstEffectState *state)

@@ -15,6 +15,7 @@
     X(OST_EFFECT_GRADIENT_AXES, "gradient axes", gradient_axes)                               \
     X(OST_EFFECT_REGIONS, "several materials", several_materials)                             \
     X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
+    X(OST_EFFECT_LARGE_ROTATION, "large rotation", large_rotation)                            \
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
@@ -22,6 +23,7 @@
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
     X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
+    X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)
 
 #define OST_EFFECT_ENUM(name, label, rule) name,
@@ -45,6 +47,10 @@ typedef struct OstEffectFacts {
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides;
     int free_body;
+    int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
+    double accuracy;    /* relative */
+    const char *formulation;
+    int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads;
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */

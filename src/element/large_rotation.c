@@ -23,16 +23,6 @@ typedef struct DeformedTets {
     OstSimd stiff; /* the mean of m'(U - I) where C is split, otherwise 0 */
 } DeformedTets;
 
-static inline void displacement_gradient(int nodes, const OstPoint *point, const OstSimd *u, OstSimd slope[9])
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            slope[3 * i + j] = (u[3 + i] - u[i]) * point->gradient[1][j];
-            for (int a = 2; a < nodes; a++)
-                slope[3 * i + j] += (u[3 * a + i] - u[i]) * point->gradient[a][j];
-        }
-}
-
 static inline void dot6(const OstSimd a[6], const OstSimd b[6], OstSimd *product)
 {
     *product = a[0] * b[0];
@@ -51,7 +41,7 @@ static void deform(const OstElement *element, const OstSimd *x, const OstElastic
         OstSimd slope[9];
         OstSimd mode;
         element->evaluate(x, &rule->point[q], &at->point);
-        displacement_gradient(element->nodes, &at->point, u, slope);
+        ost_displacement_gradient(element->nodes, &at->point, u, slope);
         ost_polar(slope, &at->polar);
         ost_biot_strain(&at->polar, at->strain);
         at->c = elasticity->c[ost_elasticity_at(elasticity, q)];
@@ -176,7 +166,7 @@ static void classical_displacement(const OstElement *element, const OstSimd *x, 
         OstPoint point;
         OstSimd slope[9];
         element->evaluate(x, &rule->point[q], &point);
-        displacement_gradient(element->nodes, &point, u, slope);
+        ost_displacement_gradient(element->nodes, &point, u, slope);
         volume += point.volume;
         for (int n = 0; n < 9; n++)
             mean[n] += point.volume * slope[n];
@@ -298,7 +288,7 @@ void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, con
         OstPolar polar;
         OstSimd slope[9];
         element->evaluate(x, &at[q], &point);
-        displacement_gradient(element->nodes, &point, u, slope);
+        ost_displacement_gradient(element->nodes, &point, u, slope);
         ost_polar(slope, &polar);
         ost_biot_strain(&polar, strain + 6 * q);
     }

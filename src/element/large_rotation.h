@@ -24,9 +24,27 @@ void ost_large_rotation_force(const OstElement *element, OstFormulation formulat
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                   const OstElasticity *elasticity, const OstSimd *u, int definite, OstSimd *blocks);
 
+/* F - I at a point. */
+static inline void ost_displacement_gradient(int nodes, const OstPoint *point, const OstSimd *u, OstSimd slope[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            slope[3 * i + j] = (u[3 + i] - u[i]) * point->gradient[1][j];
+            for (int a = 2; a < nodes; a++)
+                slope[3 * i + j] += (u[3 * a + i] - u[i]) * point->gradient[a][j];
+        }
+}
+
 /* Means over the tets of U - I, of its conjugate stress and of the energy density (the same for both formulations). */
 void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
                               const OstSimd *u, OstMeans *means);
+
+/* Cauchy's stress P F' / det F, in world axes: the mean over each deformed tet, and that at its nodes (6 a node), where
+ * `at_nodes` has the elasticity. */
+void ost_large_rotation_mean_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                    const OstSimd *u, OstSimd stress[6]);
+void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                     const OstElasticity *at_nodes, const OstSimd *u, OstSimd *stress);
 
 /* U - I at points of the tets. `at`: count × 4 barycentric coordinates; 6 strains a point. */
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,

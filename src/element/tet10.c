@@ -189,14 +189,15 @@ static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, O
         add_mean_blocks(x, elasticity, blocks);
 }
 
+/* From differences of displacements, which rounding harms far less than displacements where the body moves far. */
 static inline void strain_at(const OstPoint *point, const OstSimd *u, OstSimd strain[6])
 {
-    OstSimd slope[3][3];
+    OstSimd slope[3][3] = {{{0}}};
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            slope[i][j] = u[i] * point->gradient[0][j];
-            for (int a = 1; a < NODES; a++)
-                slope[i][j] += u[3 * a + i] * point->gradient[a][j];
+        for (int a = 1; a < NODES; a++) {
+            const OstSimd difference = u[3 * a + i] - u[i];
+            for (int j = 0; j < 3; j++)
+                slope[i][j] += difference * point->gradient[a][j];
         }
     ost_strain_of_slope(slope, strain);
 }
@@ -215,9 +216,9 @@ static inline void add_force(const OstPoint *point, const OstSimd stress[6], Ost
 /* Mean of m'strain over the tet. */
 static void mean_of_mode(const OstSimd columns[NUMBERS], const OstSimd *volume, const OstSimd *u, OstSimd *mean)
 {
-    *mean = columns[0] * u[0];
-    for (int n = 1; n < NUMBERS; n++)
-        *mean += columns[n] * u[n];
+    *mean = (OstSimd){0};
+    for (int n = 3; n < NUMBERS; n++)
+        *mean += columns[n] * (u[n] - u[n % 3]);
     *mean /= *volume;
 }
 

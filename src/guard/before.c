@@ -153,13 +153,13 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
-OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdict *before)
+OstStatus ost_guard_load(const OstProblem *problem, const double *force, const double *rhs, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
     const char *name = ost_problem_name(problem);
     if (problem->free_body) {
         ost_ledger_enter(ctx, OST_EFFECT_FREE_BODY);
-        const OstStatus status = check_balance(problem->mesh, problem->force, name);
+        const OstStatus status = check_balance(problem->mesh, force, name);
         ost_ledger_leave(ctx);
         OST_TRY(take_objection(ctx, status, before));
     }

@@ -10,29 +10,24 @@
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
+#include "orthostat/case.h"
 
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Error of the displacement in the equations. The solver estimates it from the preconditioner applied to the true
- * residual and to a random sample of the rounding errors of the stiffness: with multigrid in the energy norm by the
- * smallest Ritz value of the solve, or in the displacement if that is larger; with factors in the displacement
- * (energy_error.h), or by how much refinement still changes it, if that is larger (refine.h). It is an estimate and no
- * bound, because the Ritz value approaches the smallest eigenvalue from above. PLAIN keeps the coefficients of its
- * iteration to itself, and so states no error. The relative difference of strain energy and work counts as an error
- * too. An error that the requested residual allows is the user's choice; an error above a tenth that rounding alone
- * causes is objected to. The residual's 2-norm times the condition number would need no preconditioner, but fails where
- * stiffness is uneven: it takes the residual at a stiff inclusion for one at a soft place, and refused answers with
- * errors of 1e-5.
+/* Errors in the equations are those that the solver found (solve/error.h): of the displacement, the reactions and the
+ * stresses. An answer is objected to where they leave no digit of what was asked for. The residual's 2-norm times the
+ * condition number would need no solver, but fails where stiffness is uneven: it takes the residual at a stiff
+ * inclusion for one at a soft place, and refused answers with errors of 1e-5.
  *
- * Error of the forces. If a support moves the whole body along, the displacement may have a relative error of 1e-11 and
- * the strains one of 1: neither residual nor error estimate shows it, as both are relative to what the support does to
- * the unknowns. The error of the forces is therefore the largest of the imbalances of force, moment and energy, and of
- * the displacement's error relative to what strains the body (to the strain energy; with factors, to the displacement
- * less its mean). The imbalances alone do not suffice: they are relative to the reactions, and random rounding errors
- * of n reactions add up to sqrt(n) of them only (a cube of 9261 vertices, moved by 1 while it deforms by 1e-10,
- * balances to 0.06 with stresses 330 times too large).
+ * Where the solver finds none, the displacement's error is the solver's estimate (energy_error.h, refine.h), or the
+ * relative difference of strain energy and work. If a support moves the whole body along, the displacement may have a
+ * relative error of 1e-11 and the strains one of 1. The error of the forces is then the largest of the imbalances of
+ * force, moment and energy, and of the displacement's error relative to what strains the body (to the strain energy;
+ * with factors, to the displacement less its mean). The imbalances alone do not suffice: they are relative to the
+ * reactions, and random rounding errors of n reactions add up to sqrt(n) of them only (a cube of 9261 vertices, moved
+ * by 1 while it deforms by 1e-10, balances to 0.06 with stresses 330 times too large).
  *
  * The sums are not compensated: a displacement rounded to double precision leaves a residual of about DBL_EPSILON |K|
  * |u|, however it is summed. Measured on the worst case, an inclusion 1e9 times stiffer than its surroundings: 4.61e-6
@@ -67,11 +62,17 @@ static const double rounding_steps = 4.0;
 /* A balance may be off by this much beyond what the residual explains. */
 static const double balance_tolerance = 1e-10;
 
+/* Fields that are lost with the reactions, and with the stresses. */
+static const unsigned forces = 1U << OST_FIELD_REACTION;
+static const unsigned stresses =
+    1U << OST_FIELD_STRESS | 1U << OST_FIELD_NODE_STRESS | 1U << OST_FIELD_STRAIN | 1U << OST_FIELD_ENERGY;
+
 /* The body moves as a whole if its displacement is this many times its deformation. */
 static const double moves_as_a_whole = 10.0;
 
 typedef struct Body {
     const OstSupports *supports;
+    int turns; /* are rotations large? Moments are then those of the current shape */
     double centre[3];
     int moved;      /* is any prescribed displacement not zero? */
     double mean[3]; /* if so, the mean displacement; else zero */
@@ -106,7 +107,7 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
         const double residual = out_of_balance[i] - r[i];
         const double deformation = u[i] - body->mean[i];
         external[i] = f[i] + r[i];
-        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] - body->centre[i];
+        arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] + (body->turns ? u[i] : 0.0) - body->centre[i];
         sums[SUM_RESIDUAL] += residual * residual;
         sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
         sums[SUM_LOAD + i] += f[i];
@@ -131,6 +132,7 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
 /* Strain energy from strains and stresses, not from nodal forces, so that it checks their work; and the largest strain
  * and rotation, found on the way. */
 typedef struct TetSums {
+    OstFormulation formulation;
     double energy;
     OstLinearity largest;
 } TetSums;
@@ -139,7 +141,7 @@ static void add_tets(void *data, const OstBatch *batch, const OstElement *elemen
                      const OstMeans *means)
 {
     TetSums *tets = data;
-    ost_linearity_add(batch, element, u, means, &tets->largest);
+    ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
     for (int slot = 0; slot < batch->count; slot++)
         tets->energy += means->energy[slot] * means->volume[slot];
 }
@@ -196,6 +198,15 @@ static void estimate_errors(OstResult *result, const Body *body, const double *s
     checks->force_error = known ? fmax(imbalance, strain_error(result, body, sums, work)) : NAN;
 }
 
+/* The errors that were found. Imbalances of force and moment show errors of reactions that the equations do not. */
+static void state_errors(OstResult *result, const OstErrors *errors)
+{
+    OstChecks *checks = &result->checks;
+    checks->displacement_error = errors->displacement;
+    checks->force_error =
+        fmax(fmax(checks->force_imbalance, checks->moment_imbalance), fmax(errors->reaction, errors->stress));
+}
+
 /* Imbalances that need no further cause. Internal forces sum to zero, so a residual unbalances forces by its sum, at
  * most sqrt(n) times its norm, and the energy by its work on u. Rounding adds to that where a load and its reaction all
  * but cancel. */
@@ -225,13 +236,21 @@ static double error_of_rounding(const OstSolveReport *report)
     return report->rounding_limited ? report->error_estimate : report->rounding_error;
 }
 
-/* Is the error of rounding above a tenth, beyond statistical doubt? Only its part from random samples has a spread; the
- * residual's part, added in squares, has none. */
-static int loses_the_displacement(const OstSolveReport *report)
+/* Is the error above a tenth? Where only the solver's random samples of rounding errors tell, beyond statistical doubt:
+ * only they have a spread; the residual's part, added in squares, has none. */
+static int loses_the_displacement(const OstResult *result, const OstErrors *errors)
 {
+    const OstSolveReport *report = &result->solve;
+    if (errors->known)
+        return !(errors->displacement <= ost_least_digit);
     const double error = error_of_rounding(report);
     const double sampled = error > 0.0 ? report->rounding_error / error : 0.0;
     return ost_surely_beyond(error, sampled * sampled * report->rounding_spread, ost_least_digit);
+}
+
+static int asks_for(const OstResult *result, unsigned fields)
+{
+    return (result->asked & fields) != 0;
 }
 
 static void describe_error(double error, char left[48])
@@ -241,44 +260,60 @@ static void describe_error(double error, char left[48])
         snprintf(left, 48, "an error of about %.1g", error);
 }
 
-static void object_to_rounding(OstResult *result)
+/* Does the residual that the user asked for explain the error? */
+static int is_as_asked(const OstSolveReport *report, const OstErrors *errors)
+{
+    return errors->known && !report->rounding_limited && report->error_estimate > 0.5 * errors->displacement &&
+           report->rounding_error < 0.5 * report->error_estimate;
+}
+
+static void object_to_displacement(OstResult *result, const OstErrors *errors, const char *worst)
 {
     char left[48];
-    describe_error(error_of_rounding(&result->solve), left);
-    ost_object(
-        &result->verdict, OST_CHECK_FAILED,
-        "rounding in double precision leaves the displacement less than one digit (%s); bring the stiffnesses of "
-        "the materials nearer to each other, or constrain the body better",
-        left);
+    describe_error(errors->known ? errors->displacement : error_of_rounding(&result->solve), left);
+    if (is_as_asked(&result->solve, errors))
+        ost_object(&result->verdict, OST_CHECK_FAILED,
+                   "the relative residual asked for leaves the displacement less than one digit (%s); ask for a "
+                   "smaller one",
+                   left);
+    else
+        ost_object(&result->verdict, OST_CHECK_FAILED,
+                   "rounding in double precision leaves the displacement less than one digit (%s); %s%s%s", left,
+                   ost_rounding_remedy, worst[0] ? "; " : "", worst);
 }
 
 /* Are reactions and stresses lost? Without a load they are allowed to be: a rigid motion leaves rounding errors alone.
- * What the requested residual may add up to over all unknowns is the user's choice. Where the body moves as a whole the
- * error of the forces counts, or, where the solver states none, a residual above the load. Elsewhere the displacement's
- * error is judged by itself, and a difference of energy and work is stated but does not refuse: in a part that is 1e9
- * times stiffer strains are smaller than rounding errors while displacement and reactions are right. */
-static int loses_the_forces(const OstResult *result, const double *sums, double requested)
+ * What the requested residual may add up to over all unknowns is the user's choice. The errors that the solver found
+ * count where the output holds the fields that they spoil. Where it found none, the error of the forces counts if the
+ * body moves as a whole, or, if none is stated, a residual above the load; elsewhere a difference of energy and work is
+ * stated but does not refuse: in a part that is 1e9 times stiffer strains are smaller than rounding errors while
+ * displacement and reactions are right. */
+static int loses_the_forces(const OstResult *result, const OstErrors *errors, const double *sums, double requested)
 {
     const OstChecks *checks = &result->checks;
     const double chosen = result->solve.rounding_limited ? 0.0 : sqrt((double)result->unknowns) * requested;
     double error = fmax(checks->force_imbalance, checks->moment_imbalance);
     if (!(sqrt(sums[SUM_FREE_LOAD]) > rounding_steps * DBL_EPSILON * sums[SUM_FORCE_TERMS]))
         return 0;
-    if (ratio_to_deformation(sums) > moves_as_a_whole) {
+    if (errors->known) {
+        error = fmax(error, asks_for(result, forces) ? errors->reaction : 0.0);
+        error = fmax(error, asks_for(result, stresses) ? errors->stress : 0.0);
+    } else if (ratio_to_deformation(sums) > moves_as_a_whole) {
         const double unstated = sums[SUM_RESIDUAL] > sums[SUM_FREE_LOAD] ? INFINITY : 0.0;
         error = fmax(error, isnan(checks->force_error) ? unstated : checks->force_error);
     }
     return error > fmax(ost_least_digit, chosen);
 }
 
-static void object_to_forces(OstResult *result, const Body *body, const double *sums)
+static void object_to_forces(OstResult *result, const Body *body, const double *sums, const char *worst)
 {
     const OstChecks *checks = &result->checks;
     const double *mean = body->mean;
     const double nodes = (double)result->mesh->global_nodes;
     const double smallest = 1e-3 * ost_norm3(mean);
     char left[48];
-    char remedy[240] = "bring the stiffnesses of the materials nearer to each other, or constrain the body better";
+    char remedy[280];
+    snprintf(remedy, sizeof remedy, "%s", ost_rounding_remedy);
     if (ratio_to_deformation(sums) > moves_as_a_whole)
         snprintf(
             remedy, sizeof remedy,
@@ -289,9 +324,9 @@ static void object_to_forces(OstResult *result, const Body *body, const double *
     describe_error(checks->force_error < 1.0 ? checks->force_error : INFINITY, left);
     ost_object(&result->verdict, OST_CHECK_FAILED,
                "reactions and stresses hold less than one digit (%s): loads and reactions differ by %.2g %%, "
-               "their moments by %.2g %%, strain energy and work by %.2g %%; %s",
+               "their moments by %.2g %%, strain energy and work by %.2g %%; %s%s%s",
                left, 100.0 * checks->force_imbalance, 100.0 * checks->moment_imbalance,
-               100.0 * checks->energy_imbalance, remedy);
+               100.0 * checks->energy_imbalance, remedy, worst[0] ? "; " : "", worst);
 }
 
 /* Each comparison is written so that NaN fails it. */
@@ -306,7 +341,8 @@ static void judge(OstResult *result, double requested, Explained explained)
         ost_object(&result->verdict, OST_CHECK_FAILED,
                    "the true residual, summed tet by tet, is %.2e where %.2e was asked for (rounding explains %.1e)",
                    checks->relative_residual, requested, checks->rounding);
-    if (!(checks->force_imbalance <= explained.force && checks->moment_imbalance <= explained.moment))
+    const int has_moment = result->formulation == OST_FORMULATION_CLASSICAL; /* of its own: that form's flaw */
+    if (!(checks->force_imbalance <= explained.force && (checks->moment_imbalance <= explained.moment || has_moment)))
         ost_object(&result->verdict, OST_CHECK_FAILED,
                    "loads and reactions do not balance: force %.2e, moment %.2e of their size, where residual and "
                    "rounding explain %.1e and %.1e",
@@ -315,12 +351,25 @@ static void judge(OstResult *result, double requested, Explained explained)
         ost_object(&result->verdict, OST_CHECK_FAILED,
                    "the strain energy %.10e differs from the work %.10e of loads and reactions", checks->strain_energy,
                    checks->work);
-    if (loses_the_displacement(&result->solve))
-        object_to_rounding(result);
+}
+
+static OstStatus judge_errors(OstResult *result, const Body *body, const OstErrors *errors, const double *sums,
+                              double requested)
+{
+    const int displacement_lost = loses_the_displacement(result, errors);
+    const int forces_lost = loses_the_forces(result, errors, sums, requested);
+    char worst[OST_WORST_TET_SIZE] = "";
+    if (displacement_lost || forces_lost)
+        OST_TRY(ost_guard_worst_tet(result->mesh, worst));
+    if (displacement_lost)
+        object_to_displacement(result, errors, worst);
+    if (forces_lost)
+        object_to_forces(result, body, sums, worst);
+    return OST_SUCCESS;
 }
 
 /* Centre, mean displacement, and whether supports move the body. */
-static OstStatus look_at_body(const OstResult *result, Body *body)
+static OstStatus look_at_body(const OstProblem *problem, const OstResult *result, Body *body)
 {
     const OstMesh *mesh = result->mesh;
     double low[3], high[3];
@@ -329,9 +378,7 @@ static OstStatus look_at_body(const OstResult *result, Body *body)
     for (int i = 0; i < 3; i++)
         body->centre[i] = 0.5 * (low[i] + high[i]);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        double projector[9], prescribed[3];
-        if (ost_supports_get(body->supports, n, projector, prescribed) > 0)
-            sums[3] += prescribed[0] != 0.0 || prescribed[1] != 0.0 || prescribed[2] != 0.0;
+        sums[3] += ost_problem_moves(problem, n);
         for (int i = 0; i < 3; i++)
             sums[i] += result->displacement[3 * (size_t)n + (size_t)i];
     }
@@ -350,20 +397,23 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstChecks *checks = &result->checks;
     double *internal = NULL, *magnitude = NULL;
     double sums[SUM_COUNT] = {0.0};
-    Body body = {.supports = problem->supports};
-    TetSums tets = {0.0, {0.0, 0.0}};
+    Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
+    TetSums tets = {.formulation = problem->formulation};
     if (result->solve.rounding_limited) /* then the user accepts what double precision attained */
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
     OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(ost_internal_force(mesh, problem->field, result->displacement, internal, magnitude));
+    OST_THEN(
+        ost_internal_force_of(mesh, problem->field, problem->formulation, result->displacement, internal, magnitude));
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(look_at_body(result, &body));
-    ost_visit_means(mesh, problem->field, result->displacement, add_tets, &tets);
+    OST_TRY_DONE(look_at_body(problem, result, &body));
+    ost_visit_means_of(mesh, problem->field, problem->formulation, result->displacement, add_tets, &tets);
     sums[SUM_ENERGY] = tets.energy;
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
+    if (body.turns)
+        OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
@@ -371,10 +421,13 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
     fill_checks(checks, sums, solved_for->norm);
-    estimate_errors(result, &body, sums, solved_for->work);
+    if (solved_for->errors.known)
+        state_errors(result, &solved_for->errors);
+    else
+        estimate_errors(result, &body, sums, solved_for->work);
     judge(result, requested, explain(result, sums, solved_for->norm));
-    if (checks->finite && !result->unfinished && loses_the_forces(result, sums, requested))
-        object_to_forces(result, &body, sums);
+    if (checks->finite && !result->unfinished)
+        OST_TRY_DONE(judge_errors(result, &body, &solved_for->errors, sums, requested));
 done:
     OST_FREE(internal);
     OST_FREE(magnitude);

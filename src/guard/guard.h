@@ -22,22 +22,43 @@ OstStatus ost_guard_supports(const OstProblem *problem, OstVerdict *before);
  * multigrid is given. `resistance` becomes the largest such force, over |K| |motion|. */
 OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, double *resistance, OstVerdict *before);
 
-/* Collective, before each solve. Objects to loads of a free body that do not balance, and to a
+/* Collective, before each solve. Objects to loads (3 × owned_nodes) of a free body that do not balance, and to a
  * right-hand side (3 × rows) out of range. */
-OstStatus ost_guard_load(const OstProblem *problem, const double *rhs, OstVerdict *before);
+OstStatus ost_guard_load(const OstProblem *problem, const double *force, const double *rhs, OstVerdict *before);
 
-/* The sizes that errors of an answer are relative to. */
+/* Collective. Names the worst tet, by number, place and quality, if that quality is below 0.01: it may be why rounding
+ * hides the answer. Otherwise `words` becomes empty. */
+enum { OST_WORST_TET_SIZE = 240 };
+OstStatus ost_guard_worst_tet(const OstMesh *mesh, char words[OST_WORST_TET_SIZE]);
+
+/* Collective. Adds the worst tet to the text of an OST_NOT_CONVERGED; returns `status`. */
+OstStatus ost_guard_explain(const OstProblem *problem, OstStatus status);
+
+/* Relative errors of an answer in the equations, in 2-norms. */
+typedef struct OstErrors {
+    int known;
+    double displacement; /* over all nodes */
+    double reaction;     /* of constrained nodes; over a thousandth of the loads, if that is more: loads may balance */
+    double stress;       /* means of the tets, six components */
+} OstErrors;
+
+/* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). */
+OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement, const double *error,
+                           OstErrors *errors);
+
+/* The sizes that errors of an answer are relative to, and its errors where the solver could find them. */
 typedef struct OstSolvedFor {
     double norm; /* of the right-hand side */
     double work; /* of the right-hand side on the unknowns; used if the problem is linear */
+    OstErrors errors;
 } OstSolvedFor;
 
 /* Collective, after a solve. Computes the reactions and result->checks from displacement and loads, with internal
  * forces summed tet by tet, without the assembled matrix, so that an error of assembly shows. Objects, with numbers,
  * unless all of this is true: values are finite; the true residual is what was asked for; forces and moments balance;
- * if the problem is linear, strain energy equals work (Clapeyron); the error of rounding is below a tenth, in the
- * displacement and in the forces. checks.c says how errors are estimated. `requested` is the relative residual that was
- * asked for. */
+ * if the problem is linear, strain energy equals work (Clapeyron); the stated error is at most a tenth, in the
+ * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative
+ * residual that was asked for. */
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result);
 

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "element/polar.h"
 #include "element/strain_batch.h"
 #include "mesh/mesh_data.h"
 
@@ -33,8 +34,8 @@ static void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
             edges[k][i] = corners[3 * (k + 1) + i] - corners[i];
 }
 
-/* Half the curl. The gradient is that of u's corners over x's: where u is linear it is right, in curved tets too. */
-static void find_rotation(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd rotation[3])
+/* The gradient is that of u's corners over x's: where u is linear it is right, in curved tets too. */
+static void find_gradient(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd gradient[9])
 {
     OstSimd x[3][3], moved[3][3], inverse[3][3];
     find_edges(nodes, batch->x, x);
@@ -42,13 +43,42 @@ static void find_rotation(const OstBatch *batch, int nodes, const OstSimd *u, Os
     for (int k = 0; k < 3; k++)
         ost_simd_cross(x[(k + 1) % 3], x[(k + 2) % 3], inverse[k]);
     const OstSimd determinant = x[0][0] * inverse[0][0] + x[0][1] * inverse[0][1] + x[0][2] * inverse[0][2];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            gradient[3 * i + j] = (OstSimd){0};
+            for (int k = 0; k < 3; k++)
+                gradient[3 * i + j] += moved[k][i] * inverse[k][j];
+            gradient[3 * i + j] /= determinant;
+        }
+}
+
+/* Twice the vector of a matrix's antisymmetric part. */
+static void find_axis(const OstSimd matrix[9], int slot, double axis[3])
+{
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
-        const int l = (i + 2) % 3;
-        rotation[i] = (OstSimd){0};
-        for (int k = 0; k < 3; k++) /* du_l/dx_j - du_j/dx_l */
-            rotation[i] += moved[k][l] * inverse[k][j] - moved[k][j] * inverse[k][l];
-        rotation[i] *= 0.5 / determinant;
+        const int k = (i + 2) % 3;
+        axis[i] = matrix[3 * k + j][slot] - matrix[3 * j + k][slot];
+    }
+}
+
+/* The angle by which each tet turns: half the curl by linear theory, that of R where rotations are large. */
+static void find_angles(const OstBatch *batch, int nodes, OstFormulation formulation, const OstSimd *u,
+                        double angle[OST_SIMD_WIDTH])
+{
+    OstSimd gradient[9], rotation[9];
+    OstPolar polar;
+    double axis[3];
+    find_gradient(batch, nodes, u, gradient);
+    if (formulation != OST_FORMULATION_LINEAR) {
+        ost_polar(gradient, &polar);
+        ost_polar_rotation(&polar, rotation);
+    }
+    for (int slot = 0; slot < batch->count; slot++) {
+        find_axis(formulation == OST_FORMULATION_LINEAR ? gradient : rotation, slot, axis);
+        angle[slot] = 0.5 * ost_norm3(axis);
+        if (formulation != OST_FORMULATION_LINEAR)
+            angle[slot] = atan2(angle[slot], 0.5 * (rotation[0][slot] + rotation[4][slot] + rotation[8][slot] - 1.0));
     }
 }
 
@@ -68,27 +98,25 @@ static double principal(const double e[6])
     return fmax(fabs(mean + 2.0 * size * cos(angle)), fabs(mean + 2.0 * size * cos(angle + third)));
 }
 
-static void add_tet(const OstSimd strain[6], const OstSimd rotation[3], int slot, OstLinearity *largest)
+static void add_tet(const OstSimd strain[6], double angle, int slot, OstLinearity *largest)
 {
-    double e[6], w[3], square = 0.0;
+    double e[6], square = 0.0;
     for (int p = 0; p < 6; p++) {
         e[p] = strain[p][slot];
         square += (p < 3 ? 1.0 : 0.5) * e[p] * e[p];
     }
-    for (int i = 0; i < 3; i++)
-        w[i] = rotation[i][slot];
-    largest->rotation = fmax(largest->rotation, ost_norm3(w));
+    largest->rotation = fmax(largest->rotation, angle);
     if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
         largest->strain = fmax(largest->strain, principal(e));
 }
 
-void ost_linearity_add(const OstBatch *batch, const OstElement *element, const OstSimd *u, const OstMeans *means,
-                       OstLinearity *largest)
+void ost_linearity_add(const OstBatch *batch, const OstElement *element, OstFormulation formulation, const OstSimd *u,
+                       const OstMeans *means, OstLinearity *largest)
 {
-    OstSimd rotation[3];
-    find_rotation(batch, element->nodes, u, rotation);
+    double angle[OST_SIMD_WIDTH];
+    find_angles(batch, element->nodes, formulation, u, angle);
     for (int slot = 0; slot < batch->count; slot++)
-        add_tet(means->strain, rotation, slot, largest);
+        add_tet(means->strain, angle[slot], slot, largest);
 }
 
 OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
@@ -97,4 +125,17 @@ OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
     OST_TRY(ost_max(ctx, 2, both));
     *largest = (OstLinearity){both[0], both[1]};
     return OST_SUCCESS;
+}
+
+static void visit(void *largest, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                  const OstMeans *means)
+{
+    ost_linearity_add(batch, element, OST_FORMULATION_LINEAR, u, means, largest);
+}
+
+OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLinearity *largest)
+{
+    *largest = (OstLinearity){0.0, 0.0};
+    ost_visit_means(mesh, field, u, visit, largest);
+    return ost_linearity_agree(mesh->ctx, largest);
 }

@@ -58,24 +58,100 @@ static void print_errors(const OstChecks *checks)
     printf("\n");
 }
 
-/* A larger error of linear theory is warned of: strains of 4 %, or rotations of 0.2 (11 degrees). The mesh rarely has a
- * smaller one. */
+/* A larger error of linear theory is warned of, unless the case has said what it accepts: strains of 4 %, or rotations
+ * of 0.2 (11 degrees). The mesh rarely has a smaller one. */
 static const double small_error = 0.02;
+
+static const double degrees = 57.29577951308232;
+
+/* "by about 12 %" */
+static void describe_error(double error, char text[32])
+{
+    snprintf(text, 32, "by more than 100 %%");
+    if (error < 1.0)
+        snprintf(text, 32, "by about %.2g %%", 100.0 * error);
+}
 
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
 {
     const double error = ost_linear_error(checks);
-    char off[32] = "by more than 100 %";
+    char off[32];
     text[0] = '\0';
     if (!checks->linear || !checks->finite || !(error > small_error))
         return 0;
-    if (error < 1.0)
-        snprintf(off, sizeof off, "by about %.0f %%", 100.0 * error);
+    describe_error(error, off);
     snprintf(text, OST_LONGEST_WARNING,
              "rotations are up to %.3g degrees and strains up to %.3g %%: linear theory, which takes both as small, "
              "is off %s there; scale the loads down, or read the result as a direction",
-             checks->largest_rotation * 57.29577951308232, 100.0 * checks->largest_strain, off);
+             checks->largest_rotation * degrees, 100.0 * checks->largest_strain, off);
     return 1;
+}
+
+static int warn_of_linear_theory(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const int accepted = result->newton.judged && result->newton.linear_error <= result->newton.accuracy;
+    return !accepted && ost_linearity_warning(&result->checks, text);
+}
+
+static int warn_of_inverted(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstWorstTet *worst = &result->worst;
+    if (!result->newton.used || worst->inverted == 0)
+        return 0;
+    snprintf(text, OST_LONGEST_WARNING,
+             "%lld tet%s turned inside out, the worst of them tet %lld of region '%.60s' at (%.4g, %.4g, %.4g): the "
+             "result means nothing there; refine the mesh, or spread the load",
+             (long long)worst->inverted, worst->inverted == 1 ? " is" : "s are", (long long)worst->tet,
+             result->mesh->regions.name[worst->region], worst->place[0], worst->place[1], worst->place[2]);
+    return 1;
+}
+
+static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstNewtonReport *newton = &result->newton;
+    if (newton->jumps == 0)
+        return 0;
+    snprintf(
+        text, OST_LONGEST_WARNING,
+        "on the way to load factor %.6g the body jumps to another state at rest (it buckles, or snaps through)%s: the "
+        "state beyond is stable, but which one is reached may depend on what is not in the scene",
+        newton->jump_at, newton->jumps > 1 ? ", as it has done before" : "");
+    return 1;
+}
+
+int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
+{
+    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted,
+                                                                  warn_of_jump};
+    text[0] = '\0';
+    return warn[number](result, text);
+}
+
+/* What was found out about large rotations, and what was done about them. */
+static void print_large_rotation(const OstNewtonReport *newton)
+{
+    char off[32];
+    if (!newton->judged)
+        return;
+    describe_error(newton->linear_error, off);
+    printf("  large rotation   rotations up to %.3g degrees, strains up to %.3g %% by linear theory, which is off %s: ",
+           degrees * newton->linear_rotation, 100.0 * newton->linear_strain, off);
+    if (!newton->used && newton->linear_error <= newton->accuracy)
+        printf("no more than the %.2g %% allowed, solved linearly\n", 100.0 * newton->accuracy);
+    else
+        printf("%s\n", newton->used ? "solved by Newton's method" : "not solved on");
+    if (!newton->used)
+        return;
+    printf(
+        "  newton           %d load step%s, %d iteration%s, %d of them with the definite stiffness; %d setup%s of the "
+        "solver; %.3f s\n",
+        newton->load_steps, plural(newton->load_steps), newton->iterations, plural(newton->iterations),
+        newton->definite, newton->setups, plural(newton->setups), newton->seconds);
+    if (newton->cut_backs > 0)
+        printf("                   %d load step%s given up and cut back\n", newton->cut_backs,
+               plural(newton->cut_backs));
+    if (newton->reached < 1.0)
+        printf("                   %.6g of the load is reached\n", newton->reached);
 }
 
 void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file)
@@ -91,13 +167,15 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
            (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
+    print_large_rotation(&result->newton);
     printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
            checks->relative_residual, checks->force_imbalance, checks->moment_imbalance, checks->energy_imbalance);
     print_errors(checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
-    if (ost_linearity_warning(checks, warning))
-        printf("  %-16s %s\n", "WARNING", warning);
+    for (int w = 0; w < OST_WARNINGS; w++)
+        if (ost_result_warning(result, w, warning))
+            printf("  %-16s %s\n", "WARNING", warning);
     for (int i = 0; i < result->verdict.count; i++)
         printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
     if (file)

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_OUTPUT_SUMMARY_H
 #define ORTHOSTAT_OUTPUT_SUMMARY_H
 
+#include "orthostat/path.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
@@ -24,13 +25,19 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
- * `watched` holds the case's quantities of interest, in their order. */
-OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                                 const OstWatchedValue *watched, const char *file, const char *path);
+ * `path` is that which led to the result, or NULL; `watched` holds the case's quantities of interest, in their order.
+ */
+OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
+                                 const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
+                                 const char *to);
 
-/* Local. Warns of an answer that passes every check but has strains or rotations too large for linear theory. Returns
- * 0, and leaves the text empty, if they are small. */
-enum { OST_LONGEST_WARNING = 320 };
+/* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, tets turned
+ * inside out, a jump. Returns 0, and leaves the text empty, where the one of this number (below OST_WARNINGS) has no
+ * cause. */
+enum { OST_WARNINGS = 3, OST_LONGEST_WARNING = 360 };
+int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
+
+/* Local. The first of these, of any answer of linear theory. */
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
 
 /* Local. The effects of a scene as a list of {effect, on, reason, bytes}, the bytes as predicted; the caller's

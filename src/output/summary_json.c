@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "output/path_files.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,13 +71,30 @@ static json_t *checks_json(const OstChecks *checks)
         ost_json_number(checks->largest_rotation));
 }
 
+static json_t *large_rotation_json(const OstNewtonReport *newton)
+{
+    if (!newton->judged)
+        return json_null();
+    return json_pack(
+        "{s:o, s:f, s:o, s:o, s:b, s:f, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:b, s:i, s:o, s:f}",
+        "linear_error", ost_json_number(newton->linear_error), "accuracy", newton->accuracy, "linear_strain",
+        ost_json_number(newton->linear_strain), "linear_rotation", ost_json_number(newton->linear_rotation), "newton",
+        newton->used, "load_factor", newton->reached, "load_steps", newton->load_steps, "cut_backs", newton->cut_backs,
+        "newton_iterations", newton->iterations, "definite_iterations", newton->definite, "line_search_cuts",
+        newton->cuts, "linear_iterations", newton->linear_iterations, "setups", newton->setups, "newton_residual",
+        ost_json_number(newton->relative_residual), "last_correction", ost_json_number(newton->change),
+        "newton_rounding_limited", newton->rounding_limited, "jumps", newton->jumps, "jump_at",
+        newton->jumps > 0 ? ost_json_number(newton->jump_at) : json_null(), "newton_seconds", newton->seconds);
+}
+
 /* What standard error warned of, and what the summary does. */
-static json_t *warnings_json(const OstContext *ctx, const OstChecks *checks)
+static json_t *warnings_json(const OstContext *ctx, const OstResult *result)
 {
     json_t *warnings = ost_json_warnings(ctx);
     char text[OST_LONGEST_WARNING];
-    if (ost_linearity_warning(checks, text))
-        json_array_append_new(warnings, ost_json_text(text));
+    for (int w = 0; w < OST_WARNINGS; w++)
+        if (ost_result_warning(result, w, text))
+            json_array_append_new(warnings, ost_json_text(text));
     return warnings;
 }
 
@@ -130,19 +148,20 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 {
     const OstMesh *mesh = result->mesh;
     return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
         scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
-        warnings_json(scene->ctx, &result->checks), "ranks", ost_size(scene->ctx), "vertices",
-        (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns,
-        "solver", solver_json(&result->solve), "checks", checks_json(&result->checks), "largest_displacement",
-        ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
-        watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
-        ledger_json(scene->ctx, summary), "output", file);
+        warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
+        "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
+        solver_json(&result->solve), "large_rotation", large_rotation_json(&result->newton), "checks",
+        checks_json(&result->checks), "largest_displacement", ost_json_number(result->largest_displacement),
+        "largest_at", vector_json(result->largest_at), "watched", watched_json(watched, scene->c->watch_count),
+        "effects", ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
 }
 
-OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                                 const OstWatchedValue *watched, const char *file, const char *path)
+OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
+                                 const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
+                                 const char *to)
 {
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
@@ -151,5 +170,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED,
                          "the summary holds a number that is not finite, which JSON cannot hold");
-    return ost_json_write(ctx, document, path);
+    if (path)
+        json_object_set_new(document, "steps", ost_path_json(scene, path));
+    return ost_json_write(ctx, document, to);
 }

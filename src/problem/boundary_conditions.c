@@ -5,10 +5,15 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "problem/free_body.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* Of a load, this share on unconstrained displacements is rounding. */
+static const double no_load = 1e-12;
 
 /* Puts "case.yaml:12: " in front of an error text, unless it names the case already. */
 static OstStatus at_line(const OstCase *c, int line, OstStatus status)
@@ -46,9 +51,10 @@ static OstStatus prescribed_displacement(const OstScene *scene, const OstConstra
     return OST_SUCCESS;
 }
 
-static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, OstLocal node,
+static OstStatus constrain_node(const OstScene *scene, const OstConstraint *constraint, int table, OstLocal node,
                                 OstSupports *supports)
 {
+    const double factor = constraint->table == table ? 1.0 : 0.0;
     double prescribed[3];
     if (constraint->kind == OST_CONSTRAIN_SLIDE)
         return ost_supports_constrain(supports, node, constraint->normal, 0.0);
@@ -57,12 +63,13 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
         double direction[3] = {0.0};
         direction[component] = 1.0;
         if (constraint->constrained[component])
-            OST_TRY(ost_supports_constrain(supports, node, direction, prescribed[component]));
+            OST_TRY(ost_supports_constrain(supports, node, direction, factor * prescribed[component]));
     }
     return OST_SUCCESS;
 }
 
-static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, OstSupports *supports)
+static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, int table,
+                                OstSupports *supports)
 {
     const OstAccount account = constraint->kind == OST_CONSTRAIN_SLIDE ? OST_EFFECT_SLIDING : OST_LEDGER_SUPPORTS;
     OstLocal count = 0;
@@ -72,14 +79,14 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = constrain_node(scene, constraint, nodes[i], supports);
+            status = constrain_node(scene, constraint, table, nodes[i], supports);
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
     return status;
 }
 
-OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
+OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports)
 {
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_FREE_BODY))
         return ost_free_body_supports(scene->mesh, &scene->plan.effects, supports);
@@ -87,7 +94,7 @@ OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports)
     if (status == OST_SUCCESS)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
-        status = add_constraint(scene, &scene->c->constraints[i], *supports);
+        status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
     OST_THEN(ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
@@ -192,10 +199,48 @@ static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect 
     return at_line(scene->c, load->line, status);
 }
 
-OstStatus ost_scene_loads(const OstScene *scene, double *force)
+/* Warns if the supports take up the whole of one load. */
+static OstStatus check_strains(const OstScene *scene, const OstSupports *supports, const OstLoad *load,
+                               const double *force)
+{
+    double squares[2] = {0.0}; /* of the load, and of what the supports leave of it */
+    for (OstLocal node = 0; node < scene->mesh->owned_nodes; node++) {
+        const double *of_node = force + 3 * (size_t)node;
+        double projector[9], left[3] = {of_node[0], of_node[1], of_node[2]};
+        if (ost_supports_get(supports, node, projector, NULL) > 0)
+            ost_apply3(projector, of_node, left);
+        squares[0] += ost_dot3(of_node, of_node);
+        squares[1] += ost_dot3(left, left);
+    }
+    OST_TRY(ost_sum(scene->ctx, 2, squares));
+    if (squares[0] > 0.0 && squares[1] <= no_load * no_load * squares[0])
+        ost_warn(scene->ctx,
+                 "%s:%d: this load acts on constrained displacements alone: the supports take it up, and it strains "
+                 "nothing; load other vertices, or constrain less",
+                 scene->c->path, load->line);
+    return OST_SUCCESS;
+}
+
+/* Adds one load, which is first collected by itself where it is to be looked at. */
+static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupports *supports, double *force)
+{
+    const OstLoad *load = &scene->c->loads[i];
+    const size_t n = 3 * (size_t)scene->mesh->node_count;
+    double *own = NULL;
+    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, &own, n));
+    OST_THEN(add_load(scene, load, scene->load_effect[i], own));
+    OST_THEN(check_strains(scene, supports, load, own));
+    for (size_t k = 0; k < n && status == OST_SUCCESS; k++)
+        force[k] += own[k];
+    OST_FREE(own);
+    return status;
+}
+
+OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force)
 {
     for (int i = 0; i < scene->c->load_count; i++)
-        if (ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
-            OST_TRY(add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
+        if (scene->c->loads[i].table == table && ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
+            OST_TRY(supports ? add_checked_load(scene, i, supports, force)
+                             : add_load(scene, &scene->c->loads[i], scene->load_effect[i], force));
     return OST_SUCCESS;
 }

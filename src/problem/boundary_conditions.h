@@ -5,11 +5,13 @@
 #include "assembly/supports.h"
 #include "problem/scene_data.h"
 
-/* Collective. The supports that the case's constraints make. Raises OST_INVALID_INPUT with the case's line where
- * constraints contradict each other, or if nothing is constrained. */
-OstStatus ost_scene_supports(const OstScene *scene, OstSupports **supports);
+/* Collective. The supports that the case's constraints make; displacements that do not follow the function of time
+ * `table` (0: t itself, 1 + k: table k of the case) are prescribed as zero. Raises OST_INVALID_INPUT with the case's
+ * line where constraints contradict each other, or if nothing is constrained. */
+OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **supports);
 
-/* Collective. Adds the case's loads to `force` (3 × node_count, complete on owned nodes). */
-OstStatus ost_scene_loads(const OstScene *scene, double *force);
+/* Collective. Adds the case's loads that follow this function of time to `force` (3 × node_count, complete on owned
+ * nodes). Warns of a load that these supports take up whole, so that it strains nothing; they may be NULL. */
+OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force);
 
 #endif

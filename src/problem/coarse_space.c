@@ -6,6 +6,8 @@
 #include "core/parallel/reduce.h"
 #include "orthostat/refine.h"
 
+#include <string.h>
+
 void ost_linear_space_destroy(OstLinearSpace **space)
 {
     if (!*space)
@@ -14,6 +16,7 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     ost_supports_destroy(&(*space)->supports);
     ost_mesh_destroy(&(*space)->mesh);
     ost_row_geometry_release(&(*space)->rows);
+    OST_FREE((*space)->node_of_vertex);
     OST_FREE((*space)->parents);
     OST_FREE((*space)->weights);
     OST_FREE(*space);
@@ -47,12 +50,29 @@ static OstStatus assemble(OstLinearSpace *space, const OstSystem *quadratic, con
 
 static OstStatus take_vertices(OstLinearSpace *space, const OstSystem *quadratic)
 {
-    OstLocal *node_of_vertex = NULL;
-    OST_TRY(ost_mesh_linear(quadratic->mesh, &space->mesh, &node_of_vertex));
-    const OstStatus status =
-        ost_supports_on_vertices(quadratic->supports, space->mesh, node_of_vertex, &space->supports);
-    OST_FREE(node_of_vertex);
-    return ost_agree(quadratic->ctx, status);
+    OST_TRY(ost_mesh_linear(quadratic->mesh, &space->mesh, &space->node_of_vertex));
+    return ost_agree(quadratic->ctx, ost_supports_on_vertices(quadratic->supports, space->mesh, space->node_of_vertex,
+                                                              &space->supports));
+}
+
+OstStatus ost_linear_space_move(OstLinearSpace *space, const OstMaterialField *field, OstFormulation formulation,
+                                const double *displacement)
+{
+    OstContext *ctx = space->mesh->ctx;
+    double *u = NULL;
+    OstStatus status = OST_NEW(ctx, &u, 3 * (size_t)space->mesh->node_count);
+    OST_THEN(ost_system_restore_scatter(space->system));
+    if (status == OST_SUCCESS) {
+        const OstTangent tangent = {.formulation = formulation, .u = u, .definite = 1};
+        for (size_t vertex = 0; vertex < (size_t)space->mesh->node_count; vertex++)
+            memcpy(u + 3 * vertex, displacement + 3 * (size_t)space->node_of_vertex[vertex], 3 * sizeof *u);
+        status = ost_system_fill_tangent(space->system, field, &tangent);
+    }
+    ost_system_release_scatter(space->system);
+    status = ost_agree(ctx, status);
+    OST_THEN(ost_system_modes(space->system, u, space->rows.modes));
+    OST_FREE(u);
+    return status;
 }
 
 OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,

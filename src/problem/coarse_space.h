@@ -8,6 +8,7 @@
 typedef struct OstLinearSpace {
     OstMesh *mesh;
     OstSupports *supports;
+    OstLocal *node_of_vertex; /* of the quadratic mesh */
     OstSystem *system;
     OstRowGeometry rows;
     OstLocal *parents;
@@ -19,6 +20,11 @@ typedef struct OstLinearSpace {
  * vertices are constrained. OST_EFFECT_LINEAR_SPACE. */
 OstStatus ost_linear_space_create(const OstSystem *quadratic, const OstMaterialField *field, int with_metric,
                                   OstLinearSpace **space);
+
+/* Collective. Takes the linear space to a displacement of the quadratic tets' nodes (3 × node_count): its stiffness and
+ * its rigid motions there. The stiffness is that of large rotations made definite, as a coarse level's must be. */
+OstStatus ost_linear_space_move(OstLinearSpace *space, const OstMaterialField *field, OstFormulation formulation,
+                                const double *displacement);
 void ost_linear_space_destroy(OstLinearSpace **space);
 
 /* Local. Interpolation of a quadratic system's rows from a linear one of the same tets: for each row four columns of

@@ -18,12 +18,14 @@ void ost_problem_destroy(OstProblem **problem)
     if (!*problem)
         return;
     ost_system_destroy(&(*problem)->system);
+    ost_problem_release_timed(*problem);
     ost_supports_destroy(&(*problem)->supports);
     OST_FREE((*problem)->force);
     OST_FREE(*problem);
 }
 
-static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **supports)
+/* `displacement`: one for each constraint, in place of its own; or NULL. */
+static OstStatus constrain_nodes(const OstProblemParts *parts, const double *displacement, OstSupports **supports)
 {
     OstContext *ctx = parts->mesh->ctx;
     if (parts->free_body)
@@ -35,8 +37,8 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, OstSupports **sup
             status = OST_RAISE(ctx, OST_INVALID_INPUT, "constraint %d is on node %d, but this rank owns nodes 0 to %d",
                                i, constraint->node, parts->mesh->owned_nodes - 1);
         else
-            status =
-                ost_supports_constrain(*supports, constraint->node, constraint->direction, constraint->displacement);
+            status = ost_supports_constrain(*supports, constraint->node, constraint->direction,
+                                            displacement ? displacement[i] : constraint->displacement);
     }
     OST_TRY(ost_agree(ctx, status));
     return ost_supports_complete(*supports);
@@ -58,6 +60,26 @@ static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstL
     return ost_agree(ctx, status);
 }
 
+/* Displacements that follow a table: zero unless the caller gives them. */
+static OstStatus make_timed(const OstProblemParts *parts, OstProblem *problem)
+{
+    OstContext *ctx = problem->ctx;
+    for (int k = 0; k < parts->timed_count; k++) {
+        const OstTimedParts *given = &parts->timed[k];
+        double *zero = NULL;
+        OST_TRY(ost_problem_add_timed(problem, &given->table));
+        OstTimed *timed = &problem->timed[k];
+        if (given->force)
+            memcpy(timed->force, given->force, 3 * (size_t)parts->mesh->owned_nodes * sizeof(double));
+        OST_TRY(ost_agree(ctx, OST_NEW(ctx, &zero, given->displacement ? 0 : parts->constraint_count)));
+        const OstStatus status =
+            constrain_nodes(parts, given->displacement ? given->displacement : zero, &timed->supports);
+        OST_FREE(zero);
+        OST_TRY(status);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
 {
     OstProblem *made = NULL;
@@ -71,12 +93,23 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
             ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
-        status = constrain_nodes(parts, &made->supports);
+        status = constrain_nodes(parts, NULL, &made->supports);
+        OST_THEN(make_timed(parts, made));
     }
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
     *problem = made;
     return status;
+}
+
+static OstStatus make_timed_of_scene(const OstScene *scene, OstProblem *problem)
+{
+    for (int k = 0; k < scene->c->table_count; k++) {
+        OST_TRY(ost_problem_add_timed(problem, &scene->c->tables[k]));
+        OST_TRY(ost_scene_supports(scene, 1 + k, &problem->timed[k].supports));
+        OST_TRY(ost_scene_loads(scene, 1 + k, problem->timed[k].supports, problem->timed[k].force));
+    }
+    return OST_SUCCESS;
 }
 
 OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
@@ -91,9 +124,14 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
     made->with_metric = ost_effect_on(made->effects, OST_EFFECT_ORTHOTROPY);
     made->facts = scene->plan.facts;
-    OST_TRY_DONE(ost_scene_supports(scene, &made->supports));
-    OST_TRY_DONE(ost_scene_loads(scene, made->force));
+    if (ost_effect_on(made->effects, OST_EFFECT_LARGE_ROTATION))
+        made->beyond_linear = scene->c->formulation;
+    made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
+    made->accuracy = scene->c->relative_error;
+    OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
+    OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
+    OST_TRY_DONE(make_timed_of_scene(scene, made));
 done:
     if (status != OST_SUCCESS)
         ost_problem_destroy(&made);
@@ -127,12 +165,19 @@ int ost_problem_is_linear(const OstProblem *problem)
 }
 
 /* Values of the matrix are of the formulation that was: they do not count. */
-void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation)
 {
     if (problem->formulation != formulation)
         problem->filled = 0;
     problem->formulation = formulation;
     problem->linear = formulation == OST_FORMULATION_LINEAR && ost_element_of(problem->mesh->nodes_per_tet)->linear;
+}
+
+void ost_problem_set_formulation(OstProblem *problem, OstFormulation formulation)
+{
+    ost_problem_take_formulation(problem, formulation);
+    problem->beyond_linear = formulation;
+    problem->automatic = 0;
 }
 
 OstFormulation ost_problem_formulation(const OstProblem *problem)
@@ -149,6 +194,11 @@ void ost_problem_load(const OstProblem *problem, double t, double *force)
 {
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
         force[i] = t * problem->force[i];
+    for (int k = 0; k < problem->timed_count; k++) {
+        const double factor = ost_time_factor(&problem->timed[k].table, t);
+        for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+            force[i] += factor * problem->timed[k].force[i];
+    }
 }
 
 static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
@@ -192,14 +242,15 @@ static OstStatus fill(const OstProblem *problem, const double *u, int definite)
     return ost_system_fill_tangent(problem->system, problem->field, at_zero ? NULL : &tangent);
 }
 
+/* The matrix stays where it is, so that a solver on it can be kept. */
 static OstStatus make_stiffness(OstProblem *problem, const double *u, int definite, OstStiffness *stiffness)
 {
-    const int may_fill = problem->system && problem->system->block_of_tet;
-    if (!may_fill && !(problem->filled && ost_problem_is_linear(problem))) {
-        ost_problem_release_stiffness(problem);
+    if (!problem->system)
         OST_TRY(make_pattern(problem));
-    }
-    if (problem->system->block_of_tet)
+    const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
+    if (fills && !problem->system->block_of_tet)
+        OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
+    if (fills)
         OST_TRY(ost_agree(problem->ctx, fill(problem, u, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;
@@ -264,16 +315,29 @@ void ost_problem_release_stiffness(OstProblem *problem)
 
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs)
 {
-    const OstSystem *system = problem->system;
-    OST_TRY(ost_system_right_hand_side(system, problem->field, problem->force, rhs));
-    for (size_t i = 0; i < 3 * (size_t)system->matrix->rows; i++)
+    const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
+    double *timed = NULL;
+    OST_TRY(ost_problem_function_right_hand_side(problem, 0, rhs));
+    for (size_t i = 0; i < unknowns; i++)
         rhs[i] *= t;
-    return OST_SUCCESS;
+    if (problem->timed_count > 0)
+        OST_TRY(OST_NEW(problem->ctx, &timed, unknowns));
+    OstStatus status = OST_SUCCESS;
+    for (int k = 1; k <= problem->timed_count && status == OST_SUCCESS; k++) {
+        status = ost_problem_function_right_hand_side(problem, k, timed);
+        for (size_t i = 0; i < unknowns; i++)
+            rhs[i] += ost_problem_factor(problem, k, t) * timed[i];
+    }
+    OST_FREE(timed);
+    return status;
 }
 
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u)
 {
-    return ost_system_displacement(problem->system, t, v, u);
+    OST_TRY(ost_system_displacement(problem->system, t, v, u));
+    for (int k = 0; k < problem->timed_count; k++)
+        ost_supports_add(problem->timed[k].supports, ost_time_factor(&problem->timed[k].table, t), u);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts)

@@ -6,6 +6,13 @@
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
 
+/* What follows a time table, at factor 1. */
+typedef struct OstTimed {
+    OstTimeTable table;
+    double *force;         /* 3 × node_count, complete on owned nodes */
+    OstSupports *supports; /* those of the problem, with the displacements that follow this table */
+} OstTimed;
+
 struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
@@ -14,10 +21,15 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
-    OstSystem *system;         /* NULL before ost_problem_stiffness, and after its release */
-    int filled;                /* does the matrix have values? */
-    int linear;                /* is the internal force linear in the displacement? */
-    OstFormulation formulation;
+    int timed_count;           /* time tables of further loads and displacements (timed.c) */
+    OstTimed *timed;
+    OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
+    int filled;                   /* does the matrix have values? */
+    int linear;                   /* is the internal force linear in the displacement? */
+    OstFormulation formulation;   /* of energy, force and stiffness now */
+    OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
+    int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */
+    double accuracy;
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */
@@ -26,15 +38,44 @@ struct OstProblem {
 /* Local. What messages begin with: the case's file, or "the problem". */
 const char *ost_problem_name(const OstProblem *problem);
 
-/* Local. The right-hand side P (load(t) - K t g) of a linear problem, g the prescribed displacements, after
+/* Local. Goes on with another formulation on the way to the answer, whose formulation stays. */
+void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation);
+
+/* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs);
 
-/* Collective. The displacement u = P v + t g of every local node, from v of the rows. */
+/* Collective. The displacement u = P v + g(t) of every local node, from v of the rows. */
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u);
 
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.
  */
 OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts);
+
+/* What acts on a body is a sum over functions of time, each a factor times a load and prescribed displacements.
+ * Function 0 is t itself: the problem's force and supports. The others follow the problem's time tables (timed.c). */
+
+/* Local. How many functions there are, and the factor of one at t. */
+int ost_problem_functions(const OstProblem *problem);
+double ost_problem_factor(const OstProblem *problem, int function, double t);
+
+/* Local. The load of one function at factor 1, 3 × owned_nodes. */
+const double *ost_problem_function_load(const OstProblem *problem, int function);
+
+/* Local. Its right-hand side P (f - K g) of a linear problem, after ost_problem_stiffness; 3 × rows numbers. */
+OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs);
+
+/* Collective. Its displacement P v + g of every local node. */
+OstStatus ost_problem_function_displacement(const OstProblem *problem, int function, const double *v, double *u);
+
+/* Local. Does some function prescribe a displacement other than zero for an owned node? */
+int ost_problem_moves(const OstProblem *problem, OstLocal node);
+
+/* Local. Is every factor 0 at t = 0, so that a path begins there, with a body at rest? Else it begins at t = -1. */
+int ost_problem_begins_at_rest(const OstProblem *problem);
+
+/* Collective. Adds a function that follows this table (which is copied), without load and supports as yet. */
+OstStatus ost_problem_add_timed(OstProblem *problem, const OstTimeTable *table);
+void ost_problem_release_timed(OstProblem *problem);
 
 #endif

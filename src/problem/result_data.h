@@ -4,6 +4,7 @@
 
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
+#include "orthostat/problem.h"
 #include "orthostat/result.h"
 
 /* Estimated relative error of linear theory, which takes strains and rotations as small. Rotated by an angle, a part
@@ -31,16 +32,20 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    OstFormulation formulation;    /* by which strain follows from the displacement */
     double *displacement;          /* 3 × node_count */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
+    unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;
     double largest_displacement;
     double largest_at[3];
     OstSolveReport solve;
+    OstNewtonReport newton;
+    OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */

@@ -3,16 +3,16 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "orthostat/path.h"
 #include "solve/recovery.h"
 #include "solve/strategy.h"
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
     OstContext *ctx = problem->ctx;
-    const OstStrategy *strategy = ost_problem_is_linear(problem) ? &ost_linear_strategy : NULL;
+    const int is_linear = problem->beyond_linear == OST_FORMULATION_LINEAR;
+    const OstStrategy *strategy = is_linear ? &ost_linear_strategy : &ost_nonlinear_strategy;
     *analysis = NULL;
-    if (!strategy)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "the problem is nonlinear, and there is no strategy for that");
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, analysis, 1)));
     **analysis = (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy};
     return OST_SUCCESS;
@@ -26,8 +26,7 @@ void ost_analysis_destroy(OstAnalysis **analysis)
     OST_FREE(*analysis);
 }
 
-/* Makes all that the solve needs. All objections are raised as one failure. */
-static OstStatus prepare(OstAnalysis *analysis)
+OstStatus ost_analysis_prepare(OstAnalysis *analysis)
 {
     OstVerdict before = {.count = 0};
     OstStatus status = OST_SUCCESS;
@@ -41,30 +40,40 @@ static OstStatus prepare(OstAnalysis *analysis)
     return status == OST_SUCCESS ? ost_verdict_raise(analysis->ctx, &before) : status;
 }
 
-static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
+OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus solved, const OstSolvedFor *solved_for,
+                                unsigned fields, OstResult *result)
 {
     OstContext *ctx = analysis->ctx;
-    OstSolvedFor solved_for = {0.0, 0.0};
-    OST_TRY(prepare(analysis));
+    OST_TRY(ost_result_take_load(result, analysis->problem, t));
+    result->formulation = ost_problem_formulation(analysis->problem);
+    OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, solved_for, result));
+    if (solved_for->errors.known) /* one error of the displacement is stated */
+        result->solve.error_estimate = solved_for->errors.displacement;
+    OST_TRY(ost_result_find_largest(result));
+    OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
+    return result->unfinished ? OST_RAISE(ctx, solved, "%s", result->verdict.text[0])
+                              : ost_verdict_raise(ctx, &result->verdict);
+}
+
+static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
+{
+    OstSolvedFor solved_for = {0};
+    OST_TRY(ost_analysis_prepare(analysis));
     result->unknowns = ost_problem_unknowns(analysis->problem);
-    const OstStatus solved = analysis->strategy->solve(analysis, result, &solved_for);
+    result->asked = fields;
+    const OstStatus solved =
+        ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)
         return solved;
-    result->unfinished = solved == OST_NOT_CONVERGED;
-    if (result->unfinished)
-        ost_object(&result->verdict, solved, "%s", ost_error_text(ctx));
-    else
+    ost_result_take_outcome(result, solved);
+    if (!result->unfinished)
         OST_TRY(solved);
     if (is_last) {
         analysis->strategy->release(analysis);
         ost_problem_release_stiffness(analysis->problem);
     }
-    OST_TRY(ost_result_take_load(result, analysis->problem));
-    OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, &solved_for, result));
-    OST_TRY(ost_result_find_largest(result));
-    OST_TRY(ost_agree(ctx, ost_result_recover(result, fields)));
-    return result->unfinished ? OST_RAISE(ctx, solved, "%s", result->verdict.text[0])
-                              : ost_verdict_raise(ctx, &result->verdict);
+    const double t = result->newton.used ? result->newton.reached : 1.0;
+    return ost_analysis_conclude(analysis, t, solved, &solved_for, fields, result);
 }
 
 OstStatus ost_analysis_solve(OstAnalysis *analysis, unsigned fields, OstResult **result)
@@ -88,7 +97,7 @@ OstStatus ost_problem_dry_run(OstProblem *problem, const OstSolverOptions *optio
 {
     OstAnalysis *analysis = NULL;
     OstStatus status = ost_analysis_create(problem, options, &analysis);
-    OST_THEN(prepare(analysis));
+    OST_THEN(ost_analysis_prepare(analysis));
     ost_analysis_destroy(&analysis);
     ost_problem_release_stiffness(problem);
     return status;
@@ -103,13 +112,29 @@ OstStatus ost_scene_dry_run(const OstScene *scene)
     return status;
 }
 
+/* The end of the case's path. */
+static OstStatus solve_path(const OstScene *scene, unsigned fields, OstResult **result)
+{
+    OstPath *path = NULL;
+    OstStatus status = ost_scene_path(scene, &path);
+    for (int i = 0; i < scene->c->path_steps && status == OST_SUCCESS; i++) {
+        ost_result_destroy(result);
+        status = ost_path_advance(path, i + 1 == scene->c->path_steps ? fields : 0, result);
+    }
+    ost_path_destroy(&path);
+    return status;
+}
+
 OstStatus ost_scene_solve(const OstScene *scene, OstResult **result)
 {
     const int recovers = ost_effect_on(&scene->plan.effects, OST_EFFECT_RECOVERY);
+    const unsigned fields = recovers ? scene->c->output_fields : 0;
     OstProblem *problem = NULL;
     *result = NULL;
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_PATH))
+        return solve_path(scene, fields, result);
     OstStatus status = ost_scene_problem(scene, &problem);
-    OST_THEN(ost_problem_solve(problem, &scene->c->solver, recovers ? scene->c->output_fields : 0, result));
+    OST_THEN(ost_problem_solve(problem, &scene->c->solver, fields, result));
     ost_problem_destroy(&problem);
     return status;
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
+#include "element/large_rotation.h"
 #include "element/strain_batch.h"
 
 #include <string.h>
@@ -19,15 +20,17 @@ static void write_means(void *data, const OstBatch *batch, const OstElement *ele
                         const OstMeans *means)
 {
     OstResult *result = data;
-    (void)element;
-    (void)u;
+    OstSimd stress[6];
+    memcpy(stress, means->stress, sizeof stress);
+    if (result->formulation != OST_FORMULATION_LINEAR && result->stress)
+        ost_large_rotation_mean_stress(element, batch->x, &batch->elasticity, u, stress);
     for (int slot = 0; slot < batch->count; slot++) {
         const size_t tet = (size_t)batch->tet[slot];
         for (size_t p = 0; p < 6; p++) {
             if (result->strain)
                 result->strain[6 * tet + p] = means->strain[p][slot];
             if (result->stress)
-                result->stress[6 * tet + p] = means->stress[p][slot];
+                result->stress[6 * tet + p] = stress[p][slot];
         }
         if (result->strain_energy_density)
             result->strain_energy_density[tet] = means->energy[slot];
@@ -45,7 +48,7 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
     if (asks(fields, OST_FIELD_ENERGY))
         OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
     if (result->strain || result->stress || result->strain_energy_density)
-        ost_visit_means(result->mesh, result->field, result->displacement, write_means, result);
+        ost_visit_means_of(result->mesh, result->field, result->formulation, result->displacement, write_means, result);
     return OST_SUCCESS;
 }
 
@@ -81,9 +84,13 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     OstSimd strain[6 * OST_MAX_TET_NODES];
     OstMeans means;
     ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
+    if (result->formulation != OST_FORMULATION_LINEAR) {
+        ost_large_rotation_nodal_stress(element, batch->x, &batch->elasticity, at_nodes, u, stress);
+        return;
+    }
     element->nodal_strain(batch->x, u, strain);
     element->means(batch->x, &batch->elasticity, u, &means);
-    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
     for (int a = 0; a < element->nodes; a++) {
         const int at = ost_elasticity_at(at_nodes, a);
         ost_simd_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);

@@ -7,7 +7,8 @@
 /* Collective. Computes what the bits of `fields` (OstOutputFieldBit) ask for: strain, stress and strain energy density
  * of the owned tets (means over each), and stress at the nodes. Stress at a node is that of the tets around it at this
  * node, averaged by their volumes. Where regions meet, stress jumps: the node takes it from the tets of the region with
- * the lowest number alone. */
+ * the lowest number alone. Where rotations are large, strain is Biot's U - I, in world axes of the undeformed body, and
+ * stress is Cauchy's, in world axes of the deformed one. */
 OstStatus ost_result_recover(OstResult *result, unsigned fields);
 
 #endif

@@ -41,13 +41,20 @@ void ost_result_destroy(OstResult **result)
     OST_FREE(*result);
 }
 
-OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem)
+void ost_result_take_outcome(OstResult *result, OstStatus solved)
+{
+    result->unfinished = solved == OST_NOT_CONVERGED;
+    if (result->unfinished)
+        ost_object(&result->verdict, solved, "%s", ost_error_text(result->ctx));
+}
+
+OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, double t)
 {
     OstContext *ctx = result->ctx;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
-        ost_problem_load(problem, 1.0, result->force);
+        ost_problem_load(problem, t, result->force);
     return ost_agree(ctx, status);
 }
 
@@ -117,6 +124,11 @@ const OstSolveReport *ost_result_solve_report(const OstResult *result)
 const OstChecks *ost_result_checks(const OstResult *result)
 {
     return &result->checks;
+}
+
+const OstNewtonReport *ost_result_newton_report(const OstResult *result)
+{
+    return &result->newton;
 }
 
 OstGlobal ost_result_unknowns(const OstResult *result)

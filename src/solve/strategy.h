@@ -27,13 +27,28 @@ struct OstAnalysis {
     void *work; /* the strategy's; NULL until prepared */
 };
 
-extern const OstStrategy ost_linear_strategy; /* linear.c */
+extern const OstStrategy ost_linear_strategy;    /* linear.c */
+extern const OstStrategy ost_nonlinear_strategy; /* nonlinear.c */
+
+/* Collective. How far is linear theory off in this linear result? Fills that part of result->newton. */
+OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
 
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 
-/* Collective. Copies the problem's load, and makes room for the reactions. */
-OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem);
+/* Collective. Makes all that the next solve needs; all objections are raised as one failure. */
+OstStatus ost_analysis_prepare(OstAnalysis *analysis);
+
+/* Collective. Completes a result whose displacement at t is there, `solved` with that status: load, reactions, checks,
+ * and the fields asked for. Raises what ost_analysis_solve does. */
+OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus solved, const OstSolvedFor *solved_for,
+                                unsigned fields, OstResult *result);
+
+/* Local. Marks a result that the solver left unfinished, with its words. */
+void ost_result_take_outcome(OstResult *result, OstStatus solved);
+
+/* Collective. Copies the problem's load at t, and makes room for the reactions. */
+OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, double t);
 
 /* Collective. Finds where the displacement is largest. */
 OstStatus ost_result_find_largest(OstResult *result);

@@ -56,7 +56,18 @@ static void u_is_refined_until_it_has_settled(void **state)
     const double missing = refined(0.7, 1e-3, &goal); /* corrections of 0.7 × 0.3^k */
     assert_close(missing, pow(0.3, 7), 1e-15);
     assert_int_equal(goal.iterations, 7);
-    assert_true(goal.drift >= missing && goal.drift <= 1e-3);
+    assert_true(goal.drift >= 0.99 * missing && goal.drift <= 1.01 * missing);
+}
+
+/* A strategy that takes over may begin with a correction that is small, and right. */
+static void a_small_first_correction_is_no_drift(void **state)
+{
+    (void)state;
+    OstGoal goal;
+    const double missing = refined(1.0, 2.0, &goal); /* from 0, so the correction is as large as u */
+    assert_close(missing, 0.0, 1e-15);
+    assert_int_equal(goal.iterations, 1);
+    assert_true(goal.drift == 0.0);
 }
 
 /* Each correction is 0.95 of the one before: too slow, and what would follow is 19 times the last. */
@@ -133,6 +144,7 @@ static void cg_finds_the_many_modes_that_factors_miss(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_residual_asked_for_is_enough_where_nothing_else_is),
     cmocka_unit_test(u_is_refined_until_it_has_settled),
+    cmocka_unit_test(a_small_first_correction_is_no_drift),
     cmocka_unit_test(what_does_not_settle_is_told_by_its_drift),
     cmocka_unit_test(cg_finds_the_soft_mode_that_factors_miss),
     cmocka_unit_test(cg_finds_the_many_modes_that_factors_miss),

@@ -83,6 +83,25 @@ static void holding_the_same_twice_is_holding_it_once(void **state)
     end(supports, mesh);
 }
 
+/* Two normals of one plane, from rounded coordinates, hold it once: the tangent between them stays free. */
+static void nearly_parallel_slides_are_one(void **state)
+{
+    (void)state;
+    OstMesh *mesh;
+    OstSupports *supports = begin(&mesh);
+    const double off[4] = {0.0, 1e-9, -3e-8, 5e-7};
+    double p[9], g[3];
+    for (int k = 0; k < 4; k++) {
+        const double normal[3] = {1.0, off[k], off[3 - k]};
+        assert_success(ost_supports_constrain(supports, 0, normal, 0.0));
+        assert_int_equal(ost_supports_get(supports, 0, p, g), 1);
+    }
+    const double other[3] = {1.0, 1e-4, 0.0};
+    assert_success(ost_supports_constrain(supports, 0, other, 0.0));
+    assert_int_equal(ost_supports_get(supports, 0, p, g), 2);
+    end(supports, mesh);
+}
+
 static void contradictions_are_refused_in_words(void **state)
 {
     (void)state;
@@ -157,6 +176,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slide_on_an_oblique_plane_takes_its_normal),
     cmocka_unit_test(skew_directions_together_hold_a_node),
     cmocka_unit_test(holding_the_same_twice_is_holding_it_once),
+    cmocka_unit_test(nearly_parallel_slides_are_one),
     cmocka_unit_test(contradictions_are_refused_in_words),
     cmocka_unit_test(useless_directions_are_refused),
     cmocka_unit_test(nothing_held_anywhere_is_refused),

@@ -11,7 +11,8 @@ static const char bar[] =
     "  - {on: {boundary: [xmin]}, slide: [1, 0, 0]}\n"
     "  - {on: {boundary: [ymin]}, slide: [0, 1, 0]}\n"
     "  - {on: {boundary: [zmin]}, slide: [0, 0, 1]}\n"
-    "loads: [{on: {boundary: [xmax]}, traction: [1, 0, 0]}]\n";
+    "loads: [{on: {boundary: [xmax]}, traction: [1, 0, 0]}]\n"
+    "large_rotation: off\n";
 
 static void a_text_is_read_as_its_file_is(void **state)
 {

@@ -26,7 +26,8 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
         "youngs_modulus, poissons_ratio, shear_modulus, density, axes");
     assert_refused("mehs: 1\n", "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
-                                "element, materials, constraints, loads, accuracy, solver, output, watch, verify");
+                                "element, materials, constraints, loads, accuracy, solver, output, watch, path, large_rotation, "
+                                "formulation, verify");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, out_of_reach, relative_error");
@@ -34,7 +35,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
                    "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
-                   "point_force, traction, pressure, gravity, body_force, on, share, region");
+                   "point_force, traction, pressure, gravity, body_force, on, share, region, time");
 }
 
 static void missing_doubled_and_empty_keys_are_refused(void **state)
@@ -222,6 +223,16 @@ static void bad_settings_are_refused(void **state)
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
     assert_refused(CUBE STEEL "accuracy: {relative_error: 1}\n",
                    "3:28: accuracy.relative_error: found '1', expected a number above 0 and below 1");
+    assert_refused(CUBE STEEL "large_rotation: yes\n",
+                   "3:17: unknown answer 'yes'. Known: auto, on, off");
+    assert_refused(CUBE STEEL "formulation: corotational\n",
+                   "3:14: unknown formulation 'corotational'. Known: consistent, classical");
+    assert_refused(CUBE STEEL "large_rotation: off\nformulation: classical\n",
+                   "4:14: formulation says how large rotations are computed, and large_rotation is off; leave out one "
+                   "of them");
+    assert_refused(CUBE STEEL "constraints: free_body\nlarge_rotation: on\n",
+                   "4:17: a free body is solved linearly: nothing says how far it turns as a whole; constrain six of "
+                   "its components, or leave large_rotation out");
     assert_refused(CUBE STEEL "accuracy: {out_of_reach: acept}\n",
                    "3:26: unknown answer 'acept'; did you mean 'accept'? Known: refuse, accept");
     assert_refused(CUBE STEEL "solver: {method: twolevel}\n",

@@ -42,8 +42,25 @@ static void a_bare_isotropic_body_calls_for_nothing(void **state)
     assert_effect(OST_EFFECT_POINT_FORCE, 0, "there is no load");
     assert_effect(OST_EFFECT_SURFACE_LOAD, 0, "there is no load");
     assert_effect(OST_EFFECT_BODY_FORCE, 0, "there is no load");
+    assert_effect(OST_EFFECT_LARGE_ROTATION, 1,
+                  "auto: a linear solve, and Newton's method (consistent) if linear theory is off by more than 2 %");
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
-        assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e), e == OST_EFFECT_RECOVERY);
+        assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e), e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION);
+}
+
+static void large_rotations_are_explained(void **state)
+{
+    (void)state;
+    make_plan(CUBE STEEL "large_rotation: off\n");
+    assert_effect(OST_EFFECT_LARGE_ROTATION, 0,
+                  "the case says so: linear theory, which takes rotations and strains as small");
+    make_plan(CUBE STEEL "large_rotation: on\nformulation: classical\n");
+    assert_effect(OST_EFFECT_LARGE_ROTATION, 1, "the case says so: Newton's method, classical formulation");
+    make_plan(CUBE STEEL "accuracy: {relative_error: 0.1}\n");
+    assert_effect(OST_EFFECT_LARGE_ROTATION, 1,
+                  "auto: a linear solve, and Newton's method (consistent) if linear theory is off by more than 10 %");
+    make_plan(CUBE STEEL "constraints: free_body\n");
+    assert_effect(OST_EFFECT_LARGE_ROTATION, 0, "a free body is solved linearly");
 }
 
 static void three_equal_moduli_with_axes_are_isotropic_still(void **state)
@@ -261,6 +278,7 @@ static void the_scenes_of_the_house_are_read(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_bare_isotropic_body_calls_for_nothing),
+    cmocka_unit_test(large_rotations_are_explained),
     cmocka_unit_test(three_equal_moduli_with_axes_are_isotropic_still),
     cmocka_unit_test(orthotropy_and_its_axes_are_explained),
     cmocka_unit_test(materials_that_are_replaced_do_not_count),

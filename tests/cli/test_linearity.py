@@ -14,12 +14,13 @@ constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
 loads:
   - {on: {boundary: xmax}, total_force: FORCE}
+large_rotation: WORD
 """
 
 
-def solve(folder, force, ranks=1, extra=()):
+def solve(folder, force, ranks=1, extra=(), word="off"):
     with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(CASE.replace("FORCE", force))
+        stream.write(CASE.replace("FORCE", force).replace("WORD", word))
     finished = run("solve", "case.yaml", "--json", "summary.json", *extra, ranks=ranks, folder=folder)
     check(finished.exit_code == 0, finished.errors)
     with open(os.path.join(folder, "summary.json")) as stream:
@@ -44,6 +45,16 @@ def main():
     check("more than 100 %" in finished.output, f"3200 degrees: {finished.output}")
     finished, report = solve(folder, "[0, 0, 1e4]", extra=("-q",))
     check(not finished.output and not finished.errors and report["warnings"], f"-q: {finished.output}{finished.errors}")
+    check(report["large_rotation"] is None, f"off: {report['large_rotation']}")
+    finished, report = solve(folder, "[0, 0, 1e4]", word="auto")
+    newton = report["large_rotation"]
+    check(newton["newton"] and newton["load_factor"] == 1 and newton["newton_iterations"] > 2, f"auto: {newton}")
+    check(not report["warnings"] and "solved by Newton's method" in finished.output, finished.output)
+    check(0.3 < report["checks"]["largest_rotation"] < 0.9 < newton["linear_rotation"], f"auto: {newton}")
+    finished, report = solve(folder, "[0, 0, 1e3]", word="auto")
+    newton = report["large_rotation"]
+    check(not newton["newton"] and newton["linear_error"] < newton["accuracy"] == 0.02, f"auto: {newton}")
+    check("no more than the 2 % allowed, solved linearly" in finished.output, finished.output)
 
 
 main()

@@ -33,7 +33,8 @@ for line in re.findall(r"^\| (.*?) \|", page, re.M):
 # The cases that the pages show are sound.
 folder = new_folder()
 for name in (("docs", "case.md"), ("README.md",)):
-    shown = [block for block in blocks_of(read(*name), "yaml") if "loads:" in block and "file: plank" not in block]
+    shown = [block for block in blocks_of(read(*name), "yaml")
+             if "loads:" in block and "mesh:" in block and "file: plank" not in block]
     check(shown, f"{name[-1]} shows no case")
     for block in shown:
         with open(os.path.join(folder, "shown.yaml"), "w", encoding="utf-8") as stream:

@@ -29,10 +29,14 @@ code = code_of(read("docs", "output.md"))
 folder = new_folder()
 with open(os.path.join(folder, "case.yaml"), "w") as stream:
     stream.write(CASE)
-finished = run("solve", "case.yaml", folder=folder)
-check(finished.exit_code == 0, finished.errors)
-labels = re.findall(r"^  (\S.*?)  +\S", finished.output.split("\nledger")[0], re.M)
-check("residual" in labels and "WARNING" in labels, f"the summary has changed its form: {labels}")
+with open(os.path.join(folder, "linear.yaml"), "w") as stream:
+    stream.write(CASE + "large_rotation: off\n")
+labels = []
+for case in "case.yaml", "linear.yaml":
+    finished = run("solve", case, folder=folder)
+    check(finished.exit_code == 0, finished.errors)
+    labels += re.findall(r"^  (\S.*?)  +\S", finished.output.split("\nledger")[0], re.M)
+check({"residual", "newton", "WARNING"} <= set(labels), f"the summary has changed its form: {labels}")
 missing = sorted(label for label in set(labels) if label not in code)
 check(not missing, f"docs/output.md says nothing of the summary's lines {missing}")
 
@@ -47,10 +51,22 @@ for command in ("check", "explain"):
     missing = sorted(key for key in keys_of(report) if not has_word(code, key))
     check(not missing, f"docs/output.md says nothing of {command}'s JSON keys {missing}")
 
+with open(os.path.join(folder, "path.yaml"), "w") as stream:
+    stream.write(CASE + "path: {steps: 2}\nlarge_rotation: off\n")
+finished = run("solve", "path.yaml", "--json", "path.json", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+with open(os.path.join(folder, "path.json")) as stream:
+    keys = keys_of(json.load(stream)["steps"])
+with open(os.path.join(folder, "path_history.csv")) as stream:
+    keys |= {name.strip('"') for name in stream.readline().split(",")[:-1]}
+check({"newton_iterations", "load_factor"} <= keys, f"keys: {sorted(keys)}")
+missing = sorted(key for key in keys if not has_word(code, key))
+check(not missing, f"docs/output.md says nothing of {missing}, which solve writes of a path")
+
 from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
 
 reader = vtkHDFReader()
-reader.SetFileName(os.path.join(folder, "case.vtkhdf"))
+reader.SetFileName(os.path.join(folder, "linear.vtkhdf"))
 reader.Update()
 rows = {name: (on, components) for name, on, components in
         re.findall(r"^\| `(\w+)` \| (points|cells) \| (\d)", read("docs", "output.md"), re.M)}
@@ -61,7 +77,7 @@ for on, data in (("points", reader.GetOutput().GetPointData()), ("cells", reader
               f"docs/output.md does not have {data.GetArrayName(i)} on {found[0]} with {found[1]} components")
 check(not rows, f"docs/output.md has fields that are not in the file: {sorted(rows)}")
 
-# The field of strains is the tensor that VTK itself makes of the displacement, so that principal strains are right.
+# Of small rotations, the field of strains is the tensor that VTK itself makes of the displacement, so that principal strains are right.
 from vtkmodules.vtkFiltersGeneral import vtkCellDerivatives  # noqa: E402
 
 grid = reader.GetOutput()

@@ -60,6 +60,11 @@ check_drawn("plank.png", pictures.numbers_of_solve(report_of("plank.json")), 0.0
 check(run("effects", os.path.join(SOURCE, pictures.EFFECTS), "-q", "--json", "effects.json", folder=folder).exit_code == 0,
       "orthostat effects failed")
 check_drawn("effects-tube.png", pictures.numbers_of_effects(report_of("effects.json")), 1e-3, "effects")
+# A path.
+finished = run("solve", os.path.join(SOURCE, "cases", "bent-bar", "pull.yaml"), "-q", "--json", "pull.json", "--output", "pull.vtkhdf",
+               folder=folder)
+check(finished.exit_code == 0, finished.errors)
+check_drawn("history.png", pictures.numbers_of_path(report_of("pull.json")), 1e-5, "history")
 
 # Where nine constants are stable.
 check(run("material", "--stability-region", "region.csv", folder=folder).exit_code == 0, "the stability region failed")

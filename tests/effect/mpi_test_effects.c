@@ -30,6 +30,8 @@
 #define POKED "loads: [{on: {box: {min: [2, 1, 1], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define SPREAD "loads: [{on: {box: {min: [2, 0, 0], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
+#define ALONG "path: {times: [0.5, 1]}\n"
+#define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
@@ -45,6 +47,8 @@ static const struct {
                                      BLOCK STIFF(", " CYLINDER) HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_REGIONS) = {BLOCK TWO HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_MEAN_DILATATION) = {QUADRATIC RUBBER HELD PULLED NO_FIELDS, BLOCK RUBBER HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_LARGE_ROTATION) = {BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: on\nsolver: {method: metric}\n",
+                                      BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: off\n"},
     ROW(OST_EFFECT_LINEAR_SPACE) = {QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: metric}\n",
                                     QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
     ROW(OST_EFFECT_PRESCRIBED_DISPLACEMENT) = {BLOCK SOFT MOVED NO_FIELDS, BLOCK SOFT SLIDING PULLED NO_FIELDS},
@@ -53,6 +57,7 @@ static const struct {
     ROW(OST_EFFECT_POINT_FORCE) = {BLOCK SOFT HELD POKED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_SURFACE_LOAD) = {BLOCK SOFT HELD SPREAD NO_FIELDS, BLOCK SOFT HELD POKED NO_FIELDS},
     ROW(OST_EFFECT_BODY_FORCE) = {BLOCK SOFT HELD HEAVY NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
 #undef ROW
 };

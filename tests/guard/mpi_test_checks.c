@@ -63,7 +63,7 @@ static Solved make_held(int order, const double given[3], double load)
     solve(ctx, system->matrix, rhs, v);
     assert_success(ost_problem_displacement(solved.problem, 1.0, v, result->displacement));
     result->unknowns = 3 * system->matrix->global_rows;
-    solved.rhs = (OstSolvedFor){sqrt(dot(ctx, length, rhs, rhs)), dot(ctx, length, rhs, v)};
+    solved.rhs = (OstSolvedFor){.norm = sqrt(dot(ctx, length, rhs, rhs)), .work = dot(ctx, length, rhs, v)};
     free(rhs);
     free(v);
     ost_problem_release_stiffness(solved.problem);

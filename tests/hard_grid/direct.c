@@ -45,9 +45,9 @@ void hard_direct_clear(HardDirect *direct)
 static OstStatus assemble(const OstScene *scene, HardDirect *direct)
 {
     OstContext *ctx = scene->ctx;
-    OST_TRY(ost_scene_supports(scene, &direct->supports));
+    OST_TRY(ost_scene_supports(scene, 0, &direct->supports));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &direct->force, 3 * (size_t)scene->mesh->node_count)));
-    OST_TRY(ost_scene_loads(scene, direct->force));
+    OST_TRY(ost_scene_loads(scene, 0, NULL, direct->force));
     OST_TRY(ost_system_create(scene->mesh, direct->supports, &direct->system));
     OstStatus status = ost_system_fill(direct->system, scene->field);
     const size_t columns = 3 * (size_t)direct->system->matrix->columns;

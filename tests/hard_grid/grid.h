@@ -47,11 +47,20 @@ typedef enum {
 /* If rounding the stiffness moves the solution by more than this, double precision has no answer. */
 extern const double hard_hopeless;
 
+/* What an answer is off by, relative to the solution of the tets' equations (exact.h), in 2-norms. */
+typedef struct HardErrors {
+    int known;           /* has that solution settled? */
+    double displacement; /* over all nodes */
+    double reaction;     /* over constrained nodes */
+    double stress;       /* over the tets' means */
+} HardErrors;
+
 /* What is known of the equations without the solver under test. */
 typedef struct HardTruth {
     int known;            /* is there a direct solution? */
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
+    HardErrors off;       /* of the answer, from the equations before their stiffness is rounded */
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
@@ -70,7 +79,8 @@ typedef struct HardReading {
     int iterations, steps; /* in all, by so many solver strategies */
     double residual;       /* true, relative */
     int rounding_limited;  /* did rounding keep the residual above 1e-8? */
-    double stated_error;   /* relative error of the displacement as the solver reports it; NAN if it does not */
+    double stated_error;   /* relative error of the displacement as the program states it; NAN if it does not */
+    double stated_forces;  /* the same of reactions and stresses */
     double digits;         /* correct digits of the displacement, by the direct solution; NAN if there is none */
     HardTruth truth;
     double seconds; /* of the solve, without the direct one */
@@ -132,6 +142,16 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 
 /* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
 OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
+
+/* Local. Is what the program states of its answer's errors, of displacement and of reactions and stresses, at least a
+ * third of the true ones and at most a thousand times them? True also where no true ones are known. */
+int hard_states_its_error(const HardReading *reading);
+
+/* Collective. Solves a scene, and compares and judges the answer as that of a sound body. */
+OstStatus hard_solve_scene(OstScene *scene, HardReading *reading);
+
+/* Collective. The same for a case file, printed; *passed: was the case refused, or are its errors stated rightly? */
+OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed);
 
 /* Collective. All points, with a progress line. */
 OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);

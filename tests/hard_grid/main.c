@@ -11,13 +11,15 @@
 
 /* The program behind scripts/hard-grid. */
 
-enum { MOST_REPORTS = 2 };
+enum { MOST_REPORTS = 2, MOST_CASES = 100 };
 
 typedef struct Arguments {
     int quick;
     int report_count;
     const char *report[MOST_REPORTS];
-    int shape_count; /* 0: all */
+    int case_count;
+    const char *case_path[MOST_CASES];
+    int shape_count; /* 0: all, unless there are cases */
     int wanted[HARD_SHAPES];
     int passed; /* did all points that were run? */
 } Arguments;
@@ -31,6 +33,11 @@ static const struct argp_option options[] = {
 static error_t want_shape(struct argp_state *state, const char *name, Arguments *arguments)
 {
     const int shape = hard_find_shape(name);
+    const char *ending = strrchr(name, '.');
+    if (ending && strcmp(ending, ".yaml") == 0 && arguments->case_count < MOST_CASES) {
+        arguments->case_path[arguments->case_count++] = name;
+        return 0;
+    }
     if (shape >= 0) {
         arguments->wanted[shape] = 1;
         arguments->shape_count++;
@@ -60,7 +67,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case ARGP_KEY_ARG:
         return want_shape(state, value, arguments);
     case ARGP_KEY_END:
-        for (int s = 0; s < HARD_SHAPES && arguments->shape_count == 0; s++)
+        for (int s = 0; s < HARD_SHAPES && arguments->shape_count + arguments->case_count == 0; s++)
             arguments->wanted[s] = 1;
         return 0;
     default:
@@ -71,9 +78,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 static const struct argp grid_argp = {
     options,
     parse_option,
-    "[SHAPE...]",
+    "[SHAPE|CASE.yaml...]",
     "Solves small bodies of every kind that solvers are known to fail on, and compares each answer with a direct "
-    "solution. Without a SHAPE, all of them.\vExit status 1 if any point fails.",
+    "solution. Without a SHAPE or CASE.yaml, all of them. The errors of a CASE.yaml are printed, stated and "
+    "true.\vExit status 1 if any point fails.",
     NULL,
     NULL,
     NULL};
@@ -98,8 +106,15 @@ static OstStatus run(OstContext *ctx, void *input)
     const OstCase nothing = {.ctx = ctx, .path = name};
     HardReport *report = NULL;
     OST_TRY(ost_check_outputs(&nothing, arguments->report_count, arguments->report));
+    for (int i = 0; i < arguments->case_count; i++) {
+        int passed = 0;
+        OST_TRY(hard_read_case(ctx, arguments->case_path[i], &passed));
+        arguments->passed &= passed;
+    }
+    if (arguments->case_count > 0 && arguments->shape_count == 0)
+        return OST_SUCCESS;
     OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, &report));
-    arguments->passed = hard_passed(report);
+    arguments->passed &= hard_passed(report);
     const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
     hard_report_destroy(&report);
     return status;

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "hard_grid/direct.h"
+#include "hard_grid/exact.h"
 #include "hard_grid/grid.h"
 
 #include <math.h>
@@ -132,7 +133,7 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 {
     HardDirect direct;
     double *plain = NULL;
-    *truth = (HardTruth){0, 0, NAN, NAN, NAN, NAN, NAN, NAN};
+    *truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN};
     OstStatus status;
     status = hard_direct_create(scene, &direct);
     truth->indefinite = status == OST_NOT_CONVERGED; /* even with a little on its diagonal */
@@ -140,6 +141,8 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
     OST_TRY_DONE(find_all(&direct, result, plain, truth));
     truth->indefinite = direct.indefinite;
+    if (result)
+        OST_TRY_DONE(hard_find_exact(scene, &direct, result, &truth->off));
 done:
     OST_FREE(plain);
     hard_direct_clear(&direct);

@@ -118,7 +118,7 @@ static void a_refused_load_is_followed_by_another(void **state)
     for (int k = 0; k < 3; k++) {
         ost_problem_set_load(problem, k == 1 ? beyond : force);
         if (k == 1)
-            assert_failure(ost_analysis_solve(analysis, 0, &result), OST_INVALID_INPUT, "the loads are of size");
+            assert_failure(ost_analysis_solve(analysis, 0, &result), OST_INVALID_INPUT, "are of size 1e+80");
         else
             assert_success(ost_analysis_solve(analysis, 0, &result));
         assert_int_equal(result->reached, k != 1);

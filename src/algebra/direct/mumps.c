@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/direct/mumps.h"
 
+#include "algebra/krylov/energy_error.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
@@ -72,9 +73,8 @@ void ost_mumps_destroy(OstMumps **mumps)
 static OstStatus raise_singular(OstContext *ctx, const char *finding)
 {
     return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                     "%s: the body, or a part of it, can move freely or has no stiffness in some direction; constrain "
-                     "all six rigid motions, and check that parts share nodes and that materials are definite",
-                     finding);
+                     "rounded to double precision, %s: rounding leaves the displacement less than one digit; %s",
+                     finding, ost_rounding_remedy);
 }
 
 /* INFOG is the same on all ranks, so all return the same. */

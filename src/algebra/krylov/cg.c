@@ -91,16 +91,17 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
 }
 
 /* Estimates the spectrum of M^-1 A and the error of u, which stays 0 (unknown) where M is not positive definite. */
-static OstStatus report_error(Cg *cg, const double *f, const double *u, const OstGoal *goal, OstSolveReport *report)
+static OstStatus report_error(Cg *cg, const double *f, const double *u, OstGoal *goal, OstSolveReport *report)
 {
     OstEnergyError error = {.whole = NAN};
     double smallest, largest;
     ost_lanczos_extremes(&cg->run.lanczos, &smallest, &largest);
     cg->smallest = cg->smallest > 0.0 && smallest > 0.0 ? fmin(cg->smallest, smallest) : fmax(cg->smallest, smallest);
     cg->largest = fmax(cg->largest, largest);
+    goal->smallest = cg->smallest;
     cg->run.lanczos.count = 0;
     cg->run.runs = 0;
-    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER)
+    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER && !goal->crude)
         OST_TRY(
             ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
     const int known = !isnan(error.whole) && !isnan(error.rounding);

@@ -18,6 +18,10 @@ enum { FEWEST_SAMPLES = 8, MOST_SAMPLES = 64 };
 
 const double ost_least_digit = 0.1;
 
+const char *const ost_rounding_remedy =
+    "bring the stiffnesses of the materials nearer to each other, constrain the body better, or, if it is slender or "
+    "has flat tets, mesh it with larger and rounder ones";
+
 /* The displacement is hidden from the energy norm if the 2-norm tells an error this many times larger. */
 static const double hidden_beyond = 10.0;
 

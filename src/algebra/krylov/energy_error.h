@@ -38,6 +38,9 @@ typedef struct OstEnergyError {
 /* The relative error that leaves one digit of a displacement. */
 extern const double ost_least_digit;
 
+/* What to do where rounding leaves no digit. */
+extern const char *const ost_rounding_remedy;
+
 /* Collective. Applies the preconditioner once; if the error is above 1e-6, 3 times; if it is due to rounding, 10 times;
  * near ost_least_digit up to 66 times. CG preconditioned by factors takes two or three steps for each of these, at most
  * 40. `compensated`: rounding is so close that r is computed by ost_compensated_residual. */

@@ -67,8 +67,9 @@ int ost_goal_accepts(OstGoal *goal, double weight)
     return 0;
 }
 
-OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy)
+OstStatus ost_goal_refuse_indefinite(OstGoal *goal, double energy)
 {
+    goal->indefinite = 1;
     return OST_RAISE(goal->ctx, OST_NOT_CONVERGED,
                      "iteration %d: p·Ap = %g %s: the stiffness is not positive definite; check supports and materials",
                      goal->iterations + 1, energy, what_is_wrong(energy));

@@ -27,10 +27,13 @@ typedef struct OstGoal {
     int iterations;
     int most_iterations;
     int patience;          /* iterations the solver may still need; 0: no limit */
+    int crude;             /* the error of u is not estimated, and u need not settle */
     int accept_attainable; /* a norm at the rounding limit is accepted even above the target */
     double settled; /* also iterate until a correction changes u by no more than this, relative to u; 0: do not */
     double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
+    double smallest; /* eigenvalue of M^-1 A, about, as the last strategy's iterations show it; 0 if not known */
     OstConvergence convergence;
+    int indefinite; /* p·Ap < 0 was found */
     OstEnd end;
     char words[200]; /* why it ended, unless OST_END_REACHED */
 } OstGoal;
@@ -49,7 +52,7 @@ void ost_goal_end_by_iterations(OstGoal *goal);
 int ost_goal_accepts(OstGoal *goal, double weight);
 
 /* Local. Raises OST_NOT_CONVERGED: p·Ap = `energy` shows that the stiffness is not positive definite. */
-OstStatus ost_goal_refuse_indefinite(const OstGoal *goal, double energy);
+OstStatus ost_goal_refuse_indefinite(OstGoal *goal, double energy);
 
 /* Local. Estimate of the smallest relative residual that double precision allows: the limit, or the residual reached
  * where that is smaller. 0 if the limit was not computed. */

@@ -64,7 +64,17 @@ static OstStatus recompute_residual(Refinement *work)
     return OST_SUCCESS;
 }
 
-/* How much the correction changes u, and from the contraction, as a geometric series, how much all later ones would. */
+/* How much u may still change, by the geometric series of the corrections. One that is small enough for u to count as
+ * settled says nothing of itself, only the later ones do: a strategy that takes over may begin with it. */
+static double find_drift(const Refinement *work)
+{
+    const double series = work->contraction < 1.0 ? work->change / (1.0 - work->contraction) : HUGE_VAL;
+    if (work->change > work->goal->settled)
+        return series;
+    return work->taken ? fmin(work->change, work->contraction * series) : work->change;
+}
+
+/* How much the correction changes u, and how that compares with the one before. */
 static OstStatus measure_change(Refinement *work)
 {
     double largest[2] = {0.0}; /* not 2-norms: squares may overflow, as numbers have any unit */
@@ -80,8 +90,6 @@ static OstStatus measure_change(Refinement *work)
         work->contraction = work->change / before;
     work->contracts = work->change < least_gain * work->least_change;
     work->least_change = fmin(work->least_change, work->change);
-    const double series = work->contraction < 1.0 ? work->change / (1.0 - work->contraction) : HUGE_VAL;
-    work->goal->drift = work->change <= work->goal->settled ? work->change : series;
     return OST_SUCCESS;
 }
 
@@ -99,6 +107,8 @@ static OstStatus take_correction(Refinement *work)
     const double norm = sqrt(sums[SQUARE]);
     const int contracts = work->step && work->contracts;
     work->taken = isfinite(norm) && (norm < work->goal->norm || sums[ENERGY] > 0.0 || contracts);
+    if (work->goal->settled > 0.0)
+        work->goal->drift = find_drift(work);
     if (!work->taken)
         return OST_SUCCESS;
     memcpy(work->u, work->candidate, work->n * sizeof(double));
@@ -156,8 +166,8 @@ static OstStatus explain_end(Refinement *work)
         ost_goal_end_by_iterations(goal);
     } else if (goal->end == OST_END_REACHED) {
         goal->end = OST_END_STALLED;
-        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing",
-                 goal->convergence.count);
+        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing%s",
+                 goal->convergence.count, goal->compensated ? ": rounding hides the softest motions of the body" : "");
     }
     return OST_SUCCESS;
 }

@@ -153,10 +153,17 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
     metric->options.smoother_ratio = options->smoother_ratio;
 }
 
+void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPreconditioner *cycle)
+{
+    *system = (OstCgSystem){.matrix = metric->matrix, .scaling = metric->scaling};
+    *cycle = (OstPreconditioner){.data = metric->cycle, .apply = ost_cycle_apply};
+}
+
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstPreconditioner cycle = {.data = metric->cycle, .apply = ost_cycle_apply};
-    const OstCgSystem system = {.matrix = metric->matrix, .scaling = metric->scaling};
+    OstPreconditioner cycle;
+    OstCgSystem system;
+    ost_metric_system(metric, &system, &cycle);
     report->levels = metric->levels;
     for (int l = 0; l < metric->levels; l++)
         report->level_unknowns[l] = metric->level_unknowns[l];

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_MULTIGRID_METRIC_H
 #define ORTHOSTAT_ALGEBRA_MULTIGRID_METRIC_H
 
+#include "algebra/krylov/preconditioner.h"
 #include "algebra/krylov/refine.h"
 #include "algebra/matrix/geometry.h"
 
@@ -19,6 +20,9 @@ void ost_metric_destroy(OstMetric **metric);
 /* Local. Takes the smoother's degree and ratio from `options` and raises the eigenvalue estimates; the levels and the
  * smoothers' blocks stay. */
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
+
+/* Local. What conjugate gradients iterate on, and what preconditions it; both live as long as the metric. */
+void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPreconditioner *cycle);
 
 /* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);

@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-/* All elements get written, so HDF5 need not fill the dataset first. */
+/* All elements get written, so HDF5 need not fill the dataset first. Without the time of writing, equal contents make
+ * equal files. */
 static OstStatus create_dataset(OstHdf5 *h5, const char *name, hid_t type, int components, OstGlobal rows,
                                 hid_t *dataset)
 {
@@ -14,7 +15,8 @@ static OstStatus create_dataset(OstHdf5 *h5, const char *name, hid_t type, int c
     const hid_t space = H5Screate_simple(components > 1 ? 2 : 1, extent, NULL);
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     *dataset = H5I_INVALID_HID;
-    if (space >= 0 && layout >= 0 && H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER) >= 0)
+    if (space >= 0 && layout >= 0 && H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER) >= 0 &&
+        H5Pset_obj_track_times(layout, 0) >= 0)
         *dataset = H5Dcreate2(h5->file, name, type, space, h5->links, layout, H5P_DEFAULT);
     const OstStatus status = *dataset < 0 ? ost_hdf5_raise(h5, "create", name) : OST_SUCCESS;
     ost_hdf5_release(space);

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_SOLVE_LINEAR_H
+#define ORTHOSTAT_SOLVE_LINEAR_H
+
+#include "solve/stiffness_solver.h"
+#include "solve/strategy.h"
+
+/* The work space of a linear solve, which nonlinear strategies begin with: K v = P (f - K g), u = v + g. Stiffness and
+ * solver are made once, for all loads. */
+typedef struct OstLinear {
+    OstStiffnessSolver stiffness; /* its solver is made by the first solve */
+    double *rhs, *v;              /* 3 × rows */
+    double rigid_motion;
+} OstLinear;
+
+/* Solves with one function of time at a time (problem/problem.h), on a prepared linear analysis. */
+
+/* Collective. Takes the function's load for the next solve, checks it, and tells the norm of its right-hand side. */
+OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm);
+
+/* Collective. Solves for the load taken: the displacement (3 × node_count) at factor 1. OST_NOT_CONVERGED: that where
+ * the solver stopped. */
+OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement);
+
+/* Collective. The work of the right-hand side at t on the unknowns of a displacement. */
+OstStatus ost_linear_work(const OstAnalysis *analysis, double t, const double *displacement, double *work);
+
+#endif

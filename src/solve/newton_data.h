@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_SOLVE_NEWTON_DATA_H
+#define ORTHOSTAT_SOLVE_NEWTON_DATA_H
+
+#include "solve/newton.h"
+
+/* How the search for a state at rest ended. */
+typedef enum {
+    OST_REST_FOUND,
+    OST_REST_ROUNDING, /* rounding allows no smaller residual */
+    OST_REST_SLOW,     /* too many iterations */
+    OST_REST_STALLED,  /* no step along the correction lowers the energy */
+    OST_REST_NO_STEP,  /* the linear solver found no correction */
+    OST_REST_UNSTABLE  /* at rest, but not stable, and nothing stable was found near by */
+} OstRest;
+
+struct OstNewton {
+    OstContext *ctx;
+    OstProblem *problem;
+    OstSolverOptions options;
+    OstStiffnessSolver *stiffness;
+    OstNewtonReport report;
+    OstSolveReport solve; /* of the last linear solve */
+
+    /* The displacement that is looked for, and where it is: */
+    double t;
+    double *displacement, *candidate; /* 3 × node_count */
+    double *direction;                /* 3 × node_count: the correction of the displacement */
+    double *residual, *correction;    /* 3 × rows */
+    double *internal, *load;          /* 3 × owned_nodes */
+    double energy;                    /* total: of the strain, less that of the load */
+    double energy_size;               /* the sum of their sizes, for rounding */
+    double norm;                      /* of the residual */
+    double driving;                   /* the largest residual with which a load step began, before its prediction */
+    double stiffness_size;            /* 2-norm of the sums of absolute values of the rows of the stiffness at u = 0 */
+    double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
+
+    /* The last correction: */
+    double change;  /* its 2-norm over that of the displacement */
+    double forcing; /* relative residual of its linear solve */
+
+    /* The solver's hierarchy: */
+    int at_zero;         /* is it that of the stiffness at u = 0? */
+    int rebuild;         /* is a new one needed? */
+    OstMethod method;    /* strategy that a new one begins with */
+    double cost;         /* iterations per digit of the first solve since it was built; 0: none yet */
+    int indefinite;      /* was the exact stiffness found indefinite in this load step? */
+    int step_iterations; /* Newton iterations in this load step */
+};
+
+/* Is there an energy to minimise? */
+static inline int ost_newton_has_energy(const OstNewton *newton)
+{
+    return newton->problem->formulation == OST_FORMULATION_CONSISTENT;
+}
+
+/* Collective. Finds the state at rest under load(newton->t), from newton->displacement, in at most so many iterations.
+ * A failure is one of the machine; else `rest` says how it ended. */
+OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest);
+
+/* Collective. Residual, energy and sizes of a displacement (3 × node_count). */
+OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement);
+
+/* Collective. The correction that the stiffness at newton->displacement makes of `rhs` (3 × rows): newton->correction,
+ * and newton->direction with ghosts. `definite`: by the stiffness that is made positive definite tet by tet. *found: 0
+ * where the solver found none, or the matrix indefinite. */
+OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, const double *rhs, int *found);
+
+/* Collective. Goes along newton->direction until the energy (without one, the residual) is low enough; evaluates there.
+ * *length: of the step, 0 if none helps. */
+OstStatus ost_newton_search(OstNewton *newton, double *length);
+
+/* Collective. Looks whether the state at rest is stable: is the exact stiffness definite? If not, the body is pushed
+ * along its softest motion, and a stable state is looked for from there. */
+OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest);
+
+/* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where.
+ */
+OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, double t, OstRest rest);
+
+#endif

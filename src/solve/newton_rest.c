@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "solve/newton_data.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Forcing terms of the inexact method: how far each linear solve goes (Eisenstat and Walker, Choosing the forcing terms
+ * in an inexact Newton method, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard). */
+static const double loosest = 1e-2, tightest = 1e-8, forcing_share = 0.9, guard_above = 1e-3;
+
+/* Back to the exact stiffness once the residual has fallen by this since it was found indefinite, and every few
+ * iterations (RETRIED). */
+static const double recovered = 0.1;
+
+/* The last correction may be this large, relative to the displacement, and the state still be taken for that at rest:
+ * the next one is about its square. */
+static const double settled = 1e-2;
+
+/* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
+static const double rounding_change = 1e-9;
+
+/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
+ * are many, and do not count as those of a slow search. */
+enum { MOST_DESCENTS = 100, RETRIED = 3 };
+
+/* Sums over the rows and nodes of this rank. */
+enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
+
+/* What the supports take of a node's load and internal force is reaction. */
+static void add_node(const OstNewton *newton, OstLocal node, double sums[SUMS])
+{
+    const OstProblem *problem = newton->problem;
+    const double *load = newton->load + 3 * (size_t)node, *internal = newton->internal + 3 * (size_t)node;
+    const OstLocal row = problem->system->row_of_node[node];
+    double projector[9], force[3], free_part[3], free_load[3];
+    for (int i = 0; i < 3; i++)
+        force[i] = load[i] - internal[i];
+    ost_supports_get(problem->supports, node, projector, NULL);
+    ost_apply3(projector, force, free_part);
+    ost_apply3(projector, load, free_load);
+    for (int i = 0; i < 3; i++) {
+        const double kept = row >= 0 ? free_part[i] : 0.0;
+        if (row >= 0)
+            newton->residual[3 * (size_t)row + (size_t)i] = kept;
+        sums[SUM_RESIDUAL] += kept * kept;
+        sums[SUM_LOAD] += row >= 0 ? free_load[i] * free_load[i] : 0.0;
+        sums[SUM_REACTION] += (force[i] - kept) * (force[i] - kept);
+    }
+}
+
+OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
+{
+    const OstProblem *problem = newton->problem;
+    double sums[SUMS] = {0.0}, strain_energy = 0.0;
+    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, displacement, newton->internal)));
+    if (ost_newton_has_energy(newton))
+        OST_TRY(ost_problem_energy(problem, displacement, &strain_energy));
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
+        add_node(newton, node, sums);
+        sums[SUM_WORK] += ost_dot3(newton->load + 3 * (size_t)node, displacement + 3 * (size_t)node);
+        sums[SUM_DISPLACEMENT] += ost_dot3(displacement + 3 * (size_t)node, displacement + 3 * (size_t)node);
+    }
+    OST_TRY(ost_sum(newton->ctx, SUMS, sums));
+    newton->norm = sqrt(sums[SUM_RESIDUAL]);
+    newton->energy = ost_newton_has_energy(newton) ? strain_energy - sums[SUM_WORK] : 0.0;
+    newton->energy_size = fabs(strain_energy) + fabs(sums[SUM_WORK]);
+    /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
+     */
+    const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);
+    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness_size / newton->options.relative_residual;
+    newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, fmax(rounding, DBL_MIN)));
+    return OST_SUCCESS;
+}
+
+/* The forcing term that follows from how the residual fell. */
+static double next_forcing(const OstNewton *newton, double before, double norm_before)
+{
+    const double ratio = norm_before > 0.0 ? newton->norm / norm_before : 1.0;
+    const double target = newton->options.relative_residual * newton->size;
+    double forcing = forcing_share * ratio * ratio;
+    if (forcing_share * before * before > guard_above)
+        forcing = fmax(forcing, forcing_share * before * before);
+    forcing = fmax(forcing, 0.1 * target / newton->norm); /* no further than the state at rest needs */
+    return fmin(fmax(forcing, tightest), loosest);
+}
+
+/* The size of the last correction relative to the displacement. */
+static OstStatus measure_change(OstNewton *newton, double length)
+{
+    double sums[2] = {0.0};
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++) {
+        sums[0] += newton->direction[i] * newton->direction[i];
+        sums[1] += newton->displacement[i] * newton->displacement[i];
+    }
+    OST_TRY(ost_sum(newton->ctx, 2, sums));
+    newton->change = length * sqrt(sums[0] / fmax(sums[1], DBL_MIN));
+    return OST_SUCCESS;
+}
+
+static void tell(const OstNewton *newton, int definite, double length)
+{
+    ost_log(
+        newton->ctx, OST_LOG_VERBOSE,
+        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g, change %.1e",
+        newton->t, newton->step_iterations, newton->norm / newton->size, newton->energy, newton->solve.iterations,
+        newton->forcing, definite ? " with the definite stiffness" : "", length, newton->change);
+}
+
+/* One iteration: a correction by the exact stiffness or, where that is indefinite, by the definite one; a step along
+ * it. */
+static OstStatus iterate(OstNewton *newton, int *definite, double forcing, double *length, OstRest *rest)
+{
+    int found = 0;
+    *length = 0.0;
+    if (!*definite) {
+        OST_TRY(ost_newton_solve(newton, 0, forcing, newton->residual, &found));
+        *definite = !found;
+        newton->indefinite |= !found;
+    }
+    if (!found)
+        OST_TRY(ost_newton_solve(newton, 1, forcing, newton->residual, &found));
+    *rest = OST_REST_NO_STEP;
+    if (!found)
+        return OST_SUCCESS;
+    newton->forcing = forcing;
+    OST_TRY(ost_newton_search(newton, length));
+    *rest = OST_REST_STALLED;
+    newton->step_iterations++;
+    newton->report.iterations++;
+    newton->report.definite += *definite;
+    OST_TRY(measure_change(newton, *length));
+    tell(newton, *definite, *length);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest)
+{
+    int definite = 0, descents = 0;
+    double forcing = loosest, fallen_from = 0.0, before = 0.0;
+    OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
+    for (int k = 0;; k++) {
+        const double target = newton->options.relative_residual * newton->size;
+        *rest = newton->norm <= target && newton->change <= settled ? OST_REST_FOUND : OST_REST_SLOW;
+        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
+            return OST_SUCCESS;
+        if (k > 0)
+            forcing = next_forcing(newton, forcing, before);
+        if (definite && (newton->norm < recovered * fallen_from || descents % RETRIED == 0))
+            definite = 0;
+        const int was_definite = definite;
+        double length;
+        before = newton->norm;
+        OST_TRY(iterate(newton, &definite, forcing, &length, rest));
+        descents += definite;
+        if (definite && !was_definite)
+            fallen_from = before;
+        const int hidden = newton->change <= rounding_change && !(newton->norm < 0.5 * before);
+        if (hidden && *rest != OST_REST_NO_STEP)
+            *rest = newton->norm <= target ? OST_REST_FOUND : OST_REST_ROUNDING;
+        if (hidden || length == 0.0)
+            return OST_SUCCESS;
+    }
+}

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/parallel/reduce.h"
+#include "solve/newton_data.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Armijo's condition asks for this share of the decrease that the slope promises. */
+static const double share = 1e-4;
+
+/* Differences of the energy below this share of its terms drown in rounding; the slope decides there (approximate Wolfe
+ * condition: Hager and Zhang, A new conjugate gradient method with guaranteed descent and an efficient line search,
+ * SIAM J. Optim. 16, 2005). */
+static const double drowned = 1e-11;
+
+/* There, and without an energy, the slope must fall to this share. */
+static const double flatter = 0.9;
+
+/* A step is cut to between these shares of itself. */
+static const double least_cut = 0.1, most_cut = 0.5;
+
+/* A step is doubled where the slope at its end is more than this share of that at its beginning. */
+static const double steep = 0.5;
+
+enum { MOST_CUTS = 20, MOST_EXTENSIONS = 10 };
+
+/* What the search goes by, at one step length: the energy and its slope, or, without an energy, the slope alone: the
+ * residual along the direction. */
+typedef struct Point {
+    double length, value, slope;
+} Point;
+
+/* The slope of the energy along the direction is -residual·correction. */
+static OstStatus measure(const OstNewton *newton, double length, Point *point)
+{
+    double slope = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->system->matrix->rows; i++)
+        slope -= newton->residual[i] * newton->correction[i];
+    OST_TRY(ost_sum(newton->ctx, 1, &slope));
+    *point = (Point){length, newton->energy, slope};
+    return OST_SUCCESS;
+}
+
+static int is_low_enough(const OstNewton *newton, const Point *start, const Point *point)
+{
+    if (!isfinite(point->value) || !isfinite(point->slope))
+        return 0;
+    if (!ost_newton_has_energy(newton))
+        return fabs(point->slope) <= flatter * fabs(start->slope);
+    if (point->value <= start->value + share * point->length * start->slope)
+        return 1;
+    const double hidden = drowned * newton->energy_size;
+    return point->value <= start->value + hidden && fabs(point->slope) <= flatter * fabs(start->slope);
+}
+
+/* The minimiser of the cubic with the values and slopes of both ends, within bounds. */
+static double shorten(const Point *start, const Point *point)
+{
+    const double length = point->length;
+    const double secant = 3.0 * (start->value - point->value) / length + start->slope + point->slope;
+    const double root = sqrt(fmax(secant * secant - start->slope * point->slope, 0.0));
+    double found = length * (1.0 - (point->slope + root - secant) / (point->slope - start->slope + 2.0 * root));
+    if (point->value == 0.0 && start->value == 0.0) /* no energy: the zero of the slope */
+        found = length * start->slope / (start->slope - point->slope);
+    if (!isfinite(found) || !isfinite(point->value))
+        found = least_cut * length;
+    return fmin(fmax(found, least_cut * length), most_cut * length);
+}
+
+static OstStatus go_to(OstNewton *newton, double length, Point *point)
+{
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+        newton->candidate[i] = newton->displacement[i] + length * newton->direction[i];
+    OST_TRY(ost_newton_evaluate(newton, newton->candidate));
+    return measure(newton, length, point);
+}
+
+/* Twice as far, as long as the energy falls there nearly as steeply as at first: so it does along a direction of
+ * negative curvature, of which the definite stiffness knows nothing. */
+static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
+{
+    for (int times = 0; times < MOST_EXTENSIONS && point->slope < steep * start->slope; times++) {
+        Point next;
+        OST_TRY(go_to(newton, 2.0 * point->length, &next));
+        if (!(next.value < point->value))
+            return go_to(newton, point->length, point);
+        *point = next;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_search(OstNewton *newton, double *length)
+{
+    Point start, point;
+    double next = 1.0;
+    OST_TRY(measure(newton, 0.0, &start));
+    *length = 0.0;
+    for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
+        OST_TRY(go_to(newton, next, &point));
+        if (is_low_enough(newton, &start, &point)) {
+            if (cut == 0 && ost_newton_has_energy(newton))
+                OST_TRY(extend(newton, &start, &point));
+            memcpy(newton->displacement, newton->candidate,
+                   3 * (size_t)newton->problem->mesh->node_count * sizeof(double));
+            *length = point.length;
+            return OST_SUCCESS;
+        }
+        newton->report.cuts++;
+        next = shorten(&start, &point);
+    }
+    return ost_newton_evaluate(newton, newton->displacement);
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "solve/newton_data.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Is a state at rest stable, and if not, where does the body go? */
+
+/* Solves of the search for the softest motion, and attempts to leave a state that is not stable. */
+enum { MOTIONS = 3, ATTEMPTS = 3 };
+
+/* The body is pushed along that motion by this share of its size. */
+static const double push = 1e-3;
+
+/* Forces that vary slowly over the body, in all directions and no symmetry of it: every soft motion has part in them.
+ */
+static OstStatus smooth_forces(const OstNewton *newton, double *forces, double *size)
+{
+    const OstSystem *system = newton->problem->system;
+    const OstMesh *mesh = newton->problem->mesh;
+    static const double share[3][4] = {
+        {0.31, 0.83, -0.47, 0.61}, {-0.73, 0.29, 0.59, -0.37}, {0.53, -0.67, 0.41, 0.79}};
+    double low[3], high[3];
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    *size = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
+    for (size_t row = 0; row < (size_t)system->matrix->rows; row++) {
+        const size_t node = (size_t)system->node_of_row[row];
+        double projector[9], force[3];
+        for (int i = 0; i < 3; i++) {
+            force[i] = share[i][3];
+            for (int j = 0; j < 3; j++)
+                force[i] += share[i][j] * (mesh->coordinates[3 * node + (size_t)j] - low[j]) / *size;
+        }
+        ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
+        ost_apply3(projector, force, forces + 3 * row);
+    }
+    return OST_SUCCESS;
+}
+
+/* The softest motion, by the power method on the inverse of the definite stiffness, in newton->direction. */
+static OstStatus find_motion(OstNewton *newton, int *found)
+{
+    *found = 1;
+    for (int k = 0; k < MOTIONS && *found; k++) {
+        if (k > 0)
+            memcpy(newton->residual, newton->correction,
+                   3 * (size_t)newton->problem->system->matrix->rows * sizeof(double));
+        OST_TRY(ost_newton_solve(newton, 1, 1e-2, newton->residual, found));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus push_along(OstNewton *newton, double size)
+{
+    const OstMesh *mesh = newton->problem->mesh;
+    double largest = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        largest = fmax(largest, fabs(newton->direction[i]));
+    OST_TRY(ost_max(newton->ctx, 1, &largest));
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+        newton->displacement[i] += push * size / largest * newton->direction[i];
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest)
+{
+    *rest = OST_REST_FOUND;
+    if (!ost_newton_has_energy(newton))
+        return OST_SUCCESS;
+    for (int attempt = 0;; attempt++) {
+        double size = 0.0;
+        int stable = 0, found = 0;
+        OST_TRY(smooth_forces(newton, newton->residual, &size));
+        OST_TRY(ost_newton_solve(newton, 0, 1e-3, newton->residual, &stable));
+        if (stable)
+            return OST_SUCCESS;
+        ost_log(newton->ctx, OST_LOG_VERBOSE,
+                "newton: t %.6g: at rest, but not stable; pushed along its softest motion", newton->t);
+        *rest = OST_REST_UNSTABLE;
+        OST_TRY(find_motion(newton, &found));
+        if (!found || attempt == ATTEMPTS)
+            return OST_SUCCESS;
+        OST_TRY(push_along(newton, size));
+        newton->report.jumps++;
+        newton->report.jump_at = newton->t;
+        OST_TRY(ost_newton_find_rest(newton, most_iterations, rest));
+        if (*rest != OST_REST_FOUND && *rest != OST_REST_ROUNDING)
+            return OST_SUCCESS;
+    }
+}

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "guard/linearity.h"
+#include "solve/newton_data.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A first load step turns the body by about this much, in radians, as far as the tangent tells. */
+static const double first_turn = 1.0;
+
+/* Iterations: of a load step that may be cut back; of the least one; on the way from an unstable
+ * state to a stable one; up to which the next step is twice as large, and
+ * from which it is half as large. */
+enum {
+    MOST_ITERATIONS = 15,
+    LAST_ITERATIONS = 60,
+    SETTLING_ITERATIONS = 200,
+    FEW_ITERATIONS = 6,
+    MANY_ITERATIONS = 11
+};
+
+/* The least load step, as a share of what an advance is asked for. */
+static const double least_step = 1.0 / 4096.0;
+
+/* Where the stiffness turned indefinite and the state found is farther from the predicted one than that is from the
+ * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
+static const double jump_step = 1.0 / 16.0;
+
+OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state)
+{
+    const size_t count = 3 * (size_t)problem->mesh->node_count;
+    *state = (OstNewtonState){0};
+    OstStatus status = OST_NEW(problem->ctx, &state->displacement, count);
+    OST_THEN(OST_NEW(problem->ctx, &state->slope, count));
+    return status;
+}
+
+void ost_newton_state_release(OstNewtonState *state)
+{
+    OST_FREE(state->displacement);
+    OST_FREE(state->slope);
+}
+
+double ost_newton_first_step(double rotation)
+{
+    return rotation > first_turn ? first_turn / rotation : 1.0;
+}
+
+/* The rows of the stiffness at u = 0, by the sums of their absolute values. */
+static OstStatus measure_stiffness(OstNewton *newton)
+{
+    const OstBlockMatrix *matrix = newton->problem->system->matrix;
+    double square = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++)
+        for (int i = 0; i < 3; i++) {
+            double sum = 0.0;
+            for (OstLocal block = matrix->row_start[row]; block < matrix->row_start[row + 1]; block++)
+                for (int j = 0; j < 3; j++)
+                    sum += fabs(matrix->value[9 * (size_t)block + (size_t)(3 * i + j)]);
+            square += sum * sum;
+        }
+    OST_TRY(ost_sum(newton->ctx, 1, &square));
+    newton->stiffness_size = sqrt(square);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport *solve, OstNewton **newton)
+{
+    OstProblem *problem = stiffness->problem;
+    OstContext *ctx = problem->ctx;
+    const size_t nodes = 3 * (size_t)problem->mesh->node_count, owned = 3 * (size_t)problem->mesh->owned_nodes;
+    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    OstNewton *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS) {
+        *made = (OstNewton){.ctx = ctx, .problem = problem, .options = stiffness->options, .stiffness = stiffness};
+        made->solve = *solve;
+        made->at_zero = 1;
+        made->method = solve->method;
+        made->report.used = 1;
+        made->report.setups = 1;
+        OST_THEN(OST_NEW(ctx, &made->displacement, nodes));
+        OST_THEN(OST_NEW(ctx, &made->candidate, nodes));
+        OST_THEN(OST_NEW(ctx, &made->direction, nodes));
+        OST_THEN(OST_NEW(ctx, &made->internal, owned));
+        OST_THEN(OST_NEW(ctx, &made->load, owned));
+        OST_THEN(OST_NEW(ctx, &made->residual, rows));
+        OST_THEN(OST_NEW(ctx, &made->correction, rows));
+    }
+    status = ost_agree(ctx, status);
+    OST_THEN(measure_stiffness(made));
+    if (status != OST_SUCCESS)
+        ost_newton_destroy(&made);
+    *newton = made;
+    return status;
+}
+
+void ost_newton_destroy(OstNewton **newton)
+{
+    if (!*newton)
+        return;
+    OST_FREE((*newton)->displacement);
+    OST_FREE((*newton)->candidate);
+    OST_FREE((*newton)->direction);
+    OST_FREE((*newton)->internal);
+    OST_FREE((*newton)->load);
+    OST_FREE((*newton)->residual);
+    OST_FREE((*newton)->correction);
+    OST_FREE(*newton);
+}
+
+const OstNewtonReport *ost_newton_report(const OstNewton *newton)
+{
+    return &newton->report;
+}
+
+/* Puts what is prescribed at the load factor into a displacement, ghosts included. */
+static OstStatus prescribe(OstNewton *newton, double *displacement)
+{
+    const OstSystem *system = newton->problem->system;
+    for (OstLocal row = 0; row < system->matrix->rows; row++)
+        memcpy(newton->correction + 3 * (size_t)row, displacement + 3 * (size_t)system->node_of_row[row],
+               3 * sizeof(double));
+    return ost_problem_displacement(newton->problem, newton->t, newton->correction, displacement);
+}
+
+/* Takes the method to a load factor: the load, and the residual that the state has under it. */
+static OstStatus load_to(OstNewton *newton, const OstNewtonState *state, double t)
+{
+    newton->t = t;
+    ost_problem_load(newton->problem, t, newton->load);
+    OST_TRY(ost_newton_evaluate(newton, state->displacement));
+    newton->driving = fmax(newton->driving, newton->norm);
+    return OST_SUCCESS;
+}
+
+/* Subtracts from the residual P K dg, dg the change of the prescribed displacement (in `candidate`): K dg is the
+ * derivative of the internal force, by a difference over a change of about 1e-7 of the body's size. */
+static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
+{
+    const OstProblem *problem = newton->problem;
+    const OstMesh *mesh = problem->mesh;
+    double low[3], high[3], largest = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        largest = fmax(largest, fabs(newton->candidate[i]));
+    OST_TRY(ost_max(newton->ctx, 1, &largest));
+    if (largest == 0.0)
+        return OST_SUCCESS;
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    const double share = 1e-7 * fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / largest;
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+        newton->direction[i] = state->displacement[i] + share * newton->candidate[i];
+    memcpy(newton->load, newton->internal, 3 * (size_t)mesh->owned_nodes * sizeof(double));
+    OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->direction, newton->internal)));
+    for (OstLocal row = 0; row < problem->system->matrix->rows; row++) {
+        const size_t node = (size_t)problem->system->node_of_row[row];
+        double projector[9], change[3], kept[3];
+        for (size_t i = 0; i < 3; i++)
+            change[i] = (newton->internal[3 * node + i] - newton->load[3 * node + i]) / share;
+        ost_supports_get(problem->supports, (OstLocal)node, projector, NULL);
+        ost_apply3(projector, change, kept);
+        for (size_t i = 0; i < 3; i++)
+            newton->residual[3 * (size_t)row + i] -= kept[i];
+    }
+    return OST_SUCCESS;
+}
+
+/* Where the tangent at the state would take the body at load factor t: the state's slope. The first load step turns it
+ * by `first_turn` at most. */
+static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
+{
+    const OstMesh *mesh = newton->problem->mesh;
+    const size_t count = 3 * (size_t)mesh->node_count;
+    OstLinearity largest;
+    int found = 0;
+    OST_TRY(load_to(newton, state, t));
+    memcpy(newton->candidate, state->displacement, count * sizeof(double));
+    OST_TRY(prescribe(newton, newton->candidate));
+    for (size_t i = 0; i < count; i++)
+        newton->candidate[i] -= state->displacement[i];
+    OST_TRY(move_supports(newton, state));
+    memcpy(newton->displacement, state->displacement, count * sizeof(double));
+    for (int definite = 0; definite < 2 && !found; definite++)
+        OST_TRY(ost_newton_solve(newton, definite, 1e-3, newton->residual, &found));
+    for (size_t i = 0; i < count; i++)
+        newton->candidate[i] += found ? newton->direction[i] : 0.0;
+    OST_TRY(ost_linearity_of(mesh, newton->problem->field, newton->candidate, &largest));
+    for (size_t i = 0; i < count; i++)
+        state->slope[i] = newton->candidate[i] / (t - state->t);
+    state->step = (t - state->t) * ost_newton_first_step(largest.rotation);
+    return OST_SUCCESS;
+}
+
+/* Is the state found farther from the predicted one than that was from the last? */
+static OstStatus find_jump(const OstNewton *newton, const OstNewtonState *state, double step, int *jumps)
+{
+    double sums[2] = {0.0};
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++) {
+        const double predicted = step * state->slope[i];
+        const double missed = newton->displacement[i] - state->displacement[i] - predicted;
+        sums[0] += missed * missed;
+        sums[1] += predicted * predicted;
+    }
+    OST_TRY(ost_sum(newton->ctx, 2, sums));
+    *jumps = newton->indefinite && sums[0] > sums[1];
+    return OST_SUCCESS;
+}
+
+/* One load step; `rest` says how it ended. */
+static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double t, int most_iterations, OstRest *rest)
+{
+    const double step = t - state->t;
+    newton->indefinite = newton->step_iterations = 0;
+    OST_TRY(load_to(newton, state, t));
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+        newton->displacement[i] = state->displacement[i] + step * state->slope[i];
+    OST_TRY(prescribe(newton, newton->displacement));
+    return ost_newton_find_rest(newton, most_iterations, rest);
+}
+
+static void accept(OstNewton *newton, double t, OstNewtonState *state)
+{
+    const double step = t - state->t;
+    const size_t count = 3 * (size_t)newton->problem->mesh->node_count;
+    for (size_t i = 0; i < count; i++)
+        state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
+    memcpy(state->displacement, newton->displacement, count * sizeof(double));
+    state->t = t;
+    state->step = newton->step_iterations <= FEW_ITERATIONS    ? 2.0 * step
+                  : newton->step_iterations >= MANY_ITERATIONS ? 0.5 * step
+                                                               : step;
+    newton->report.load_steps++;
+    newton->report.reached = t;
+    newton->report.relative_residual = newton->norm / newton->size;
+    newton->report.change = newton->change;
+}
+
+/* Only a body that has not moved has the stiffness that the solver was made on. */
+static OstStatus look_for_motion(OstNewton *newton, const OstNewtonState *state)
+{
+    int moved = 0;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++)
+        moved |= state->displacement[i] != 0.0;
+    OST_TRY(ost_max_ints(newton->ctx, 1, &moved));
+    newton->at_zero &= !moved;
+    return OST_SUCCESS;
+}
+
+static int is_at_rest(const OstNewton *newton, OstRest rest)
+{
+    return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
+}
+
+static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
+{
+    const double span = to - state->t;
+    OST_TRY(look_for_motion(newton, state));
+    newton->rebuild |= !newton->at_zero;
+    newton->method = newton->at_zero ? newton->method : OST_METHOD_AUTO;
+    if (!(state->step > 0.0))
+        OST_TRY(find_slope(newton, to, state));
+    while (state->t < to) {
+        const double left = to - state->t;
+        const double steps = fmax(ceil(left / state->step - 1e-6), 1.0);
+        const double step = left / steps;
+        const double t = steps > 1.0 ? state->t + step : to;
+        const int may_cut = step > least_step * span;
+        OstRest rest;
+        int jumps = 0;
+        OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
+        const int found = is_at_rest(newton, rest);
+        if (found)
+            OST_TRY(find_jump(newton, state, step, &jumps));
+        if (found && t == to)
+            OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));
+        if (found && !is_at_rest(newton, rest))
+            return ost_newton_give_up(newton, state, t, rest);
+        ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
+                t,
+                !found  ? "given up"
+                : jumps ? "the body jumps"
+                        : "at rest",
+                newton->step_iterations);
+        if (found && !(jumps && step > jump_step * span)) {
+            newton->report.jumps += jumps;
+            newton->report.jump_at = jumps ? t : newton->report.jump_at;
+            newton->report.rounding_limited |= rest == OST_REST_ROUNDING;
+            accept(newton, t, state);
+            ost_progress(newton->ctx, "load", state->t);
+            continue;
+        }
+        if (!may_cut)
+            return ost_newton_give_up(newton, state, t, rest);
+        newton->report.cut_backs++;
+        state->step = 0.5 * step;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_advance(OstNewton *newton, double to, OstNewtonState *state)
+{
+    const double start = ost_seconds();
+    const OstStatus status = advance(newton, to, state);
+    newton->report.seconds += ost_seconds() - start;
+    ost_progress(newton->ctx, "load", -1.0);
+    return status;
+}
+
+/* The error of the displacement is about that of the next correction: the square of the last, or what its linear solve
+ * left of it. */
+OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstResult *result, OstSolvedFor *solved_for)
+{
+    OST_TRY(load_to(newton, state, state->t));
+    memcpy(result->displacement, state->displacement, 3 * (size_t)result->mesh->node_count * sizeof(double));
+    newton->report.relative_residual = newton->norm / newton->size;
+    const OstNewtonReport before = result->newton;
+    result->newton = newton->report;
+    result->newton.judged = before.judged;
+    result->newton.linear_error = before.linear_error;
+    result->newton.accuracy = before.accuracy;
+    result->newton.linear_strain = before.linear_strain;
+    result->newton.linear_rotation = before.linear_rotation;
+    result->solve = newton->solve;
+    result->solve.iterations = newton->report.linear_iterations;
+    result->solve.relative_residual = newton->report.relative_residual;
+    result->solve.rounding_limited = newton->report.rounding_limited;
+    result->solve.error_estimate = newton->change * fmax(newton->change, newton->forcing);
+    result->solve.energy_error = result->solve.error_estimate;
+    result->solve.rounding_error = result->solve.rounding_spread = 0.0;
+    result->reached = 1;
+    *solved_for = (OstSolvedFor){.norm = newton->size};
+    return OST_SUCCESS;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "guard/linearity.h"
+#include "solve/linear.h"
+#include "solve/newton.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Large rotations: first the linear solve, which costs little, tells how much the body turns, and is the first
+ * prediction; then, where that is asked for or linear theory is too far off, Newton's method. */
+
+static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
+{
+    ost_problem_take_formulation(analysis->problem, OST_FORMULATION_LINEAR);
+    if (analysis->work && !analysis->problem->filled) /* an earlier solve has filled the matrix elsewhere */
+        ost_linear_strategy.release(analysis);
+    return ost_linear_strategy.prepare(analysis, before);
+}
+
+OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
+{
+    OstLinearity largest;
+    ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
+    const OstStatus status = ost_linearity_of(problem->mesh, problem->field, result->displacement, &largest);
+    ost_ledger_leave(problem->ctx);
+    OST_TRY(status);
+    const OstChecks as_linear = {.largest_strain = largest.strain, .largest_rotation = largest.rotation};
+    result->newton.judged = 1;
+    result->newton.linear_strain = largest.strain;
+    result->newton.linear_rotation = largest.rotation;
+    result->newton.linear_error = ost_linear_error(&as_linear);
+    result->newton.accuracy = problem->accuracy;
+    ost_log(
+        problem->ctx, OST_LOG_VERBOSE,
+        "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g: off by about %.2g (asked: %.2g)",
+        largest.rotation, largest.strain, result->newton.linear_error, problem->accuracy);
+    return OST_SUCCESS;
+}
+
+/* The state without load, and what the linear solution predicts. */
+static OstStatus start(const OstProblem *problem, const OstResult *linear, OstNewtonState *state)
+{
+    OST_TRY(ost_agree(problem->ctx, ost_newton_state_create(problem, state)));
+    memcpy(state->slope, linear->displacement, 3 * (size_t)problem->mesh->node_count * sizeof(double));
+    state->step = ost_newton_first_step(linear->newton.linear_rotation);
+    return OST_SUCCESS;
+}
+
+static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
+{
+    OstProblem *problem = analysis->problem;
+    OstLinear *linear = analysis->work;
+    OstNewton *newton = NULL;
+    OstNewtonState state = {0};
+    ost_problem_take_formulation(problem, problem->beyond_linear);
+    ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
+    OstStatus status = start(problem, result, &state);
+    OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
+    if (status == OST_SUCCESS) {
+        status = ost_newton_advance(newton, 1.0, &state);
+        if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
+            const OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
+            status = filled == OST_SUCCESS ? status : filled;
+        }
+    }
+    ost_newton_destroy(&newton);
+    ost_newton_state_release(&state);
+    ost_ledger_leave(problem->ctx);
+    return status;
+}
+
+static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
+{
+    const OstProblem *problem = analysis->problem;
+    OST_TRY(ost_linear_strategy.solve(analysis, result, solved_for));
+    OST_TRY(ost_nonlinear_judge(problem, result));
+    if (problem->automatic && result->newton.linear_error <= problem->accuracy)
+        return OST_SUCCESS;
+    return go_on(analysis, result, solved_for);
+}
+
+static void release(OstAnalysis *analysis)
+{
+    ost_linear_strategy.release(analysis);
+}
+
+const OstStrategy ost_nonlinear_strategy = {.prepare = prepare, .solve = solve, .release = release};

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "solve/linear.h"
+#include "solve/path_data.h"
+
+#include <math.h>
+#include <string.h>
+
+static OstStatus check_times(OstContext *ctx, int count, const double *times)
+{
+    for (int i = 0; i < count; i++)
+        if (!(times[i] >= 0.0) || !isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1]))
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "time %d of a path is %g; expected times that ascend, the first not negative", i + 1,
+                             times[i]);
+    return count > 0 ? OST_SUCCESS : OST_RAISE(ctx, OST_INVALID_INPUT, "a path has one step at least; found none");
+}
+
+OstStatus ost_path_create(OstProblem *problem, const OstSolverOptions *options, int count, const double *times,
+                          OstPath **path)
+{
+    OstContext *ctx = problem->ctx;
+    OstPath *made = NULL;
+    *path = NULL;
+    OST_TRY(check_times(ctx, count, times));
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS) {
+        *made = (OstPath){.ctx = ctx, .problem = problem, .count = count};
+        status = OST_NEW(ctx, &made->times, count);
+        OST_THEN(OST_NEW(ctx, &made->steps, count));
+    }
+    status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS)
+        memcpy(made->times, times, (size_t)count * sizeof *times);
+    OST_THEN(ost_analysis_create(problem, options, &made->analysis));
+    if (status != OST_SUCCESS)
+        ost_path_destroy(&made);
+    *path = made;
+    return status;
+}
+
+OstStatus ost_scene_path(const OstScene *scene, OstPath **path)
+{
+    const OstCase *c = scene->c;
+    OstProblem *problem = NULL;
+    *path = NULL;
+    if (c->path_steps == 0)
+        return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: the case has no path; add one, as in path: {steps: 10}",
+                         c->path);
+    OstStatus status = ost_scene_problem(scene, &problem);
+    OST_THEN(ost_path_create(problem, &c->solver, c->path_steps, c->path_times, path));
+    if (status == OST_SUCCESS)
+        (*path)->owned = problem;
+    else
+        ost_problem_destroy(&problem);
+    return status;
+}
+
+void ost_path_destroy(OstPath **path)
+{
+    if (!*path)
+        return;
+    ost_superposition_release(&(*path)->linear);
+    ost_newton_state_release(&(*path)->state);
+    if ((*path)->analysis)
+        ost_analysis_destroy(&(*path)->analysis);
+    ost_problem_destroy(&(*path)->owned);
+    OST_FREE((*path)->times);
+    OST_FREE((*path)->steps);
+    OST_FREE(*path);
+}
+
+/* Done once, whatever the number of steps. Where a checkpoint brings what was solved, or linear theory is not wanted
+ * any more, only the solver is made. */
+static OstStatus solve_linearly(OstPath *path)
+{
+    if (!path->analysis->work)
+        OST_TRY(ost_analysis_prepare(path->analysis));
+    if (path->linear.count > 0 || path->nonlinear)
+        return OST_SUCCESS;
+    path->solved_linearly = ost_superposition_create(path->analysis, &path->linear);
+    return path->linear.count > 0 ? OST_SUCCESS : path->solved_linearly;
+}
+
+/* The steps are Newton's, all of them, if the case says so, or if linear theory is too far off in one. */
+static OstStatus decide(OstPath *path, OstResult *result)
+{
+    const OstProblem *problem = path->problem;
+    OstSolvedFor solved_for;
+    path->decided = 1;
+    if (problem->beyond_linear == OST_FORMULATION_LINEAR)
+        return OST_SUCCESS;
+    for (int i = 0; i < path->count; i++) {
+        OST_TRY(ost_superposition_at(&path->linear, path->analysis, path->times[i], result, &solved_for));
+        OST_TRY(ost_nonlinear_judge(problem, result));
+        if (i == 0 || result->newton.linear_error > path->judged.linear_error)
+            path->judged = result->newton;
+    }
+    path->nonlinear = !problem->automatic || path->judged.linear_error > problem->accuracy;
+    return OST_SUCCESS;
+}
+
+static OstStatus step_linearly(OstPath *path, double t, OstResult *result, OstSolvedFor *solved_for)
+{
+    OST_TRY(ost_superposition_at(&path->linear, path->analysis, t, result, solved_for));
+    result->newton = path->judged;
+    return path->solved_linearly;
+}
+
+/* The body without load, and where the linear answer at t takes it. */
+static OstStatus begin(OstPath *path, double t, OstResult *result)
+{
+    const OstProblem *problem = path->problem;
+    OstSolvedFor solved_for;
+    OST_TRY(ost_agree(path->ctx, ost_newton_state_create(problem, &path->state)));
+    path->state.t = ost_problem_begins_at_rest(problem) ? 0.0 : -1.0;
+    const double span = t - path->state.t;
+    if (!(span > 0.0))
+        return OST_SUCCESS;
+    OST_TRY(ost_superposition_at(&path->linear, path->analysis, t, result, &solved_for));
+    OST_TRY(ost_nonlinear_judge(problem, result));
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
+        path->state.slope[i] = result->displacement[i] / span;
+    path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
+    return OST_SUCCESS;
+}
+
+/* Every step has its own method, so that it depends on the state alone. */
+static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolvedFor *solved_for)
+{
+    OstStiffnessSolver *stiffness = &((OstLinear *)path->analysis->work)->stiffness;
+    OstNewton *newton = NULL;
+    if (!stiffness->solver)
+        OST_TRY(ost_stiffness_solver_make(stiffness));
+    ost_problem_take_formulation(path->problem, path->problem->beyond_linear);
+    OST_TRY(ost_newton_create(stiffness, &path->linear.solve, &newton));
+    OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
+    if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
+        result->newton = path->judged;
+        const OstStatus filled = ost_newton_fill(newton, &path->state, result, solved_for);
+        status = filled == OST_SUCCESS ? status : filled;
+    }
+    ost_newton_destroy(&newton);
+    return status;
+}
+
+static OstStatus step_by_newton(OstPath *path, double t, OstResult *result, OstSolvedFor *solved_for)
+{
+    OST_TRY(path->solved_linearly);
+    ost_ledger_enter(path->ctx, OST_EFFECT_LARGE_ROTATION);
+    OstStatus status = path->state.displacement ? OST_SUCCESS : begin(path, t, result);
+    OST_THEN(run_newton(path, t, result, solved_for));
+    ost_ledger_leave(path->ctx);
+    return status;
+}
+
+static void record(const OstResult *result, double t, OstPathStep *step)
+{
+    *step = (OstPathStep){.t = t,
+                          .largest_displacement = result->largest_displacement,
+                          .strain_energy = result->checks.strain_energy,
+                          .largest_strain = result->checks.largest_strain,
+                          .largest_rotation = result->checks.largest_rotation,
+                          .iterations = result->solve.iterations,
+                          .newton_iterations = result->newton.iterations,
+                          .load_steps = result->newton.load_steps,
+                          .linear = result->checks.linear};
+}
+
+OstStatus ost_path_advance(OstPath *path, unsigned fields, OstResult **result)
+{
+    OstSolvedFor solved_for = {0};
+    *result = NULL;
+    if (path->done == path->count)
+        return OST_RAISE(path->ctx, OST_INVALID_USAGE, "all %d steps of the path are done", path->count);
+    const double t = path->times[path->done];
+    OST_TRY(ost_result_create(path->problem, result));
+    OST_TRY(solve_linearly(path));
+    (*result)->unknowns = ost_problem_unknowns(path->problem);
+    if (!path->decided)
+        OST_TRY(decide(path, *result));
+    const OstStatus solved =
+        path->nonlinear ? step_by_newton(path, t, *result, &solved_for) : step_linearly(path, t, *result, &solved_for);
+    if (!(*result)->reached)
+        return solved;
+    ost_result_take_outcome(*result, solved);
+    if (!(*result)->unfinished)
+        OST_TRY(solved);
+    OST_TRY(ost_analysis_conclude(path->analysis, path->nonlinear ? path->state.t : t, solved, &solved_for, fields,
+                                  *result));
+    record(*result, t, &path->steps[path->done++]);
+    return OST_SUCCESS;
+}
+
+int ost_path_count(const OstPath *path)
+{
+    return path->count;
+}
+
+int ost_path_done(const OstPath *path)
+{
+    return path->done;
+}
+
+OstPathStep *ost_path_step(OstPath *path, int number)
+{
+    return &path->steps[number];
+}

@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "hard_grid/exact.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "hard_grid/exact_tet.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Refinement ends when a step changes the solution by this, and counts if it came below the second. */
+static const double last_digit = 1e-17, settled = 1e-10;
+
+enum { MOST_STEPS = 60 };
+
+typedef struct Exact {
+    const OstScene *scene;
+    HardDirect *direct;
+    const OstMesh *mesh;
+    Twofold *u;     /* of all local nodes */
+    Long *internal; /* of owned nodes */
+    double *step;   /* of all local nodes */
+    double *rows;   /* of the rows */
+} Exact;
+
+static Twofold sum_of(Twofold a, double b)
+{
+    const double sum = a.high + b, part = sum - a.high;
+    const double low = (a.high - (sum - part)) + (b - part) + a.low;
+    return (Twofold){sum + low, low - ((sum + low) - sum)};
+}
+
+/* Displacements less that of the first node, which makes no force. */
+static void gather(const OstBatch *batch, int slot, int nodes, const Twofold *u, Long *relative)
+{
+    const Twofold *first = u + 3 * (size_t)batch->node[slot][0];
+    for (int a = 0; a < nodes; a++)
+        for (int i = 0; i < 3; i++) {
+            const Twofold here = u[3 * (size_t)batch->node[slot][a] + (size_t)i];
+            relative[3 * a + i] = ((Long)here.high - (Long)first[i].high) + ((Long)here.low - (Long)first[i].low);
+        }
+}
+
+static void find_internal(Exact *exact)
+{
+    const OstMesh *mesh = exact->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    memset(exact->internal, 0, 3 * (size_t)mesh->owned_nodes * sizeof *exact->internal);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        ost_batch_gather_from(&batch, element, mesh, exact->scene->field, first, mesh->tet_count);
+        for (int slot = 0; slot < batch.count; slot++) {
+            Long u[3 * OST_MAX_TET_NODES], force[3 * OST_MAX_TET_NODES];
+            gather(&batch, slot, element->nodes, exact->u, u);
+            hard_exact_tet(&batch, slot, element->nodes, u, force, NULL);
+            for (int n = 0; n < 3 * element->nodes; n++)
+                if (batch.node[slot][n / 3] < mesh->owned_nodes)
+                    exact->internal[3 * (size_t)batch.node[slot][n / 3] + (size_t)(n % 3)] += force[n];
+        }
+    }
+}
+
+/* P (f - K u), with P applied in long double too: constrained parts may be far larger than the rest. */
+static void find_residual(Exact *exact)
+{
+    const OstSystem *system = exact->direct->system;
+    find_internal(exact);
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const size_t node = (size_t)system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(exact->direct->supports, (OstLocal)node, projector, NULL);
+        for (size_t i = 0; i < 3; i++) {
+            Long sum = 0.0L;
+            for (size_t j = 0; j < 3; j++)
+                sum += (Long)projector[3 * i + j] *
+                       ((Long)exact->direct->force[3 * node + j] - exact->internal[3 * node + j]);
+            exact->rows[3 * (size_t)row + i] = (double)sum;
+        }
+    }
+}
+
+static OstStatus take_step(Exact *exact, double *change)
+{
+    HardDirect *direct = exact->direct;
+    double sums[2] = {0.0};
+    int known;
+    find_residual(exact);
+    OST_TRY(hard_direct_solve(direct, exact->rows, 1e-4, NULL, &known));
+    for (size_t i = 0; i < direct->n; i++)
+        exact->rows[i] = direct->u[i].high;
+    OST_TRY(ost_system_displacement(direct->system, 0.0, exact->rows, exact->step));
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+        exact->u[i] = sum_of(exact->u[i], exact->step[i]);
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++) {
+        sums[0] += exact->step[i] * exact->step[i];
+        sums[1] += exact->u[i].high * exact->u[i].high;
+    }
+    OST_TRY(ost_sum(direct->ctx, 2, sums));
+    *change = known ? sqrt(sums[0] / sums[1]) : NAN;
+    return OST_SUCCESS;
+}
+
+static OstStatus solve(Exact *exact, int *known)
+{
+    double change = INFINITY, least = INFINITY;
+    int stalls = 0;
+    for (int k = 0; k < MOST_STEPS && stalls < 4 && change > last_digit; k++) {
+        OST_TRY(take_step(exact, &change));
+        stalls = change < 0.9 * least ? 0 : stalls + 1;
+        least = fmin(least, change);
+        if (isnan(change))
+            break;
+    }
+    *known = change <= settled;
+    return OST_SUCCESS;
+}
+
+enum { DISPLACEMENT, DISPLACEMENT_ERROR, REACTION, REACTION_ERROR, STRESS, STRESS_ERROR, SUMS };
+
+static void add_stresses(const Exact *exact, const Twofold *off, double *sums)
+{
+    const OstMesh *mesh = exact->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+        ost_batch_gather_from(&batch, element, mesh, exact->scene->field, first, mesh->owned_tets);
+        for (int slot = 0; slot < batch.count; slot++) {
+            Long u[3 * OST_MAX_TET_NODES], stress[6];
+            gather(&batch, slot, element->nodes, exact->u, u);
+            hard_exact_tet(&batch, slot, element->nodes, u, NULL, stress);
+            for (int p = 0; p < 6; p++)
+                sums[STRESS] += (double)(stress[p] * stress[p]);
+            gather(&batch, slot, element->nodes, off, u);
+            hard_exact_tet(&batch, slot, element->nodes, u, NULL, stress);
+            for (int p = 0; p < 6; p++)
+                sums[STRESS_ERROR] += (double)(stress[p] * stress[p]);
+        }
+    }
+}
+
+static void add_reactions(const Exact *exact, const OstResult *result, double *sums)
+{
+    for (OstLocal node = 0; node < exact->mesh->owned_nodes; node++) {
+        double projector[9];
+        const size_t n = 3 * (size_t)node;
+        if (ost_supports_get(exact->direct->supports, node, projector, NULL) == 0)
+            continue;
+        for (size_t i = 0; i < 3; i++) {
+            Long reaction = 0.0L;
+            for (size_t j = 0; j < 3; j++)
+                reaction += ((i == j) - (Long)projector[3 * i + j]) *
+                            (exact->internal[n + j] - (Long)exact->direct->force[n + j]);
+            const double off = result->reaction[n + i] - (double)reaction;
+            sums[REACTION] += (double)(reaction * reaction);
+            sums[REACTION_ERROR] += off * off;
+        }
+    }
+}
+
+static OstStatus compare(Exact *exact, const OstResult *result, HardErrors *errors)
+{
+    double sums[SUMS] = {0.0};
+    Twofold *off = NULL;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(exact->direct->ctx, OST_NEW(exact->direct->ctx, &off, 3 * (size_t)exact->mesh->node_count)));
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+        off[i] = (Twofold){(result->displacement[i] - exact->u[i].high) - exact->u[i].low, 0.0};
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++) {
+        sums[DISPLACEMENT] += exact->u[i].high * exact->u[i].high;
+        sums[DISPLACEMENT_ERROR] += off[i].high * off[i].high;
+    }
+    find_internal(exact);
+    add_reactions(exact, result, sums);
+    add_stresses(exact, off, sums);
+    OST_TRY_DONE(ost_sum(exact->direct->ctx, SUMS, sums));
+    errors->displacement = sqrt(sums[DISPLACEMENT_ERROR] / sums[DISPLACEMENT]);
+    errors->reaction = sqrt(sums[REACTION_ERROR] / sums[REACTION]);
+    errors->stress = sqrt(sums[STRESS_ERROR] / sums[STRESS]);
+done:
+    OST_FREE(off);
+    return status;
+}
+
+OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors)
+{
+    const OstMesh *mesh = scene->mesh;
+    OstContext *ctx = scene->ctx;
+    Exact exact = {.scene = scene, .direct = direct, .mesh = mesh};
+    *errors = (HardErrors){0, NAN, NAN, NAN};
+    OstStatus status = OST_NEW(ctx, &exact.u, 3 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &exact.internal, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &exact.step, 3 * (size_t)mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &exact.rows, direct->n));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+        exact.u[i] = (Twofold){result->displacement[i], 0.0};
+    OST_TRY_DONE(solve(&exact, &errors->known));
+    if (errors->known)
+        OST_TRY_DONE(compare(&exact, result, errors));
+done:
+    OST_FREE(exact.u);
+    OST_FREE(exact.internal);
+    OST_FREE(exact.step);
+    OST_FREE(exact.rows);
+    return status;
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "hard_grid/grid.h"
+
+#include <string.h>
+
+/* What is stated of an answer's errors is true, and what holds no digit is not accepted: small bodies, by every
+ * strategy, compared with the solution of the tets' equations. */
+
+typedef struct Body {
+    const char *shape;
+    int order;
+    OstLocal divisions[3];
+    double length;   /* along x; 0: the shape's */
+    double contrast; /* of the inclusions; 0: the shape's */
+    OstMethod method;
+} Body;
+
+static OstScene *make_scene(const Body *body, HardCase *hard)
+{
+    const HardPoint point = {.shape = hard_find_shape(body->shape), .order = body->order, .poisson = 1};
+    OstMeshChunk *chunk = NULL;
+    OstScene *scene = NULL;
+    assert_success(hard_make_case(ctx, &point, hard));
+    if (body->length > 0.0)
+        hard->c.block.size[0] = body->length;
+    memcpy(hard->c.block.divisions, body->divisions, sizeof body->divisions);
+    if (body->contrast > 0.0) {
+        const OstOrthotropic constants = ost_orthotropic_isotropic(body->contrast, 0.3);
+        assert_success(ost_material_create(ctx, "inclusion", &constants, 0.0, &hard->material[1].material));
+    }
+    hard->c.solver.method = body->method;
+    assert_success(hard_make_chunk(&point, &hard->c, &chunk));
+    assert_success(ost_scene_create_on(&hard->c, &chunk, &scene));
+    return scene;
+}
+
+static void what_is_accepted_is_stated_rightly(void **state)
+{
+    (void)state;
+    const Body bodies[] = {
+        {"beam", 2, {40, 1, 1}, 400.0, 0.0, OST_METHOD_DIRECT},
+        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_DIRECT},
+        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_TWO_LEVEL},
+        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_DIRECT},
+        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC},
+        {"stiff", 2, {4, 4, 4}, 0.0, 1e5, OST_METHOD_METRIC},
+        {"soft", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC},
+        {"slivers", 1, {4, 4, 4}, 0.0, 0.0, OST_METHOD_DIRECT},
+        {"checker", 1, {6, 5, 5}, 0.0, 0.0, OST_METHOD_STRONG},
+    };
+    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
+        HardCase hard;
+        HardReading reading = {.point = {0}};
+        OstScene *scene = make_scene(&bodies[b], &hard);
+        assert_success(hard_solve_scene(scene, &reading));
+        ost_scene_destroy(&scene);
+        const HardErrors *off = &reading.truth.off;
+        if (reading.status != OST_SUCCESS || !off->known || !hard_states_its_error(&reading))
+            print_message(
+                "body %zu: %s: displacement %.1e (stated %.1e), reactions %.1e, stresses %.1e (stated %.1e)\n", b,
+                reading.reason, off->displacement, reading.stated_error, off->reaction, off->stress,
+                reading.stated_forces);
+        assert_int_equal(reading.status, OST_SUCCESS);
+        assert_true(off->known && off->displacement < 0.1);
+        assert_true(hard_states_its_error(&reading));
+    }
+}
+
+/* Rounding of the stiffness takes more than a tenth of these displacements. */
+static void what_holds_no_digit_is_refused_for_rounding(void **state)
+{
+    (void)state;
+    const Body bodies[] = {
+        {"beam", 2, {200, 1, 1}, 4000.0, 0.0, OST_METHOD_DIRECT},
+        {"stiff", 1, {6, 6, 4}, 0.0, 1e15, OST_METHOD_DIRECT},
+    };
+    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
+        HardCase hard;
+        OstScene *scene = make_scene(&bodies[b], &hard);
+        OstResult *result = NULL;
+        const OstStatus status = ost_scene_solve(scene, &result);
+        assert_true(status == OST_CHECK_FAILED || status == OST_NOT_CONVERGED);
+        assert_non_null(strstr(ost_error_text(ctx), "rounding"));
+        assert_null(strstr(ost_error_text(ctx), "move freely"));
+        ost_result_destroy(&result);
+        ost_scene_destroy(&scene);
+    }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_is_accepted_is_stated_rightly),
+    cmocka_unit_test(what_holds_no_digit_is_refused_for_rounding),
+};
+
+OST_TEST_MAIN(tests)

@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "../case/case_text.h"
+
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "orthostat/orthostat.h"
+#include "problem/problem.h"
+#include "problem/scene_data.h"
+
+/* Paths: every step is the static answer to the loads at its time, by linear theory or by Newton's method; a checkpoint
+ * goes on with the same bits; one that does not fit is refused. */
+
+#define BODY                                                                                         \
+    "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"                                       \
+    "materials: [{region: all, youngs_modulus: [100, 200, 400], poissons_ratio: 0.3, density: 1}]\n" \
+    "accuracy: {relative_residual: 1e-11}\nlarge_rotation: off\n"
+#define HELD "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
+#define MOVED "  - {on: {nearest: [2, 0, 0]}, displacement: [free, 0.01, free], time: [[0, 1], [1, 3]]}\n"
+#define LOADS                                                                                     \
+    "loads:\n  - {on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [0.5, 1], [1, 0]]}\n" \
+    "  - {gravity: [0, 0, -1], time: [[0, 1]]}\n  - {on: {boundary: xmax}, total_force: [0, 0, 2]}\n"
+#define TIMES "path: {times: [0, 0.25, 0.5, 1]}\n"
+
+typedef struct Made {
+    OstCase *c;
+    OstScene *scene;
+} Made;
+
+static Made make(const char *text)
+{
+    Made made = {NULL, NULL};
+    assert_success(read_text(text, &made.c));
+    assert_success(ost_scene_create(made.c, &made.scene));
+    return made;
+}
+
+static void destroy(Made *made)
+{
+    ost_scene_destroy(&made->scene);
+    ost_case_destroy(&made->c);
+}
+
+static double farthest(size_t count, const double *a, const double *b)
+{
+    double most[2] = {0.0, 0.0};
+    for (size_t i = 0; i < count; i++) {
+        most[0] = fmax(most[0], fabs(a[i] - b[i]));
+        most[1] = fmax(most[1], fabs(b[i]));
+    }
+    assert_success(ost_max(ctx, 2, most));
+    return most[1] > 0.0 ? most[0] / most[1] : most[0];
+}
+
+static void every_step_is_the_static_answer(void **state)
+{
+    (void)state;
+    static const double pulled[] = {0.0, 0.5, 1.0, 0.0}, moved[] = {1.0, 1.5, 2.0, 3.0}, t[] = {0.0, 0.25, 0.5, 1.0};
+    Made made = make(BODY HELD MOVED LOADS TIMES);
+    OstPath *path = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    for (int i = 0; i < 4; i++) {
+        char text[2048];
+        OstResult *step = NULL, *alone = NULL;
+        snprintf(text, sizeof text,
+                 BODY HELD "  - {on: {nearest: [2, 0, 0]}, displacement: [free, %.17g, free]}\n"
+                           "loads:\n  - {on: {boundary: xmax}, traction: [%.17g, 0, 0]}\n"
+                           "  - {gravity: [0, 0, -1]}\n  - {on: {boundary: xmax}, total_force: [0, 0, %.17g]}\n",
+                 0.01 * moved[i], pulled[i], 2.0 * t[i]);
+        Made fixed = make(text);
+        assert_success(ost_path_advance(path, 1U << OST_FIELD_STRESS, &step));
+        assert_success(ost_scene_solve(fixed.scene, &alone));
+        const size_t nodes = 3 * (size_t)made.scene->mesh->node_count;
+        assert_true(farthest(nodes, step->displacement, alone->displacement) < 1e-9);
+        assert_true(farthest(nodes, step->reaction, alone->reaction) < 1e-9);
+        assert_true(farthest(6 * (size_t)made.scene->mesh->owned_tets, step->stress, alone->stress) < 1e-8);
+        assert_close(step->checks.strain_energy, alone->checks.strain_energy, 1e-9 * alone->checks.strain_energy);
+        assert_close(step->checks.load[2], alone->checks.load[2], 1e-12);
+        assert_true(ost_path_step(path, i)->t == t[i]);
+        assert_true(ost_path_step(path, i)->largest_displacement == step->largest_displacement);
+        ost_result_destroy(&step);
+        ost_result_destroy(&alone);
+        destroy(&fixed);
+    }
+    OstResult *beyond = NULL;
+    assert_failure(ost_path_advance(path, 0, &beyond), OST_INVALID_USAGE, "all 4 steps of the path are done");
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+static void without_a_load_the_body_is_at_rest(void **state)
+{
+    (void)state;
+    Made made =
+        make(BODY HELD "loads:\n  - {gravity: [0, 0, 1], time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {steps: 2}\n");
+    OstResult *result = NULL;
+    assert_success(ost_scene_solve(made.scene, &result)); /* the end of the path */
+    assert_true(result->largest_displacement == 0.0);
+    ost_result_destroy(&result);
+    destroy(&made);
+}
+
+static void what_has_no_table_needs_no_memory(void **state)
+{
+    (void)state;
+    Made made = make(BODY HELD "loads: [{gravity: [0, 0, 1]}, {body_force: [1, 0, 0]}]\n");
+    OstProblem *problem = NULL;
+    assert_success(ost_scene_problem(made.scene, &problem));
+    assert_null(problem->timed);
+    assert_int_equal(ost_ledger_entry(ctx, OST_EFFECT_PATH).bytes, 0);
+    ost_problem_destroy(&problem);
+    destroy(&made);
+    made = make(BODY HELD "path: {steps: 3}\nloads: [{gravity: [0, 0, 1], time: [[0, 1]]}, {body_force: [1, 0, 0], "
+                          "time: [[0, 1]]}, {on: {boundary: ymin}, pressure: 1, time: [[0, 1]]}]\n");
+    assert_success(ost_scene_problem(made.scene, &problem));
+    assert_int_equal(problem->timed_count, 1);
+    assert_false(ost_problem_begins_at_rest(problem));
+    ost_problem_destroy(&problem);
+    destroy(&made);
+}
+
+static void a_program_gives_tables_too(void **state)
+{
+    (void)state;
+    Made made = make(BODY HELD LOADS TIMES);
+    const OstMesh *mesh = made.scene->mesh;
+    const size_t nodes = 3 * (size_t)mesh->node_count, owned = 3 * (size_t)mesh->owned_nodes;
+    double times[] = {0.0, 1.0}, factors[] = {1.0, 5.0};
+    double *force = calloc(2 * nodes + 2, sizeof *force), *u = force + nodes;
+    double *displacement = calloc((size_t)mesh->owned_nodes + 1, sizeof *displacement);
+    OstNodeConstraint *constraints = calloc((size_t)mesh->owned_nodes + 1, sizeof *constraints);
+    OstTimedParts timed = {{2, times, factors}, force, displacement};
+    OstProblemParts parts = {.mesh = mesh,
+                             .field = made.scene->field,
+                             .constraints = constraints,
+                             .constraint_count = mesh->owned_nodes,
+                             .timed_count = 1,
+                             .timed = &timed};
+    OstProblem *problem = NULL;
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        constraints[n] = (OstNodeConstraint){n, {0.0, 0.0, 2.0}, 0.25 * (double)mesh->node_label[n]};
+        displacement[n] = (double)mesh->node_label[n];
+        force[3 * n] = 7.0;
+    }
+    assert_success(ost_problem_create(&parts, &problem));
+    assert_success(ost_problem_stiffness(problem, NULL, NULL));
+    memset(u, 0, nodes * sizeof *u);
+    double *v = calloc(3 * (size_t)mesh->node_count + 1, sizeof *v);
+    assert_success(ost_problem_displacement(problem, 0.5, v, u));
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        assert_close(u[3 * n + 2], (0.5 * 0.25 + 3.0) * (double)mesh->node_label[n], 1e-12 * 100.0);
+    ost_problem_load(problem, 0.5, u);
+    for (size_t i = 0; i < owned; i++)
+        assert_close(u[i], i % 3 == 0 ? 21.0 : 0.0, 1e-13);
+    ost_problem_destroy(&problem);
+    free(v);
+    free(constraints);
+    free(displacement);
+    free(force);
+    destroy(&made);
+}
+
+/* --- large rotations --- */
+
+#define BEAM                                                                              \
+    "mesh: {block: {size: [6, 1, 1], divisions: [9, 2, 2]}}\n"                            \
+    "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3, density: 1}]\n" \
+    "accuracy: {relative_residual: 1e-10}\nsolver: {method: metric, coarsest_unknowns: 30}\n" HELD
+#define BENT "loads:\n  - {on: {boundary: xmax}, total_force: [0, 0, 2]}\n"
+#define ON "large_rotation: on\n"
+
+static void compare_end(const char *text, const char *alone)
+{
+    Made path = make(text), fixed = make(alone);
+    const double last = path.c->path_times[path.c->path_steps - 1];
+    OstResult *end = NULL, *once = NULL;
+    assert_success(ost_scene_solve(path.scene, &end));
+    assert_success(ost_scene_solve(fixed.scene, &once));
+    assert_true(end->newton.used && once->newton.used && end->newton.reached == last);
+    assert_true(farthest(3 * (size_t)end->mesh->node_count, end->displacement, once->displacement) < 1e-7);
+    assert_true(farthest(3 * (size_t)end->mesh->node_count, end->reaction, once->reaction) < 1e-6);
+    ost_result_destroy(&end);
+    ost_result_destroy(&once);
+    destroy(&path);
+    destroy(&fixed);
+}
+
+static void steps_do_not_change_where_a_body_ends(void **state)
+{
+    (void)state;
+    compare_end(BEAM BENT ON "path: {steps: 3}\n", BEAM BENT ON);
+    /* where the load at t = 0 is not zero, it is brought up first */
+    compare_end(BEAM ON "loads:\n  - {gravity: [0, 0, 0.2], time: [[0, 1]]}\npath: {times: [0]}\n",
+                BEAM ON "loads:\n  - {gravity: [0, 0, 0.2]}\n");
+    compare_end(BEAM "  - {on: {boundary: xmax}, displacement: [-0.5, free, 1.5], time: [[0, 0.5], [1, 2]]}\n" ON
+                     "path: {times: [0, 0.2, 1]}\n",
+                BEAM "  - {on: {boundary: xmax}, displacement: [-1, free, 3]}\n" ON);
+}
+
+static void a_body_at_rest_stays_until_it_is_loaded(void **state)
+{
+    (void)state;
+    Made made = make(BEAM ON BENT "path: {times: [0, 0.5]}\n");
+    OstPath *path = NULL;
+    OstResult *result = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    assert_success(ost_path_advance(path, 0, &result));
+    assert_true(result->largest_displacement == 0.0);
+    assert_int_equal(ost_path_step(path, 0)->newton_iterations, 0);
+    ost_result_destroy(&result);
+    assert_success(ost_path_advance(path, 0, &result));
+    assert_true(result->largest_displacement > 0.1);
+    assert_true(ost_path_step(path, 1)->newton_iterations > 0);
+    ost_result_destroy(&result);
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+/* Linear theory serves all steps or none. */
+static void one_step_too_far_makes_all_newtons(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int linear;
+    } cases[] = {{BEAM BENT "path: {times: [0.01, 1]}\n", 0}, {BEAM BENT "path: {times: [0.01, 0.02]}\n", 1}};
+    for (int c = 0; c < 2; c++) {
+        Made made = make(cases[c].text);
+        OstPath *path = NULL;
+        OstResult *result = NULL;
+        assert_success(ost_scene_path(made.scene, &path));
+        assert_success(ost_path_advance(path, 0, &result));
+        assert_int_equal(ost_path_step(path, 0)->linear, cases[c].linear);
+        assert_int_equal(result->newton.used, !cases[c].linear);
+        assert_true(result->newton.judged);
+        ost_result_destroy(&result);
+        ost_path_destroy(&path);
+        destroy(&made);
+    }
+}
+
+/* --- checkpoints --- */
+
+static void checkpoint_name(char name[300])
+{
+    char path[256];
+    case_path(path);
+    snprintf(name, 300, "%s.checkpoint", path);
+}
+
+static void same_bits(const OstResult *one, const OstResult *other)
+{
+    const size_t nodes = 3 * (size_t)one->mesh->node_count;
+    assert_memory_equal(one->displacement, other->displacement, nodes * sizeof(double));
+    assert_memory_equal(one->reaction, other->reaction, nodes * sizeof(double));
+}
+
+static void a_resumed_path_has_the_same_bits(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {BODY HELD MOVED LOADS TIMES "solver: {method: metric, coarsest_unknowns: 30}\n",
+                                        BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n",
+                                        BODY HELD MOVED LOADS TIMES "solver: {method: direct}\n"};
+    char name[300];
+    checkpoint_name(name);
+    for (int s = 0; s < 3; s++) {
+        if (s == 2 && ost_size(ctx) > 1) /* sums of factors on several ranks depend on the order of messages */
+            break;
+        Made made = make(texts[s]);
+        OstPath *whole = NULL, *killed = NULL;
+        assert_success(ost_scene_path(made.scene, &whole));
+        assert_success(ost_scene_path(made.scene, &killed));
+        for (int i = 0; i < 4; i++) {
+            OstResult *result = NULL, *again = NULL;
+            assert_success(ost_path_advance(whole, 0, &result));
+            assert_success(ost_path_advance(killed, 0, &again));
+            same_bits(result, again);
+            ost_path_step(killed, i)->note[3] = 0.5 + i;
+            assert_success(ost_path_save(killed, name));
+            ost_path_destroy(&killed);
+            assert_success(ost_scene_path(made.scene, &killed));
+            assert_success(ost_path_resume(killed, name));
+            assert_int_equal(ost_path_done(killed), i + 1);
+            ost_path_step(whole, i)->note[3] = 0.5 + i;
+            assert_memory_equal(ost_path_step(whole, 0), ost_path_step(killed, 0),
+                                (size_t)(i + 1) * sizeof(OstPathStep));
+            ost_result_destroy(&result);
+            ost_result_destroy(&again);
+        }
+        ost_path_destroy(&whole);
+        ost_path_destroy(&killed);
+        destroy(&made);
+    }
+    MPI_Barrier(ost_comm(ctx));
+    if (ost_rank(ctx) == 0)
+        remove(name);
+}
+
+static void refuses(const char *text, const char *name, const char *words)
+{
+    Made made = make(text);
+    OstPath *path = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    assert_failure(ost_path_resume(path, name), OST_INVALID_INPUT, words);
+    assert_int_equal(ost_path_done(path), 0);
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+static size_t read_whole(const char *name, char *bytes, size_t room)
+{
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, room, file);
+    fclose(file);
+    MPI_Barrier(ost_comm(ctx)); /* before rank 0 damages it */
+    return size;
+}
+
+/* A case without a path of its own: the times are the caller's. */
+static void refuses_other_times(const char *name)
+{
+    Made made = make(BODY HELD MOVED LOADS TIMES);
+    OstProblem *problem = NULL;
+    OstPath *path = NULL;
+    assert_success(ost_scene_problem(made.scene, &problem));
+    assert_success(ost_path_create(problem, &made.c->solver, 2, (const double[]){0.5, 1.0}, &path));
+    assert_failure(ost_path_resume(path, name), OST_INVALID_INPUT, "have changed since");
+    ost_path_destroy(&path);
+    assert_failure(ost_path_create(problem, &made.c->solver, 2, (const double[]){0.5, 0.5}, &path), OST_INVALID_INPUT,
+                   "time 2 of a path is 0.5");
+    assert_null(path);
+    ost_problem_destroy(&problem);
+    destroy(&made);
+}
+
+static void checkpoints_that_do_not_fit_are_refused(void **state)
+{
+    (void)state;
+    enum { ROOM = 1 << 17 };
+    static const char text[] = BODY HELD MOVED LOADS TIMES;
+    static const char damaged[] = "it is damaged or incomplete";
+    char name[300], *bytes = malloc(ROOM);
+    checkpoint_name(name);
+    Made made = make(text);
+    OstPath *path = NULL;
+    OstResult *result = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    assert_success(ost_path_resume(path, name)); /* there is none: the path begins */
+    assert_int_equal(ost_path_done(path), 0);
+    assert_success(ost_path_advance(path, 0, &result));
+    assert_success(ost_path_save(path, name));
+    ost_result_destroy(&result);
+    ost_path_destroy(&path);
+    destroy(&made);
+    const size_t size = read_whole(name, bytes, ROOM);
+    assert_true(size > 100 && size < ROOM);
+    for (size_t at = 0; at < size; at += size / 5) {
+        bytes[at] ^= 1;
+        write_bytes(name, bytes, size);
+        refuses(text, name, damaged);
+        bytes[at] ^= 1;
+        write_bytes(name, bytes, at);
+        refuses(text, name, damaged);
+    }
+    write_bytes(name, bytes, size);
+    refuses(BODY HELD MOVED LOADS TIMES "title: another\n", name,
+            "it is that of another case, or the case file has changed since");
+    refuses_other_times(name);
+    MPI_Barrier(ost_comm(ctx));
+    if (ost_rank(ctx) == 0)
+        remove(name);
+    free(bytes);
+}
+
+/* A checkpoint of rank 0 alone is offered to all. */
+static void another_number_of_ranks_is_refused(void **state)
+{
+    (void)state;
+    static const char text[] = BODY HELD MOVED LOADS TIMES;
+    OstContext *const all = ctx;
+    char name[300];
+    checkpoint_name(name);
+    if (ost_size(ctx) == 1)
+        return;
+    if (ost_rank(all) == 0) {
+        OstPath *path = NULL;
+        OstResult *result = NULL;
+        assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
+        Made made = make(text);
+        assert_success(ost_scene_path(made.scene, &path));
+        assert_success(ost_path_advance(path, 0, &result));
+        assert_success(ost_path_save(path, name));
+        ost_result_destroy(&result);
+        ost_path_destroy(&path);
+        destroy(&made);
+        ost_context_destroy(&ctx);
+        ctx = all;
+    }
+    MPI_Barrier(ost_comm(ctx));
+    refuses(text, name, "it was made on 1 rank and goes on there alone, but this run has");
+    MPI_Barrier(ost_comm(ctx));
+    if (ost_rank(ctx) == 0)
+        remove(name);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_step_is_the_static_answer),
+    cmocka_unit_test(without_a_load_the_body_is_at_rest),
+    cmocka_unit_test(what_has_no_table_needs_no_memory),
+    cmocka_unit_test(a_program_gives_tables_too),
+    cmocka_unit_test(steps_do_not_change_where_a_body_ends),
+    cmocka_unit_test(a_body_at_rest_stays_until_it_is_loaded),
+    cmocka_unit_test(one_step_too_far_makes_all_newtons),
+    cmocka_unit_test(a_resumed_path_has_the_same_bits),
+    cmocka_unit_test(checkpoints_that_do_not_fit_are_refused),
+    cmocka_unit_test(another_number_of_ranks_is_refused),
+};
+
+OST_TEST_MAIN(tests)
