@@ -14,6 +14,7 @@ typedef struct OstCase OstCase;
 #define OST_OUTPUT_FIELD_TABLE(X)                \
     X(OST_FIELD_DISPLACEMENT, "displacement")    \
     X(OST_FIELD_REACTION, "reaction")            \
+    X(OST_FIELD_LOAD, "load")                    \
     X(OST_FIELD_STRESS, "stress")                \
     X(OST_FIELD_NODE_STRESS, "node_stress")      \
     X(OST_FIELD_STRAIN, "strain_tensor")         \

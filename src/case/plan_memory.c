@@ -61,7 +61,7 @@ int ost_plan_writes(const OstCase *c, OstOutputFieldBit field)
 static double output_bytes(const OstCase *c, const OstPlan *plan)
 {
     const double node = 24.0 + 24.0 * ost_plan_writes(c, OST_FIELD_DISPLACEMENT) +
-                        24.0 * ost_plan_writes(c, OST_FIELD_REACTION) +
+                        24.0 * ost_plan_writes(c, OST_FIELD_REACTION) + 24.0 * ost_plan_writes(c, OST_FIELD_LOAD) +
                         48.0 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     const double tet = 32.0 + 8.0 + 1.0 + 48.0 * ost_plan_writes(c, OST_FIELD_STRESS) +
                        48.0 * ost_plan_writes(c, OST_FIELD_STRAIN) + 8.0 * ost_plan_writes(c, OST_FIELD_ENERGY) +

@@ -236,7 +236,7 @@ static void the_papers_tube_is_foreseen(void **state)
     assert_close(plan.bytes_mesh, 25620.0 * 40.0 + 129600.0 * 36.0, 1.0);
     assert_true(plan.bytes_solver > plan.bytes_matrix);
     assert_true(plan.bytes_effects >= 72.0 * 129600.0);
-    assert_close(plan.bytes_output, 25620.0 * 120.0 + 129600.0 * (41.0 + 48 + 48 + 8 + 72 + 4 + 4), 1.0);
+    assert_close(plan.bytes_output, 25620.0 * 144.0 + 129600.0 * (41.0 + 48 + 48 + 8 + 72 + 4 + 4), 1.0);
 }
 
 static void more_ranks_hold_more_halo(void **state)

@@ -47,6 +47,18 @@ def what_is_stated_is_the_error_of_the_stress():
             check(f"{stated:.1e} in reactions and stresses" in finished.output, finished.output)
 
 
+def loads_are_written_node_by_node():
+    gravity = CASE.replace("poissons_ratio: 0.3", "poissons_ratio: 0.3, density: 2").replace("[displacement, node_stress]", "[load]")
+    for ranks in (1, 2):
+        filled = gravity.replace("MOVED", "0").replace("METHOD", "direct").replace("ORDER", "1").replace("MORE", "")
+        filled = filled.replace("SIZE", "[2, 1, 1]").replace("DIVISIONS", "[4, 2, 2]").replace("LOAD", "{gravity: [0, 3, 0]}, " + PULL)
+        finished, _, path = solve(filled, ranks=ranks)
+        check(finished.exit_code == 0, finished.errors)
+        load = read_points(path, "load")
+        total = sum(load.values())
+        check(len(load) == 45 and max(abs(total - [0, 12, 1])) < 1e-12, f"{ranks} ranks: the loads add up to {total}")
+
+
 def stresses_without_a_digit_are_refused():
     # the cube's reactions balance to 0.06 all the same, as many that are wrong hide each other
     cube = {"size": "[1, 1, 1]", "divisions": "[6, 12, 12]"}
@@ -88,3 +100,4 @@ what_is_stated_is_the_error_of_the_stress()
 stresses_without_a_digit_are_refused()
 what_has_no_forces_passes()
 a_force_straight_into_a_moved_support_passes()
+loads_are_written_node_by_node()

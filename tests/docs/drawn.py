@@ -5,10 +5,15 @@ import os
 
 from pages import SOURCE, check
 
-path = os.path.join(SOURCE, "scripts", "pictures")
-loader = importlib.machinery.SourceFileLoader("pictures", path)
-pictures = importlib.util.module_from_spec(importlib.util.spec_from_loader("pictures", loader))
-loader.exec_module(pictures)
+
+def load_script(name):
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(SOURCE, "scripts", name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+pictures = load_script("pictures")
 record = pictures.read_record()
 
 

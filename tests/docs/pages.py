@@ -11,7 +11,7 @@ from program import SOURCE, check, new_folder, run  # noqa: E402,F401
 RENAMED = {}
 
 PAGES = [os.path.join(SOURCE, name) for name in ("README.md", "CHANGELOG.md", "cases/README.md")] + sorted(
-    glob.glob(os.path.join(SOURCE, "docs", "*.md")))
+    glob.glob(os.path.join(SOURCE, "docs", "*.md")) + glob.glob(os.path.join(SOURCE, "cases", "*", "README.md")))
 
 
 def read(*path):

@@ -7,6 +7,7 @@ import sys
 import tempfile
 import unittest
 
+import numpy
 from matplotlib.image import imread
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
@@ -46,6 +47,30 @@ class Render(unittest.TestCase):
         coloured = abs(pixels[80:420, :, 0] - pixels[80:420, :, 2]) > 0.1
         self.assertGreater(coloured[:, :300].mean(), 0.05)  # the shape
         self.assertGreater(coloured[:, 400:].mean(), 0.05)  # the section
+
+    def test_several_results_share_one_picture(self):
+        picture = os.path.join(self.folder.name, "several.png")
+        done = self.render(self.result, self.result, self.result, picture, "--size", "900x500", "--scale", "1",
+                           "--section", "y=5", "--labels", "a,b,c", "--columns", "3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pixels = imread(picture)
+        coloured = abs(pixels[110:390, :, 0] - pixels[110:390, :, 2]) > 0.1
+        panels = [coloured[:, 300 * i:300 * (i + 1)] for i in range(3)]
+        for panel in panels:
+            self.assertGreater(panel[:150].mean(), 0.02)  # a shape
+            self.assertGreater(panel[170:].mean(), 0.02)  # its section
+            self.assertLess(abs(panel.mean() - panels[0].mean()), 0.01)
+
+    def test_loads_that_lie_together_become_one_arrow(self):
+        sys.path.insert(0, os.path.dirname(RENDER))
+        from marks import gather_loads
+        places = numpy.array([[0, 0, 0], [0.1, 0, 0], [5, 0, 0], [9, 9, 9], [9, 8, 9], [9, 9, 8], [8, 9, 9]], float)
+        load = numpy.array([[1, 0, 0], [3, 0, 0], [0, 2, 0]] + 4 * [[0, 0, 0]], float)
+        starts, sums = gather_loads(places, places, load, 1.0)
+        numpy.testing.assert_allclose(starts, [[0.075, 0, 0], [5, 0, 0]])  # two become one, nearer to the larger
+        numpy.testing.assert_allclose(sums, [[4, 0, 0], [0, 2, 0]])
+        starts, sums = gather_loads(places, places, numpy.tile([0.0, 0, -1], (7, 1)), 1.0)
+        numpy.testing.assert_allclose(sums, [[0, 0, -7]])  # a weight is one arrow
 
     def test_what_cannot_be_drawn_is_refused_in_words(self):
         self.assertIn("no such file", self.refusal("nothing.vtkhdf"))
