@@ -79,9 +79,12 @@ static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const 
                      yaml->path, c->first_table_line);
 }
 
-static OstStatus check_large_rotation(const OstYaml *yaml, const OstYamlKey *large_rotation,
-                                      const OstYamlKey *formulation, const OstCase *c)
+/* The formulas that answers are compared with are those of linear theory. */
+static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *large_rotation,
+                                       const OstYamlKey *formulation, OstCase *c)
 {
+    if (c->verify && !large_rotation->value && !formulation->value)
+        c->large_rotation = OST_LARGE_ROTATION_OFF;
     if (c->large_rotation == OST_LARGE_ROTATION_ON && c->free_body)
         return ost_yaml_raise(yaml, large_rotation->value,
                               "a free body is solved linearly: nothing says how far it turns as a whole; constrain six "
@@ -155,7 +158,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         if (keys[s].value)
             OST_TRY(read[s](yaml, keys[s].value, c));
     OST_TRY(check_materials(yaml, c));
-    OST_TRY(check_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
+    OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     return check_gravity(yaml, c);
 }
