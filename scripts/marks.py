@@ -38,7 +38,8 @@ def actor_of(data, colour):
 
 def bins_of(places, size):
     """Number of the cube of this size in which each place lies, counted from the lowest corner of all."""
-    return np.unique(np.floor((places - places.min(axis=0)) / size).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
+    cubes = np.floor((places - places.min(axis=0)) / size).astype(np.int64)
+    return np.unique(cubes, axis=0, return_inverse=True)[1].reshape(-1)
 
 
 def gather_loads(rest, moved, load, size):

@@ -1,5 +1,5 @@
-"""The scenes of the paper on coarse meshes: they solve without a warning, show what the paper shows, and their pages hold
-the numbers on record."""
+"""The scenes of the paper on coarse meshes: they solve without a warning and show what the paper shows; and their pages
+hold the numbers on record."""
 import os
 
 from drawn import load_script, pictures, record
@@ -39,7 +39,8 @@ check(isotropic["middle section"] < -0.05 and abs(orthotropic["middle section"])
 isotropic, orthotropic = solve("fern")[0]
 check(abs(orthotropic["twist of the stem"]) > 4 * abs(isotropic["twist of the stem"]), f"{isotropic} {orthotropic}")
 
-# The beast's mesh is small as it is: a case of each figure is compared with what was drawn. Gmsh's versions differ a little.
+# The beast's mesh is small as it is: a case of each figure is compared with what was drawn. Gmsh's meshes differ a little
+# from version to version.
 gallery.SCENES["beast"] = [figure._replace(cases=figure.cases[1:2]) for figure in gallery.SCENES["beast"]]
 found, warnings = gallery.make_scene("beast", program, True, None)
 check(not any(warnings.values()), f"beast warns: {warnings}")
