@@ -96,7 +96,7 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
-        on(state, 0.0, "auto: a linear solve, and Newton's method (%s) if linear theory is off by more than %g %%",
+        on(state, 0.0, "auto: a linear solve, then Newton's method (%s) where that is off by more than %g %%",
            f->formulation, 100.0 * f->accuracy);
 }
 

@@ -9,8 +9,12 @@ import unittest
 
 import numpy
 from matplotlib.image import imread
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
+sys.path.insert(0, os.path.dirname(RENDER))
+from marks import dashes, gather_loads, make_cells, make_points  # noqa: E402
 
 
 class Render(unittest.TestCase):
@@ -62,8 +66,6 @@ class Render(unittest.TestCase):
             self.assertLess(abs(panel.mean() - panels[0].mean()), 0.01)
 
     def test_loads_that_lie_together_become_one_arrow(self):
-        sys.path.insert(0, os.path.dirname(RENDER))
-        from marks import gather_loads
         places = numpy.array([[0, 0, 0], [0.1, 0, 0], [5, 0, 0], [9, 9, 9], [9, 8, 9], [9, 9, 8], [8, 9, 9]], float)
         load = numpy.array([[1, 0, 0], [3, 0, 0], [0, 2, 0]] + 4 * [[0, 0, 0]], float)
         starts, sums = gather_loads(places, places, load, 1.0)
@@ -71,6 +73,20 @@ class Render(unittest.TestCase):
         numpy.testing.assert_allclose(sums, [[4, 0, 0], [0, 2, 0]])
         starts, sums = gather_loads(places, places, numpy.tile([0.0, 0, -1], (7, 1)), 1.0)
         numpy.testing.assert_allclose(sums, [[0, 0, -7]])  # a weight is one arrow
+
+    def test_fibres_lie_on_the_surface_and_turn_with_the_body(self):
+        surface = vtkPolyData()
+        surface.SetPoints(make_points(numpy.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]])))
+        surface.SetPolys(make_cells(numpy.array([[0, 1, 2]])))
+        cell = numpy_to_vtk(numpy.array([1]), deep=True)
+        cell.SetName("cell")
+        surface.GetCellData().AddArray(cell)
+        axes = numpy.array([[9.0, 9, 9], [0.6, 0, 0.8]])
+        quarter = numpy.array([[[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]])
+        actor = dashes(surface, axes, lambda cells: numpy.repeat(quarter, len(cells), axis=0), 10.0, 1.0)
+        ends = vtk_to_numpy(actor.GetMapper().GetInput().GetPoints().GetData())
+        numpy.testing.assert_allclose(ends.mean(axis=0), [1, 1, 0.5], atol=1e-6)  # a little above its triangle
+        numpy.testing.assert_allclose(ends[1] - ends[0], [0, 4.8, 0], atol=1e-6)  # of 0.8 × 10 what lies in its plane
 
     def test_what_cannot_be_drawn_is_refused_in_words(self):
         self.assertIn("no such file", self.refusal("nothing.vtkhdf"))
