@@ -33,6 +33,7 @@ for ranks in 1 2; do
         "$ORTHOSTAT_MPIEXEC" -n $ranks $build/ten_loads | sed 's/,.*//'
     done >"answers-$ranks"
 done
+"$ORTHOSTAT_MPIEXEC" -n 2 by-pkg-config/formulations >formulations
 diff answers-1 answers-2 || fail "the answers differ between 1 and 2 ranks"
 half=$(($(wc -l <answers-1) / 2))
 diff <(head -n $half answers-1) <(tail -n $half answers-1) || fail "the answers differ between CMake and pkg-config"
@@ -40,6 +41,7 @@ cat answers-1
 grep -q 'moves by 0.00106536 at most, at (2, 1, 1)' answers-1 || fail "solve_case: another answer"
 grep -q 'straight grain: 0.0105.*1\.6. times as far' answers-1 || fail "own_mesh: another answer"
 [ "$(grep -c 'degrees: moves by' answers-1)" = 20 ] || fail "ten_loads: not ten answers"
+[ "$(grep -c '^| 10* |' formulations)" = 4 ] || fail "formulations: not four rows"
 [ -s sliding.vtkhdf ] && [ -s own_mesh.vtkhdf ] || fail "the examples wrote no files"
 
 # C++ may use the headers, and every function that they declare is there to be linked.

@@ -60,6 +60,21 @@ check_drawn("plank.png", pictures.numbers_of_solve(report_of("plank.json")), 0.0
 check(run("effects", os.path.join(SOURCE, pictures.EFFECTS), "-q", "--json", "effects.json", folder=folder).exit_code == 0,
       "orthostat effects failed")
 check_drawn("effects-tube.png", pictures.numbers_of_effects(report_of("effects.json")), 1e-3, "effects")
+
+# What the classical formulation costs: nothing where the material is isotropic.
+old = pictures.numbers_of_formulations(pictures.split_page("verification.md", "formulations")[1])
+for ranks in (1, 2):
+    finished = run(program=os.path.join(os.environ["ORTHOSTAT_TEST_BIN"], "formulations"), ranks=ranks)
+    check(finished.exit_code == 0, finished.errors)
+    found = pictures.numbers_of_formulations(finished.output)
+    differences = pictures.differences(old, found, 0.01)
+    check(not differences, "docs/verification.md is stale (scripts/pictures formulations):\n" + "\n".join(differences))
+    check([row[0] for row in found] == [1, 10, 100, 1000], f"other ratios: {found}")
+    for ratio, moment, classical_moment, loop, classical_loop, difference in found:
+        check(max(moment, loop) < 1e-12, f"E1/E2 {ratio}: consistent forces have a moment {moment}, or no potential: {loop}")
+        classical = (classical_moment, classical_loop, difference)
+        check(max(classical) < 1e-10 if ratio == 1 else min(classical) > 0.01, f"E1/E2 {ratio}: classical forces show {classical}")
+
 # A path.
 finished = run("solve", os.path.join(SOURCE, "cases", "bent-bar", "pull.yaml"), "-q", "--json", "pull.json", "--output", "pull.vtkhdf",
                folder=folder)
