@@ -11,17 +11,18 @@
 static const double least_volume = 1e-6;
 
 /* One point: Kirchhoff's stress P F' (its symmetric part, which is all of it), and det F. */
-static void kirchhoff(const OstElement *element, const OstElasticity *elasticity, int place, OstSimd stiff,
+static void kirchhoff(const OstElement *element, const OstElasticity *elasticity, int place, const OstSimd *stiff,
                       const OstSimd *u, const OstPoint *point, OstSimd tau[6], OstSimd *jacobian)
 {
-    OstSimd slope[9], strain[6], stress[6], piola[9];
+    OstSimd slope[9], strain[6], elastic[6], stress[6], piola[9];
     OstPolar polar;
     ost_displacement_gradient(element->nodes, point, u, slope);
     ost_polar(slope, &polar);
     ost_biot_strain(&polar, strain);
-    ost_simd_stress(elasticity->c[place], strain, stress);
+    ost_elastic_strain(elasticity, place, strain, elastic);
+    ost_simd_stress(elasticity->c[place], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
-        stress[p] += stiff * elasticity->m[place][p];
+        stress[p] += *stiff * elasticity->m[place][p];
     ost_biot_piola(&polar, stress, piola);
     for (int p = 0; p < 6; p++) {
         const int i = p % 3;
@@ -33,12 +34,13 @@ static void kirchhoff(const OstElement *element, const OstElasticity *elasticity
     *jacobian = polar.stretch[0] * polar.stretch[1] * polar.stretch[2];
 }
 
-static void divide_by_volume(OstSimd jacobian, OstSimd stress[6])
+static void divide_by_volume(const OstSimd *jacobian, OstSimd stress[6])
 {
+    OstSimd volume;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        jacobian[slot] = copysign(fmax(fabs(jacobian[slot]), least_volume), jacobian[slot]);
+        volume[slot] = copysign(fmax(fabs((*jacobian)[slot]), least_volume), (*jacobian)[slot]);
     for (int p = 0; p < 6; p++)
-        stress[p] /= jacobian;
+        stress[p] /= volume;
 }
 
 void ost_large_rotation_mean_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
@@ -53,12 +55,12 @@ void ost_large_rotation_mean_stress(const OstElement *element, const OstSimd *x,
         OstPoint point;
         OstSimd tau[6], jacobian;
         element->evaluate(x, &rule->point[q], &point);
-        kirchhoff(element, elasticity, ost_elasticity_at(elasticity, q), means.stiff, u, &point, tau, &jacobian);
+        kirchhoff(element, elasticity, ost_elasticity_at(elasticity, q), &means.stiff, u, &point, tau, &jacobian);
         now += point.volume / means.volume * jacobian;
         for (int p = 0; p < 6; p++)
             stress[p] += point.volume / means.volume * tau[p];
     }
-    divide_by_volume(now, stress);
+    divide_by_volume(&now, stress);
 }
 
 void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
@@ -73,7 +75,7 @@ void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x
         for (int end = 0; end < 2; end++)
             node.at[ost_tet10_ends[a][end]] += 0.5;
         element->evaluate(x, &node, &point);
-        kirchhoff(element, at_nodes, ost_elasticity_at(at_nodes, a), means.stiff, u, &point, stress, &jacobian);
-        divide_by_volume(jacobian, stress);
+        kirchhoff(element, at_nodes, ost_elasticity_at(at_nodes, a), &means.stiff, u, &point, stress, &jacobian);
+        divide_by_volume(&jacobian, stress);
     }
 }

@@ -19,6 +19,10 @@ static const double recovered = 0.1;
  * the next one is about its square. */
 static const double settled = 1e-2;
 
+/* Of a residual this small, relative to the loads, rounding is all that is left: where nothing moves, corrections are
+ * then rounding too, and may be as large as the displacement. */
+static const double drowned_residual = 1e-14;
+
 /* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
 static const double rounding_change = 1e-9;
 
@@ -149,7 +153,9 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
-        *rest = newton->norm <= target && newton->change <= settled ? OST_REST_FOUND : OST_REST_SLOW;
+        const int is_rounding = newton->norm <= drowned_residual * newton->size;
+        const int is_settled = newton->change <= settled || is_rounding;
+        *rest = newton->norm <= target && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
         if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
             return OST_SUCCESS;
         if (k > 0)

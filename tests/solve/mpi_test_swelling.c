@@ -65,7 +65,44 @@ static void nearly_incompressible_rubber_presses(void **state)
     ost_case_destroy(&c);
 }
 
+/* Far beyond small strains: what may grow has no stress, what may not has C e0, which is Cauchy's where nothing moves.
+ */
+static void stresses_of_large_swelling_leave_out_what_is_free(void **state)
+{
+    (void)state;
+    static const double swelling[3] = {0.3, 0.1, -0.05};
+    for (int order = 1; order <= 2; order++)
+        for (int held = 0; held <= 1; held++) {
+            char text[1024];
+            OstCase *c = NULL;
+            OstScene *scene = NULL;
+            OstResult *result = NULL;
+            snprintf(text, sizeof text,
+                     "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\nelement: {order: %d}\n"
+                     "materials: [{region: all, youngs_modulus: [1, 2, 3], poissons_ratio: 0, eigenstrain: [%g, %g, "
+                     "%g]}]\nlarge_rotation: on\nconstraints: [{on: {boundary: [xmin%s]}, slide: [1, 0, 0]},\n"
+                     "  {on: {boundary: [ymin%s]}, slide: [0, 1, 0]}, {on: {boundary: [zmin%s]}, slide: [0, 0, 1]}]\n",
+                     order, swelling[0], swelling[1], swelling[2], held ? ", xmax" : "", held ? ", ymax" : "",
+                     held ? ", zmax" : "");
+            assert_success(read_text(text, &c));
+            assert_success(ost_scene_create(c, &scene));
+            assert_success(ost_scene_solve(scene, &result));
+            for (OstLocal t = 0; t < scene->mesh->owned_tets; t++)
+                for (int p = 0; p < 6; p++)
+                    assert_close(ost_result_stress(result)[6 * t + p], held && p < 3 ? -(1.0 + p) * swelling[p] : 0.0,
+                                 1e-7);
+            for (OstLocal node = 0; node < scene->mesh->owned_nodes; node++)
+                for (int p = 0; p < 6; p++)
+                    assert_close(ost_result_node_stress(result)[6 * node + p],
+                                 held && p < 3 ? -(1.0 + p) * swelling[p] : 0.0, 1e-7);
+            ost_result_destroy(&result);
+            ost_scene_destroy(&scene);
+            ost_case_destroy(&c);
+        }
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(stresses_of_large_swelling_leave_out_what_is_free),
     cmocka_unit_test(a_strip_of_two_layers_bends_as_timoshenko_says),
     cmocka_unit_test(nearly_incompressible_rubber_presses),
 };
