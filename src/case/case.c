@@ -157,6 +157,9 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
     for (int s = MESH; s < SECTIONS; s++)
         if (keys[s].value)
             OST_TRY(read[s](yaml, keys[s].value, c));
+    if (c->free_body && c->spring_count > 0)
+        return ost_yaml_raise(yaml, keys[SPRINGS].value,
+                              "nothing holds a free body, and springs would; leave out these, or free_body");
     OST_TRY(check_materials(yaml, c));
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "output/path_files.h"
+#include "output/summary.h"
 #include "study/watch.h"
 
 #include <stdio.h>
@@ -51,6 +52,15 @@ static OstStatus write_step(const OstScene *scene, const char *output, OstPath *
     return done < ost_path_count(path) ? ost_path_save(path, name) : OST_SUCCESS;
 }
 
+/* What the summary says of the last step, it cannot say of the others: tets turned inside out, and jumps. */
+static void warn_of_step(OstContext *ctx, int number, double t, const OstResult *result)
+{
+    char text[OST_LONGEST_WARNING];
+    for (int w = 1; w < OST_WARNINGS; w++)
+        if (ost_result_warning(result, w, text))
+            ost_warn(ctx, "step %d, at t = %g: %s", number, t, text);
+}
+
 static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *path, OstResult **result)
 {
     OstContext *ctx = scene->ctx;
@@ -71,6 +81,8 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
                       text);
         }
         OST_THEN(write_step(scene, output, path, *result));
+        if (status == OST_SUCCESS && number < count)
+            warn_of_step(ctx, number, scene->c->path_times[number - 1], *result);
         if (status == OST_SUCCESS)
             ost_log(ctx, OST_LOG_VERBOSE, "path: step %d of %d done, t = %g, largest |u| %.6g", number, count,
                     ost_path_step(path, number - 1)->t, ost_path_step(path, number - 1)->largest_displacement);

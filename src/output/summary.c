@@ -168,8 +168,11 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
     print_large_rotation(&result->newton);
-    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e, energy %.1e\n",
-           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance, checks->energy_imbalance);
+    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e",
+           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance);
+    if (checks->linear)
+        printf(", energy %.1e", checks->energy_imbalance);
+    printf("\n");
     print_errors(checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);

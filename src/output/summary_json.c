@@ -66,9 +66,9 @@ static json_t *checks_json(const OstChecks *checks)
         "force_error", ost_json_number(checks->force_error), "load", vector_json(checks->load), "reaction",
         vector_json(checks->reaction), "force_imbalance", ost_json_number(checks->force_imbalance), "moment_imbalance",
         ost_json_number(checks->moment_imbalance), "strain_energy", ost_json_number(checks->strain_energy), "work",
-        ost_json_number(checks->work), "energy_imbalance", ost_json_number(checks->energy_imbalance), "finite",
-        checks->finite, "largest_strain", ost_json_number(checks->largest_strain), "largest_rotation",
-        ost_json_number(checks->largest_rotation));
+        ost_json_number(checks->linear ? checks->work : NAN), "energy_imbalance",
+        ost_json_number(checks->linear ? checks->energy_imbalance : NAN), "finite", checks->finite, "largest_strain",
+        ost_json_number(checks->largest_strain), "largest_rotation", ost_json_number(checks->largest_rotation));
 }
 
 static json_t *large_rotation_json(const OstNewtonReport *newton)

@@ -32,6 +32,7 @@ struct OstNewton {
     double energy_size;               /* the sum of their sizes, for rounding */
     double norm;                      /* of the residual */
     double driving;                   /* the largest residual with which a load step began, before its prediction */
+    double rounding;                  /* about what rounding of the displacement leaves of the residual */
     double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */

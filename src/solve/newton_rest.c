@@ -19,6 +19,10 @@ static const double recovered = 0.1;
  * the next one is about its square. */
 static const double settled = 1e-2;
 
+/* A residual that no longer falls is rounding's if it is below this many times what rounding of the displacement
+ * leaves; above that, a line search that takes no step is the reason. */
+static const double most_rounding = 100.0;
+
 /* Of a residual this small, relative to the loads, rounding is all that is left: where nothing moves, corrections are
  * then rounding too, and may be as large as the displacement. */
 static const double drowned_residual = 1e-14;
@@ -79,8 +83,9 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
      */
     const double mean = sqrt(sums[SUM_DISPLACEMENT] / (double)problem->mesh->global_nodes);
-    const double rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness->size / newton->options.relative_residual;
-    newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, fmax(rounding, DBL_MIN)));
+    newton->rounding = 0.5 * DBL_EPSILON * mean * newton->stiffness->size;
+    const double least = fmax(newton->rounding / newton->options.relative_residual, DBL_MIN);
+    newton->size = fmax(sqrt(sums[SUM_LOAD] + sums[SUM_REACTION]), fmax(newton->driving, least));
     return OST_SUCCESS;
 }
 
@@ -171,7 +176,9 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
             fallen_from = before;
         const int hidden = newton->change <= rounding_change && !(newton->norm < 0.5 * before);
         if (hidden && *rest != OST_REST_NO_STEP)
-            *rest = newton->norm <= target ? OST_REST_FOUND : OST_REST_ROUNDING;
+            *rest = newton->norm <= target                             ? OST_REST_FOUND
+                    : newton->norm <= most_rounding * newton->rounding ? OST_REST_ROUNDING
+                                                                       : OST_REST_STALLED;
         if (hidden || length == 0.0)
             return OST_SUCCESS;
     }

@@ -10,17 +10,21 @@
 
 /* What a run does differently. Columns: name; the effect; what is said of it. Of the two for large rotation the one
  * runs where the case itself was solved for large rotation, the other where it was not. */
-#define OST_VARIANT_TABLE(X)                                                                 \
-    X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")         \
-    X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")          \
-    X(OST_VARIANT_ONE_MATERIAL, OST_EFFECT_REGIONS, "one material for several")              \
-    X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")   \
-    X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero") \
-    X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                    \
-    X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")            \
-    X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")         \
-    X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")   \
-    X(OST_VARIANT_LINEAR, OST_EFFECT_LARGE_ROTATION, "linear theory for large rotation")     \
+#define OST_VARIANT_TABLE(X)                                                                  \
+    X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")          \
+    X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")           \
+    X(OST_VARIANT_ONE_MATERIAL, OST_EFFECT_REGIONS, "one material for several")               \
+    X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")    \
+    X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero")  \
+    X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                     \
+    X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")             \
+    X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")          \
+    X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")    \
+    X(OST_VARIANT_NO_FOLLOWER, OST_EFFECT_FOLLOWER_PRESSURE, "without pressure that follows") \
+    X(OST_VARIANT_NO_EIGENSTRAIN, OST_EFFECT_EIGENSTRAIN, "without eigenstrain")              \
+    X(OST_VARIANT_NO_FOUNDATION, OST_EFFECT_FOUNDATION, "without elastic foundation")         \
+    X(OST_VARIANT_NO_SPRINGS, OST_EFFECT_SPRINGS, "without springs")                          \
+    X(OST_VARIANT_LINEAR, OST_EFFECT_LARGE_ROTATION, "linear theory for large rotation")      \
     X(OST_VARIANT_LARGE_ROTATION, OST_EFFECT_LARGE_ROTATION, "large rotation for linear theory")
 
 #define OST_VARIANT_ENUM(name, effect, label) name,

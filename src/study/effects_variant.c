@@ -121,7 +121,7 @@ static OstStatus state_materials(const OstScene *scene, OstVariant variant, cons
         made->region = regions->name[r];
         made->material = scene->field->material[from];
         if (variant == OST_VARIANT_ISOTROPIC) {
-            made->axes = (OstAxesSpec){.kind = OST_AXES_NONE};
+            /* the axes stay: an eigenstrain lies along them */
             OST_TRY(isotropic_mean(scene->ctx, &scene->field->material[r], &made->material));
         } else if (variant == OST_VARIANT_ONE_FRAME && ost_axes_vary(&made->axes) && mean[r].volume > 0.0) {
             made->axes = (OstAxesSpec){.kind = OST_AXES_FIXED};

@@ -43,7 +43,7 @@ static void a_bare_isotropic_body_calls_for_nothing(void **state)
     assert_effect(OST_EFFECT_SURFACE_LOAD, 0, "there is no load");
     assert_effect(OST_EFFECT_BODY_FORCE, 0, "there is no load");
     assert_effect(OST_EFFECT_LARGE_ROTATION, 1,
-                  "auto: a linear solve, and Newton's method (consistent) if linear theory is off by more than 2 %");
+                  "auto: a linear solve, then Newton's method (consistent) where that is off by more than 2 %");
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e),
                          e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION);
@@ -59,7 +59,7 @@ static void large_rotations_are_explained(void **state)
     assert_effect(OST_EFFECT_LARGE_ROTATION, 1, "the case says so: Newton's method, classical formulation");
     make_plan(CUBE STEEL "accuracy: {relative_error: 0.1}\n");
     assert_effect(OST_EFFECT_LARGE_ROTATION, 1,
-                  "auto: a linear solve, and Newton's method (consistent) if linear theory is off by more than 10 %");
+                  "auto: a linear solve, then Newton's method (consistent) where that is off by more than 10 %");
     make_plan(CUBE STEEL "constraints: free_body\n");
     assert_effect(OST_EFFECT_LARGE_ROTATION, 0, "a free body is solved linearly");
 }

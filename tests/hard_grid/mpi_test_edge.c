@@ -25,7 +25,8 @@ static HardReading read_point(const char *words)
     return reading;
 }
 
-/* Factors miss the softest mode of these bodies, or cannot be had without a shift; rounding moves it by 2 to 6 %. */
+/* Factors miss the softest mode of these bodies, or cannot be had without a shift; rounding moves it by 2 to 6 %, or by
+ * less where it happens to: what is stated is what it did. */
 static void what_holds_a_digit_is_solved(void **state)
 {
     (void)state;
@@ -36,8 +37,9 @@ static void what_holds_a_digit_is_solved(void **state)
         const HardReading reading = read_point(words[k]);
         assert_int_equal(reading.outcome, HARD_SOLVED_TO_ROUNDING);
         assert_true(reading.truth.known && reading.truth.error < 1e-3);
-        assert_true(reading.stated_error > reading.truth.rounded / 3.0);
-        assert_true(reading.stated_error < reading.truth.rounded * 3.0);
+        assert_true(hard_states_its_error(&reading)); /* where the tets' equations could be solved */
+        assert_true(reading.truth.off.known || reading.stated_error > reading.truth.rounded / 3.0);
+        assert_true(reading.truth.off.known || reading.stated_error < reading.truth.rounded * 3.0);
     }
 }
 

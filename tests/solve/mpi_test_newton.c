@@ -136,20 +136,20 @@ static void a_column_is_followed_past_its_buckling(void **state)
     destroy(&solved);
 }
 
-/* A straight column is at rest under any load, but beyond Euler's not stable. */
+/* A straight column is at rest under any load, but beyond Euler's, which is met to 2 %, not stable. */
 static void a_column_without_imperfection_buckles(void **state)
 {
     (void)state;
     const double width = 0.12, height = 0.08, pi = 3.14159265358979;
     for (int beyond = 0; beyond < 2; beyond++) {
-        const double force = (beyond ? 1.1 : 0.95) * pi * pi / 4.0 * bending_stiffness(width, height);
+        const double force = (beyond ? 1.02 : 0.98) * pi * pi / 4.0 * bending_stiffness(width, height);
         Solved solved;
         double tip[3];
-        make_beam(width, height, 8, (const double[3]){-force, 0.0, 0.0}, "large_rotation: on\n", &solved);
+        make_beam(width, height, 12, (const double[3]){-force, 0.0, 0.0}, "large_rotation: on\n", &solved);
         assert_success(ost_scene_solve(solved.scene, &solved.result));
         tip_of(&solved, width, height, tip);
         assert_int_equal(ost_result_newton_report(solved.result)->jumps > 0, beyond);
-        assert_int_equal(fabs(tip[2]) > 0.3, beyond);
+        assert_int_equal(fabs(tip[2]) > 0.1, beyond);
         assert_int_equal(fabs(tip[2]) > 1e-6, beyond);
         destroy(&solved);
     }
