@@ -32,9 +32,7 @@ void ost_context_destroy(OstContext **ctx)
         return;
     ost_progress(*ctx, "", -1.0);
     MPI_Comm_free(&(*ctx)->comm);
-    for (int i = 0; i < (*ctx)->warnings; i++)
-        free((*ctx)->warning[i]);
-    free((*ctx)->warning);
+    ost_forget_warnings(*ctx);
     free(*ctx);
     *ctx = NULL;
 }

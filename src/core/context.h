@@ -36,4 +36,7 @@ void ost_ledger_open(OstContext *ctx);
 /* Books `bytes` more (or, with `freed`, fewer) to an account. */
 void ost_ledger_book(OstContext *ctx, OstAccount account, size_t bytes, int freed);
 
+/* Local. Frees the warnings that are kept (ost_warning). */
+void ost_forget_warnings(OstContext *ctx);
+
 #endif

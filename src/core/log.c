@@ -57,6 +57,15 @@ const char *ost_warning(const OstContext *ctx, int number)
     return ctx->warning[number];
 }
 
+void ost_forget_warnings(OstContext *ctx)
+{
+    for (int i = 0; i < ctx->warnings; i++)
+        free(ctx->warning[i]);
+    free(ctx->warning);
+    ctx->warning = NULL;
+    ctx->warnings = 0;
+}
+
 /* Not booked to the ledger, and left out where memory is short: the warning is printed all the same. */
 static void keep_warning(OstContext *ctx, const char *text)
 {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "fuzz.h"
 
+#include "core/context.h"
+
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -114,6 +116,7 @@ void fuzz_limits_start(OstContext *ctx)
 void fuzz_limits_end(OstContext *ctx, size_t input_bytes)
 {
     set_alarm(0);
+    ost_forget_warnings(ctx);
     const size_t most = memory_most(ctx) - bytes_before;
     const size_t allowed = MEMORY_FACTOR * input_bytes + fuzz_target.constant;
     const size_t left = fuzz_target.library_caches ? ost_ledger_bytes(ctx) : memory_now(ctx) - bytes_before;
