@@ -268,6 +268,8 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "large_rotation: off\nformulation: classical\n",
                    "4:14: formulation says how large rotations are computed, and large_rotation is off; leave out one "
                    "of them");
+    assert_refused(CUBE STEEL "constraints: free_body\nsprings: [{on: {nearest: [0, 0, 0]}, spring: 1}]\n",
+                   "4:10: nothing holds a free body, and springs would; leave out these, or free_body");
     assert_refused(CUBE STEEL "constraints: free_body\nlarge_rotation: on\n",
                    "4:17: a free body is solved linearly: nothing says how far it turns as a whole; constrain six of "
                    "its components, or leave large_rotation out");
