@@ -108,7 +108,8 @@ static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, Ost
     memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
     OST_TRY(ost_agree(scene->ctx, ost_supports_allow_springs(supports)));
     if (spring->kind == OST_SPRING_FOUNDATION)
-        ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness);
+        OST_TRY(
+            ost_agree(scene->ctx, ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness)));
     for (OstLocal i = 0; i < count && spring->kind == OST_SPRING_POINT; i++)
         if (selected[i] < scene->mesh->owned_nodes)
             ost_supports_add_spring(supports, selected[i], &stiffness);
