@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
 #include "core/error.h"
+#include "guard/guard.h"
 #include "problem/scene_data.h"
 
 #include "orthostat/orthostat.h"
@@ -199,6 +200,36 @@ static void a_round_body_turns_in_its_bed(void **state)
         }
 }
 
+/* Springs alone carry the body: what is wrong with their forces is the error of the reactions. */
+static void forces_of_springs_have_the_error_of_reactions(void **state)
+{
+    (void)state;
+    OstCase *c;
+    OstScene *scene;
+    OstProblem *problem;
+    OstErrors errors;
+    assert_success(read_text("large_rotation: off\nmesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+                             "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
+                             "springs: [{on: {boundary: zmin}, foundation: 5}]\n"
+                             "loads: [{on: {boundary: zmax}, total_force: [0, 0, -1]}]\n",
+                             &c));
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_scene_problem(scene, &problem));
+    double *u = calloc(3 * (size_t)scene->mesh->node_count, sizeof *u);
+    double *error = calloc(3 * (size_t)scene->mesh->node_count, sizeof *error);
+    for (OstLocal n = 0; n < scene->mesh->node_count; n++) {
+        u[3 * n + 2] = -0.2;
+        error[3 * n + 2] = 3e-3;
+    }
+    assert_success(ost_guard_errors(problem, u, error, &errors));
+    assert_close(errors.reaction, 3e-3 / 0.2, 1e-12);
+    free(u);
+    free(error);
+    ost_problem_destroy(&problem);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
 /* Multigrid, whose coarse space of linear tets is held by springs alone. */
 static void multigrid_solves_a_body_on_springs(void **state)
 {
@@ -229,6 +260,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_beam_on_a_foundation_bends_as_hetenyi_says),
     cmocka_unit_test(springs_hold_the_directions_they_have),
     cmocka_unit_test(a_round_body_turns_in_its_bed),
+    cmocka_unit_test(forces_of_springs_have_the_error_of_reactions),
     cmocka_unit_test(multigrid_solves_a_body_on_springs),
 };
 
