@@ -4,8 +4,8 @@
 #include "core/index_map.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
-#include "problem/problem.h"
-#include "solve/checkpoint_identity.h"
+#include "problem/identity.h"
+#include "solve/path_data.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -16,7 +16,8 @@
  * that wrote it, on such a machine, takes the same bits from it. */
 typedef struct Header {
     char magic[16];
-    OstPathIdentity identity;
+    OstProblemIdentity problem;
+    uint64_t options, times; /* hashes of the solver's options and of the path's times */
     double t, step;
     int64_t nodes;
     int32_t version, done;
@@ -27,9 +28,31 @@ typedef struct Header {
 enum { VERSION = 2, BLOCK = 65536, NODES = 4096 /* in a message */ };
 static const char magic[16] = "orthostat path";
 
+/* One number after the other, as a struct has gaps. */
+static uint64_t hash_options(const OstSolverOptions *options)
+{
+    const double numbers[] = {options->method,
+                              options->relative_residual,
+                              options->accept_attainable,
+                              options->max_iterations,
+                              options->patience,
+                              options->aggregate_nodes,
+                              options->coarse_aggregate_nodes,
+                              options->smoother_block_nodes,
+                              options->smoother_degree,
+                              options->smoother_ratio,
+                              options->coarsest_unknowns,
+                              options->most_levels,
+                              options->factor_memory,
+                              options->given};
+    return ost_hash(OST_HASH_START, sizeof numbers, numbers);
+}
+
 static OstStatus describe(const OstPath *path, Header *header)
 {
-    *header = (Header){.t = path->state.t,
+    *header = (Header){.options = hash_options(&path->analysis->options),
+                       .times = ost_hash(OST_HASH_START, (size_t)path->count * sizeof(double), path->times),
+                       .t = path->state.t,
                        .step = path->state.step,
                        .nodes = path->problem->mesh->global_nodes,
                        .version = VERSION,
@@ -37,7 +60,7 @@ static OstStatus describe(const OstPath *path, Header *header)
                        .parts = path->nonlinear ? 0 : path->linear.count,
                        .nonlinear = path->nonlinear};
     memcpy(header->magic, magic, sizeof magic);
-    return ost_path_identify(path, &header->identity);
+    return ost_problem_identify(path->problem, &header->problem);
 }
 
 /* What the next step is made from: the parts of linear answers, or the state of Newton's method. */
@@ -235,11 +258,15 @@ static OstStatus check_whole(OstContext *ctx, const char *name, FILE *file)
 static OstStatus check_header(const OstPath *path, const char *name, const Header *found, const Header *expected)
 {
     OstContext *ctx = path->ctx;
-    char why[160];
+    char why[OST_LONGEST_DIFFERENCE];
     if (memcmp(found->magic, magic, sizeof magic) != 0 || found->version != VERSION)
         return raise_damaged(ctx, name, "another version of the program wrote it");
-    if (ost_path_identity_differs(&found->identity, &expected->identity, why))
+    if (found->options != expected->options)
+        return raise_damaged(ctx, name, "the solver's options have changed since");
+    if (ost_problem_differs(&found->problem, &expected->problem, why))
         return raise_damaged(ctx, name, why);
+    if (found->times != expected->times)
+        return raise_damaged(ctx, name, "the path's times have changed since");
     return found->nodes == expected->nodes && found->done >= 0 && found->done <= path->count
                ? OST_SUCCESS
                : raise_damaged(ctx, name, "the mesh has changed since");

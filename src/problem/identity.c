@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "solve/checkpoint_identity.h"
+#include "problem/identity.h"
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -7,7 +7,6 @@
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "material/field_data.h"
-#include "problem/problem.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,40 +15,10 @@
 /* Sums agree if they differ by no more than this share of their terms. */
 static const double same = 1e-9;
 
-/* --- what all ranks know --- */
-
 static uint64_t hash_table(uint64_t hash, const OstTimeTable *table)
 {
     hash = ost_hash(hash, (size_t)table->count * sizeof(double), table->time);
     return ost_hash(hash, (size_t)table->count * sizeof(double), table->factor);
-}
-
-static uint64_t hash_times(const OstPath *path)
-{
-    uint64_t hash = ost_hash(OST_HASH_START, (size_t)path->count * sizeof(double), path->times);
-    for (int k = 0; k < path->problem->timed_count; k++)
-        hash = hash_table(hash, &path->problem->timed[k].table);
-    return hash;
-}
-
-/* One number after the other, as a struct has gaps. */
-static uint64_t hash_options(const OstSolverOptions *options)
-{
-    const double numbers[] = {options->method,
-                              options->relative_residual,
-                              options->accept_attainable,
-                              options->max_iterations,
-                              options->patience,
-                              options->aggregate_nodes,
-                              options->coarse_aggregate_nodes,
-                              options->smoother_block_nodes,
-                              options->smoother_degree,
-                              options->smoother_ratio,
-                              options->coarsest_unknowns,
-                              options->most_levels,
-                              options->factor_memory,
-                              options->given};
-    return ost_hash(OST_HASH_START, sizeof numbers, numbers);
 }
 
 /* --- bits, as this partition has them --- */
@@ -139,6 +108,8 @@ static OstStatus hash_mesh(const OstProblem *problem, uint64_t *hash)
         *hash += ost_hash(OST_HASH_START, (size_t)(mesh->nodes_per_tet + 2) * sizeof *labels, labels);
     }
     OST_TRY(OST_MPI(problem->ctx, MPI_Allreduce(MPI_IN_PLACE, hash, 1, MPI_UINT64_T, MPI_SUM, ost_comm(problem->ctx))));
+    for (int k = 0; k < problem->timed_count; k++)
+        *hash = hash_table(*hash, &problem->timed[k].table);
     for (int r = 0; r < problem->field->region_count; r++)
         *hash = ost_hash(*hash, sizeof(OstOrthotropic), &problem->field->material[r].constants);
     return OST_SUCCESS;
@@ -155,7 +126,7 @@ static double weight_of(OstGlobal label, int component)
 }
 
 /* `first` tells several arrays of one mark apart. */
-static void add(OstPathIdentity *identity, OstMark mark, OstGlobal label, int first, int count, const double *values)
+static void add(OstProblemIdentity *identity, OstMark mark, OstGlobal label, int first, int count, const double *values)
 {
     for (int i = 0; i < count; i++) {
         identity->mark[mark] += weight_of(label, first + i) * values[i];
@@ -163,7 +134,7 @@ static void add(OstPathIdentity *identity, OstMark mark, OstGlobal label, int fi
     }
 }
 
-static void add_supports(OstPathIdentity *identity, const OstSupports *supports, OstLocal node, OstGlobal label,
+static void add_supports(OstProblemIdentity *identity, const OstSupports *supports, OstLocal node, OstGlobal label,
                          int function)
 {
     double projector[9], prescribed[3];
@@ -174,7 +145,7 @@ static void add_supports(OstPathIdentity *identity, const OstSupports *supports,
         add(identity, OST_MARK_SPRING, label, 0, 9, supports->spring + 9 * (size_t)node);
 }
 
-static void add_nodes(OstPathIdentity *identity, const OstProblem *problem)
+static void add_nodes(OstProblemIdentity *identity, const OstProblem *problem)
 {
     const OstMesh *mesh = problem->mesh;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
@@ -191,7 +162,7 @@ static void add_nodes(OstPathIdentity *identity, const OstProblem *problem)
 }
 
 /* By the nodes of the faces, each on its owner. */
-static void add_followers(OstPathIdentity *identity, const OstProblem *problem)
+static void add_followers(OstProblemIdentity *identity, const OstProblem *problem)
 {
     for (const OstFollower *follower = problem->follower; follower; follower = follower->next)
         for (OstLocal i = 0; i < follower->count * follower->nodes_per_face; i++)
@@ -200,7 +171,7 @@ static void add_followers(OstPathIdentity *identity, const OstProblem *problem)
                     1, &follower->pressure);
 }
 
-static void add_tets(OstPathIdentity *identity, const OstProblem *problem)
+static void add_tets(OstProblemIdentity *identity, const OstProblem *problem)
 {
     const OstMaterialField *field = problem->field;
     for (OstLocal t = 0; t < problem->mesh->owned_tets; t++) {
@@ -216,34 +187,30 @@ static void add_tets(OstPathIdentity *identity, const OstProblem *problem)
     }
 }
 
-OstStatus ost_path_identify(const OstPath *path, OstPathIdentity *identity)
+OstStatus ost_problem_identify(const OstProblem *problem, OstProblemIdentity *identity)
 {
-    const OstProblem *problem = path->problem;
-    *identity = (OstPathIdentity){.text = problem->c ? problem->c->text_hash : 0,
-                                  .settings = hash_options(&path->analysis->options),
-                                  .times = hash_times(path),
-                                  .accuracy = problem->accuracy,
-                                  .ranks = ost_size(path->ctx),
-                                  .formulation = problem->beyond_linear,
-                                  .automatic = problem->automatic,
-                                  .count = path->count};
+    *identity = (OstProblemIdentity){.text = problem->c ? problem->c->text_hash : 0,
+                                     .accuracy = problem->accuracy,
+                                     .ranks = ost_size(problem->ctx),
+                                     .formulation = problem->beyond_linear,
+                                     .automatic = problem->automatic};
     OST_TRY(hash_bits(problem, &identity->bits));
     OST_TRY(hash_mesh(problem, &identity->mesh));
     add_nodes(identity, problem);
     add_followers(identity, problem);
     add_tets(identity, problem);
-    OST_TRY(ost_sum(path->ctx, OST_MARKS, identity->mark));
-    return ost_sum(path->ctx, OST_MARKS, identity->size);
+    OST_TRY(ost_sum(problem->ctx, OST_MARKS, identity->mark));
+    return ost_sum(problem->ctx, OST_MARKS, identity->size);
 }
 
-static const char *formulation_words(const OstPathIdentity *identity)
+static const char *formulation_words(const OstProblemIdentity *identity)
 {
     static const char *const words[] = {"large_rotation: off", "formulation: consistent", "formulation: classical"};
     return words[identity->formulation];
 }
 
 /* Of what does not depend on the partition, the first that differs. */
-static const char *what_differs(const OstPathIdentity *found, const OstPathIdentity *expected)
+static const char *what_differs(const OstProblemIdentity *found, const OstProblemIdentity *expected)
 {
     static const char *const words[] = {
 #define OST_MARK_TEXT(name, text) text,
@@ -251,31 +218,28 @@ static const char *what_differs(const OstPathIdentity *found, const OstPathIdent
 #undef OST_MARK_TEXT
     };
     if (found->mesh != expected->mesh)
-        return "mesh or materials have";
+        return "mesh, materials or time tables have";
     for (int m = 0; m < OST_MARKS; m++)
         if (!(fabs(found->mark[m] - expected->mark[m]) <= same * (found->size[m] + expected->size[m])))
             return words[m];
     return found->ranks == expected->ranks && found->bits != expected->bits ? "numbers or the partition have" : NULL;
 }
 
-int ost_path_identity_differs(const OstPathIdentity *found, const OstPathIdentity *expected, char why[160])
+int ost_problem_differs(const OstProblemIdentity *found, const OstProblemIdentity *expected,
+                        char text[OST_LONGEST_DIFFERENCE])
 {
     const char *differs = NULL;
-    why[0] = 0;
+    text[0] = 0;
     if (found->formulation != expected->formulation)
-        snprintf(why, 160, "it was made with %s, and this run has %s", formulation_words(found),
+        snprintf(text, OST_LONGEST_DIFFERENCE, "it was made with %s, and this run has %s", formulation_words(found),
                  formulation_words(expected));
     else if (found->automatic != expected->automatic || found->accuracy != expected->accuracy)
-        snprintf(why, 160, "large_rotation or the accuracy asked for have changed since");
-    else if (found->settings != expected->settings)
-        snprintf(why, 160, "the solver's options have changed since");
+        snprintf(text, OST_LONGEST_DIFFERENCE, "large_rotation or the accuracy asked for have changed since");
     else if (found->text != expected->text)
-        snprintf(why, 160, "it is that of another case, or the case file has changed since");
-    else if (found->times != expected->times || found->count != expected->count)
-        snprintf(why, 160, "the path's times have changed since");
+        snprintf(text, OST_LONGEST_DIFFERENCE, "it is that of another case, or the case file has changed since");
     else
         differs = what_differs(found, expected);
     if (differs)
-        snprintf(why, 160, "%s changed since", differs);
-    return why[0] != 0;
+        snprintf(text, OST_LONGEST_DIFFERENCE, "%s changed since", differs);
+    return text[0] != 0;
 }
