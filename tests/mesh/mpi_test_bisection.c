@@ -115,7 +115,7 @@ static void ten_generations_are_the_same_on_any_number_of_ranks(void **state)
     const double first = worst_quality(twins.mesh);
     for (int generation = 0; generation < 10; generation++) {
         const OstGlobal tets = twins.mesh->global_tets;
-        bisect_twins(&twins, corner, 0.5 * pow(0.75, generation), NULL);
+        bisect_twins(&twins, corner, 1.5 * pow(0.75, generation), NULL);
         assert_true(twins.mesh->global_tets > tets);
         assert_close(total_volume(twins.mesh), 6.0, 1e-12);
         assert_close(surface_area(twins.mesh, vector), 22.0, 1e-12);
