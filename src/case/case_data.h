@@ -95,6 +95,7 @@ typedef struct OstCaseMaterial {
     OstMaterial material;
     double eigenstrain[6]; /* in material axes, 11 22 33 12 23 31, engineering shear; one that has directions makes the
                               material count as not isotropic, so that its axes are kept */
+    int eigenstrained;     /* does the case state one? */
     OstAxesSpec axes;
 } OstCaseMaterial;
 
@@ -159,6 +160,7 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
+    int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
     OstWatch *watches;

@@ -192,26 +192,56 @@ static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, doubl
     return ost_yaml_numbers(yaml, node, count, strain);
 }
 
-/* A strain, or one for each unit of a change (of temperature, of moisture), and the change. */
-static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+/* All eigenstrains of a case follow the same function of time: `table`, 0 where they grow with t. */
+static OstStatus take_table(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material, int table,
+                            OstCase *c)
 {
+    for (const OstCaseMaterial *other = c->materials; other < material; other++)
+        if (other->eigenstrained && c->eigen_table != table)
+            return ost_yaml_raise(yaml, node,
+                                  "this eigenstrain follows another time table than that of region '%.80s' in line %d; "
+                                  "give all eigenstrains the same, or none",
+                                  other->region, other->line);
+    c->eigen_table = table;
+    return OST_SUCCESS;
+}
+
+/* A strain, or one for each unit of a change (of temperature, of moisture), and the change. */
+static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
+{
+    enum { VALUE, PER_UNIT, CHANGE, TIME };
     double *strain = material->eigenstrain;
     double change = 1.0;
-    OstYamlKey keys[] = {{.name = "per_unit", .needed = 1}, {.name = "change", .needed = 1}};
+    int table = 0;
+    OstYamlKey keys[] = {[VALUE] = {.name = "value"},
+                         [PER_UNIT] = {.name = "per_unit"},
+                         [CHANGE] = {.name = "change"},
+                         [TIME] = {.name = "time"}};
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
+        int form;
         OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-        OST_TRY(ost_yaml_number(yaml, keys[1].value, &change));
-        OST_TRY(read_strain(yaml, keys[0].value, strain));
+        OST_TRY(ost_yaml_one_of(yaml, node, keys, CHANGE, &form));
+        if (form == PER_UNIT && !keys[CHANGE].value)
+            return ost_yaml_raise(yaml, node,
+                                  "'per_unit' is a strain for each unit of a change; give the 'change' too");
+        if (form != PER_UNIT && keys[CHANGE].value)
+            return ost_yaml_raise(yaml, keys[CHANGE].value, "'change' belongs to 'per_unit', not to 'value'");
+        if (keys[CHANGE].value)
+            OST_TRY(ost_yaml_number(yaml, keys[CHANGE].value, &change));
+        OST_TRY(read_strain(yaml, keys[form].value, strain));
+        if (keys[TIME].value)
+            OST_TRY(ost_read_time(yaml, keys[TIME].value, c, &table));
     } else
         OST_TRY(read_strain(yaml, node, strain));
     for (int p = 0; p < 6; p++)
         strain[p] *= change;
     if (ost_strain_has_directions(strain))
         material->material.isotropic = 0;
-    return OST_SUCCESS;
+    material->eigenstrained = 1;
+    return take_table(yaml, node, material, table, c);
 }
 
-static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
     OstYamlKey keys[] = {
@@ -246,7 +276,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         ost_yaml_located(yaml, keys[POISSONS].value,
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
-        OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, material));
+        OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 
@@ -261,6 +291,6 @@ OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCa
             .fixed = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .axis = {0, 0, 1}, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_material(yaml, item, &c->materials[i]));
+        OST_TRY(read_material(yaml, item, c, &c->materials[i]));
     return OST_SUCCESS;
 }
