@@ -72,11 +72,14 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (!result->reached)
         return solved;
     const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
-    OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    OstErrors errors = {0};
     if (solved == OST_SUCCESS)
-        OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, &solved_for->errors));
+        OST_TRY(ost_find_errors(problem, linear->stiffness.solver,
+                                &(OstSolved){&result->solve, linear->rhs, linear->v, result->displacement}, &errors));
+    OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
+    solved_for->errors = errors;
     return solved;
 }
 
