@@ -32,6 +32,9 @@ enum {
 typedef struct OstSolverOptions {
     OstMethod method;
     double relative_residual;      /* of the true, unscaled residual */
+    double algebraic_fraction;     /* multigrid stops before that where the error of the equations is this share of the
+                                      discretisation error, both in the norm of the energy, and the latter is estimated
+                                      (OST_FIELD_ERROR); 0: it does not */
     int accept_attainable;         /* take what double precision holds where that is less */
     int max_iterations;            /* over all strategies */
     int patience;                  /* AUTO leaves a strategy that would need more further iterations than this */
