@@ -215,7 +215,8 @@ done:
     return status;
 }
 
-OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, OstErrors *errors)
+OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+                          OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
@@ -229,6 +230,8 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     OST_TRY_DONE(find_residual(&search));
     OST_TRY_DONE(blame_rounding(&search, &is_rounding));
     OST_TRY_DONE(measure(&search, 1.0, errors));
+    if (once)
+        goto done;
     if (largest(errors) > small_error)
         OST_TRY_DONE(measure(&search, 0.1, errors));
     if (is_rounding && largest(errors) > worth_correcting)
