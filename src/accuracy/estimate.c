@@ -219,7 +219,7 @@ static OstStatus find_residual(Search *search, double t, const double *u)
         return OST_SUCCESS;
     OST_THEN(OST_NEW(problem->ctx, &own, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation,
-                                   ost_problem_factor(problem, 0, t), u, own, NULL));
+                                   ost_problem_eigen_share(problem, t), u, own, NULL));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)
         search->force[i] = own[i] - search->force[i];
     OST_FREE(own);

@@ -291,7 +291,7 @@ static void sum_forces(const OstOperator *operator, OstFormulation formulation, 
 void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions)
 {
     const OstProblem *problem = operator->problem;
-    sum_forces(operator, problem->formulation, ost_problem_factor(problem, 0, t), u, NULL, force, of_functions);
+    sum_forces(operator, problem->formulation, ost_problem_eigen_share(problem, t), u, NULL, force, of_functions);
 }
 
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
