@@ -36,9 +36,12 @@ static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan
         goto done;
     OST_TRY_DONE(ost_scene_make_mesh(c, &mesh, &from_file, &materials));
     OST_TRY_DONE(ost_load_effects(c, mesh, load));
+    double surface = 0.0;
+    OST_TRY_DONE(ost_mesh_surface_faces(mesh, &surface));
     const OstPlanMesh facts = {.nodes = mesh->global_nodes,
                                .tets = mesh->global_tets,
                                .quadratic = mesh->nodes_per_tet == 10,
+                               .surface = surface,
                                .regions = &mesh->regions,
                                .materials = from_file,
                                .load = load};
@@ -64,7 +67,8 @@ static OstStatus plan_with_file(OstContext *ctx, const OstCase *c, OstPlan *plan
                          .quadratic = c->order == 0 ? chunk->nodes_per_tet == 10 : c->order == 2,
                          .regions = &chunk->regions,
                          .materials = materials};
-    ost_plan_file_size(c, chunk->nodes_per_tet, &facts.nodes, &facts.tets);
+    OST_TRY_DONE(ost_chunk_surface_faces(chunk, &facts.surface));
+    ost_plan_file_size(c, chunk->nodes_per_tet, &facts.nodes, &facts.tets, &facts.surface);
     OST_TRY_DONE(ost_plan_check_size(c, facts.nodes));
     ost_plan_make(c, &facts, ost_size(ctx), plan);
 done:
@@ -94,11 +98,6 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
     OST_TRY(ost_memory_free(ctx, &plan->facts.free_memory));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     return OST_SUCCESS;
-}
-
-static double total_bytes(const OstPlan *plan)
-{
-    return plan->bytes_mesh + plan->bytes_matrix + plan->bytes_solver + plan->bytes_effects;
 }
 
 static void print_bytes(const char *label, double bytes)
@@ -201,9 +200,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
     print_bytes("effects", plan->bytes_effects);
-    print_bytes("total", total_bytes(plan));
+    print_bytes("total", plan->bytes_in_all);
     print_bytes("free now", plan->facts.free_memory);
-    if (total_bytes(plan) > plan->facts.free_memory)
+    if (plan->bytes_in_all > plan->facts.free_memory)
         puts("  This does not fit: use a coarser mesh, or more machines.");
     print_bytes("output file", plan->bytes_output);
 }
@@ -219,7 +218,7 @@ static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
         (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns,
         "ranks", ranks, "ranks_at_least", plan->least_ranks, "warnings", ost_json_warnings(c->ctx), "bytes", "mesh",
         plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects,
-        "in_all", total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
+        "in_all", plan->bytes_in_all, "free", plan->facts.free_memory, "output_file", plan->bytes_output);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);

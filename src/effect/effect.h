@@ -61,6 +61,7 @@ typedef struct OstEffectFacts {
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
     double nodes, tets, regions; /* of the mesh */
+    double vertices, edges;      /* of its tets */
     unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 
