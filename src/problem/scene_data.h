@@ -20,4 +20,7 @@ struct OstScene {
     const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 
+/* Local. The case's output fields, without those of effects that are off. */
+unsigned ost_scene_result_fields(const OstScene *scene);
+
 #endif
