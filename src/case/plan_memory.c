@@ -131,6 +131,7 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
 {
     const OstMeshCounts *counts = &plan->counts;
     const double recovery = ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
+    const double estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE)->bytes;
     const int q = plan->quadratic;
     plan->least_ranks = least_ranks(counts->blocks, (q ? 10.0 : 4.0) * counts->tets);
     plan->bytes_mesh =
@@ -143,7 +144,7 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     plan->bytes_solver = solver_bytes(plan);
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
-    plan->bytes_in_all =
-        plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects + fmax(plan->bytes_solver - recovery, 0.0);
+    plan->bytes_in_all = plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects - estimate - recovery +
+                         fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery);
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }

@@ -99,9 +99,8 @@ OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces)
         return status;
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
-        const OstGlobal number[3] = {mesh->node_number[node[0]], mesh->node_number[node[1]],
-                                     mesh->node_number[node[2]]};
-        *faces += ost_mesh_owns(mesh, 3, number);
+        const OstGlobal corner[3] = {node[0], node[1], node[2]};
+        *faces += ost_mesh_owns(mesh, 3, corner);
     }
     ost_surface_destroy(&surface);
     return ost_sum(mesh->ctx, 1, faces);
