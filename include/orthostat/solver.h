@@ -106,6 +106,7 @@ typedef struct OstSolveReport {
     int steps; /* strategies tried */
     OstSolveStep step[OST_MAX_STEPS];
     int indefinite;         /* did p·Ap < 0 show that the matrix is? */
+    double nonzeros;        /* of the matrix, over all ranks */
     double algebraic_error; /* |u - u*| in the norm of the energy, sqrt(u·K u), as conjugate gradients tell; 0 if not
                                known */
     double algebraic_bound; /* the same from above, about */

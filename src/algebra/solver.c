@@ -12,6 +12,7 @@
 #include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,6 +32,7 @@ struct OstSolver {
     OstMetric *metric;
     OstDirect *direct;
     OstEpetraMap *map;
+    double nonzeros;         /* of the matrix, over all ranks */
     double stopped_at;       /* error in the norm of the energy where the last solve was stopped; else 0 */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
@@ -212,6 +214,8 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->matrix = matrix;
     made->geometry = *geometry;
     made->options = *options;
+    made->nonzeros = 9.0 * matrix->row_start[matrix->rows];
+    OST_TRY_DONE(ost_sum(ctx, 1, &made->nonzeros));
     OST_TRY_DONE(ost_epetra_map_create(ctx, 3 * matrix->rows, &made->map));
     status = start(made, options);
 done:
@@ -430,6 +434,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
+    report->nonzeros = solver->nonzeros;
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
