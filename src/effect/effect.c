@@ -212,7 +212,7 @@ static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
 {
     const double faces = f->quadratic ? 2.0 * f->tets : 0.0;
     if (f->error_field)
-        on(state, 228.0 * (f->edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
+        on(state, 240.0 * (f->edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
            "the output holds the error of the answer");
     else
         off(state, "the output does not hold the error of the answer");
