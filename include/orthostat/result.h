@@ -51,6 +51,15 @@ typedef struct OstNewtonReport {
     double seconds;           /* of Newton's method */
 } OstNewtonReport;
 
+/* The estimated error of the answer that the mesh and its elements make (not that of the equations, which OstChecks
+ * has): the distance from the solution of the continuous problem. */
+typedef struct OstAnswerError {
+    double energy_norm;  /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
+    double relative;     /* that over |u + e|_E */
+    double displacement; /* largest |e| at a node, over the largest |u + e| */
+    int known;           /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
+} OstAnswerError;
+
 /* One rank's piece of the answer, on one piece of a mesh; the mesh outlives it. */
 typedef struct OstResult OstResult;
 

@@ -3,6 +3,7 @@
 
 #include "algebra/direct/direct.h"
 #include "algebra/krylov/cg.h"
+#include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/multigrid/metric.h"
 #include "algebra/solver_options.h"
@@ -410,5 +411,20 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     const OstStatus status =
         ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    double *scaled = NULL;
+    *found = solver->method != OST_METHOD_AUTO;
+    if (!*found)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
+    current_system(solver, &system, &preconditioner);
+    const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
+    OST_FREE(scaled);
     return status;
 }

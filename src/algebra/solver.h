@@ -57,4 +57,8 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
  */
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
 
+/* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
+ * *found: 0 if the solver has no strategy. */
+OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found);
+
 #endif

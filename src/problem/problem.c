@@ -153,6 +153,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     OstStatus status = create(scene->mesh, scene->field, scene->mesh->node_count, &made);
     if (status != OST_SUCCESS)
         goto done;
+    made->scene = scene;
     made->c = scene->c;
     made->effects = &scene->plan.effects;
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);

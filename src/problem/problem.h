@@ -18,6 +18,7 @@ struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    const OstScene *scene;     /* of which the problem is made, and which outlives it; NULL if there is none */
     const OstCase *c;          /* where supports and loads come from, for messages; may be NULL */
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */

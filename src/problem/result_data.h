@@ -48,6 +48,7 @@ struct OstResult {
     OstNewtonReport newton;
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
+    OstAnswerError answer; /* the error that the mesh makes */
     int reached;        /* is there a displacement? Not if no solver could be made */
     int unfinished;     /* did the solver stop short of the requested residual? */
     OstVerdict verdict; /* no objections: the result is an answer */
