@@ -365,7 +365,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
     return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
 
-static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+static OstStatus solve(OstSolver *solver, const double *f, int from_u, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
     double *scaled = NULL;
@@ -374,7 +374,7 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n)));
     for (size_t i = 0; i < n; i++) {
         scaled[i] = f[i] / size;
-        u[i] = 0.0;
+        u[i] = from_u ? u[i] / size : 0.0;
     }
     const OstStatus status = solve_scaled(solver, scaled, u, report);
     for (size_t i = 0; i < n; i++)
@@ -383,7 +383,7 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     return status;
 }
 
-OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+static OstStatus report_solve(OstSolver *solver, const double *f, int from_u, double *u, OstSolveReport *report)
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
@@ -392,11 +392,21 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     const double start = ost_seconds();
     const double setup = solver->setup_seconds;
-    const OstStatus status = solve(solver, f, u, report);
+    const OstStatus status = solve(solver, f, from_u, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
+}
+
+OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    return report_solve(solver, f, 0, u, report);
+}
+
+OstStatus ost_solver_improve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    return report_solve(solver, f, 1, u, report);
 }
 
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)

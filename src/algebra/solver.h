@@ -52,6 +52,9 @@ void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
  * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
 
+/* Collective. The same from the u given, to the same residual: relative to f, not to what u leaves. */
+OstStatus ost_solver_improve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
 /* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
  * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.
  */

@@ -60,6 +60,22 @@ static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t u
     return OST_SUCCESS;
 }
 
+/* From the start, less what is prescribed. */
+static OstStatus first_solve(const OstAnalysis *analysis, OstSolveReport *report)
+{
+    const OstSystem *system = analysis->problem->system;
+    OstLinear *linear = analysis->work;
+    if (!analysis->start)
+        return ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, report);
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, analysis->start + 3 * (size_t)node, linear->v + 3 * (size_t)row);
+    }
+    return ost_solver_improve(linear->stiffness.solver, linear->rhs, linear->v, report);
+}
+
 static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     const OstProblem *problem = analysis->problem;
@@ -67,7 +83,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
+    const OstStatus solved = first_solve(analysis, &result->solve);
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (!result->reached)

@@ -194,24 +194,24 @@ OstStatus ost_bisection_carry(const OstBisection *bisection, int width, const do
 
 /* --- one generation --- */
 
-static OstStatus split(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+static OstStatus split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                        OstMeshChunk **chunk)
 {
     ost_forest_destroy(&bisection->forest);
     OST_FREE(bisection->leaf_label);
     OST_TRY(ost_forest_create(bisection->mesh, bisection->tag, shape, &bisection->forest));
-    OST_TRY(ost_forest_grow(bisection->forest, marked));
+    OST_TRY(ost_forest_grow(bisection->forest, times));
     OST_TRY(ost_forest_chunk(bisection->forest, chunk, &bisection->leaf_label));
     bisection->curved = bisection->mesh->nodes_per_tet == 10 && !bisection->forest->shape;
     return OST_SUCCESS;
 }
 
-OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                               OstMeshChunk **chunk)
 {
     *chunk = NULL;
     ost_ledger_enter(bisection->ctx, OST_LEDGER_MESH);
-    const OstStatus status = split(bisection, marked, shape, chunk);
+    const OstStatus status = split(bisection, times, shape, chunk);
     if (status != OST_SUCCESS) {
         ost_forest_destroy(&bisection->forest);
         OST_FREE(bisection->leaf_label);
@@ -285,7 +285,7 @@ OstStatus ost_bisection_settle(OstBisection *bisection, OstMesh *mesh)
     return status;
 }
 
-OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                                OstMesh **fine)
 {
     OstContext *ctx = bisection->ctx;
@@ -293,7 +293,7 @@ OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *mar
     OstMeshChunk *chunk = NULL;
     OstMesh *linear = NULL;
     *fine = NULL;
-    OstStatus status = ost_bisection_split(bisection, marked, shape, &chunk);
+    OstStatus status = ost_bisection_split(bisection, times, shape, &chunk);
     if (status == OST_SUCCESS)
         status = ost_mesh_distribute(ctx, &chunk, &linear);
     if (status == OST_SUCCESS && quadratic) {

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "adapt/stage.h"
+
+#include "accuracy/estimate.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "problem/scene_parts.h"
+#include "solve/linear.h"
+#include "solve/recovery.h"
+
+OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
+{
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, stage, 1)));
+    (*stage)->ctx = ctx;
+    return OST_SUCCESS;
+}
+
+void ost_stage_destroy(OstStage **stage)
+{
+    if (!*stage)
+        return;
+    OST_FREE((*stage)->start);
+    OST_FREE((*stage)->tet_error);
+    ost_result_destroy(&(*stage)->result);
+    ost_bisection_destroy(&(*stage)->bisection);
+    ost_scene_destroy(&(*stage)->scene);
+    OST_FREE(*stage);
+}
+
+/* Linear tets first, unless the case says otherwise: they are cheap, and tell whether they are enough. */
+OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
+{
+    stage->c = *c;
+    OST_TRY(ost_scene_create(&stage->c, &stage->scene));
+    return ost_bisection_create(stage->scene->mesh, &stage->bisection);
+}
+
+/* --- solving --- */
+
+/* The solver of the stiffness at the answer is the analysis' own. */
+static OstStatus estimate(OstStage *stage, const OstProblem *problem, const OstAnalysis *analysis)
+{
+    const OstLinear *linear = analysis->work;
+    const OstResult *result = stage->result;
+    const double t = result->newton.used ? result->newton.reached : 1.0;
+    OstEstimate *estimate = NULL;
+    OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &stage->tet_error, stage->scene->mesh->owned_tets)));
+    OstStatus status = ost_estimate_create(problem, &estimate);
+    if (status == OST_SUCCESS)
+        status = ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &stage->error,
+                                   stage->tet_error);
+    ost_estimate_destroy(&estimate);
+    stage->result->answer = stage->error;
+    return status;
+}
+
+OstStatus ost_stage_solve(OstStage *stage)
+{
+    OstProblem *problem = NULL;
+    OstAnalysis *analysis = NULL;
+    OstStatus status = ost_scene_problem(stage->scene, &problem);
+    if (status == OST_SUCCESS)
+        status = ost_analysis_create(problem, &stage->c.solver, &analysis);
+    if (status == OST_SUCCESS) {
+        analysis->start = stage->start;
+        status = ost_analysis_solve(analysis, 0, &stage->result);
+    }
+    if (status == OST_SUCCESS)
+        status = estimate(stage, problem, analysis);
+    ost_analysis_destroy(&analysis);
+    ost_problem_destroy(&problem);
+    OST_FREE(stage->start);
+    return status;
+}
+
+OstStatus ost_stage_finish(OstStage *stage, unsigned fields)
+{
+    const int recovers = ost_effect_on(&stage->scene->plan.effects, OST_EFFECT_RECOVERY);
+    stage->result->asked = recovers ? fields : 0;
+    return ost_agree(stage->ctx, ost_result_recover(stage->result, stage->result->asked));
+}
+
+/* --- refining --- */
+
+/* The answer of linear theory is a start for the next; that of large rotations is not, as each level solves linearly
+ * first. */
+static OstStatus carry_answer(const OstStage *stage, OstStage *next)
+{
+    if (stage->result->newton.used)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(next->ctx, OST_NEW(next->ctx, &next->start, 3 * (size_t)next->scene->mesh->node_count)));
+    return ost_bisection_carry(next->bisection, 3, stage->result->displacement, next->start);
+}
+
+static OstStatus make_finer(OstStage *stage, const unsigned char *times, int order, OstStage *next)
+{
+    const OstShapeSurface surface = ost_scene_surface(&stage->c);
+    OstMeshChunk *chunk = NULL;
+    next->c = stage->c;
+    next->c.order = order;
+    next->c.refinement = 0;
+    next->bisection = stage->bisection;
+    stage->bisection = NULL;
+    OST_TRY(ost_bisection_split(next->bisection, times, &surface, &chunk));
+    OST_TRY(ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene));
+    OST_TRY(ost_bisection_settle(next->bisection, next->scene->mesh));
+    return carry_answer(stage, next);
+}
+
+OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
+{
+    unsigned char *times = NULL;
+    OstStatus status = ost_agree(stage->ctx, OST_NEW(stage->ctx, &times, stage->scene->mesh->owned_tets));
+    if (status == OST_SUCCESS)
+        status = ost_mark(stage->scene->mesh, stage->tet_error, marking, times);
+    OST_FREE(stage->tet_error);
+    if (status == OST_SUCCESS)
+        status = make_finer(stage, times, marking->order, next);
+    OST_FREE(times);
+    return status;
+}
