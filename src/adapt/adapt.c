@@ -20,6 +20,9 @@ static const double most_reduction[3] = {0.0, 2.0, 4.0};
 /* Linear tets are kept where no more than this is missing: refined, they are cheaper than quadratic ones then. */
 static const double linear_is_near = 2.0;
 
+/* A level has at most about this many times the tets: what is marked on a coarse mesh is marked widely. */
+static const double most_growth = 4.0;
+
 /* A level that would have less than this many times the tets is not worth its time. */
 static const double least_growth = 1.15;
 
@@ -84,6 +87,7 @@ static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double
                              .tets = stage->scene->mesh->global_tets,
                              .unknowns = result->unknowns,
                              .error = stage->error,
+                             .strain_energy = result->checks.strain_energy,
                              .iterations = result->solve.iterations,
                              .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
     OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
@@ -111,9 +115,10 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
     const double error = error_of(last);
     const double wanted = fmax(aim * adaption->request, error / most_reduction[order]);
     const double square = last->error.energy_norm * last->error.energy_norm;
+    const double fall = fmin(wanted / error, 1.0);
     return (OstMarking){.order = order,
-                        .target = order == last->order ? square * pow(fmin(wanted / error, 1.0), 2.0) : square,
-                        .most_tets = growth * (double)last->tets};
+                        .target = order == last->order ? square * fall * fall : square,
+                        .most_tets = fmin(growth, most_growth) * (double)last->tets};
 }
 
 /* Goes on to the next level, unless a limit is in the way (`end`). */

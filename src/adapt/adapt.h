@@ -17,6 +17,7 @@ typedef struct OstAdaptLevel {
     int order;
     OstGlobal tets, unknowns;
     OstAnswerError error; /* estimated */
+    double strain_energy;
     int iterations;
     double seconds; /* from the refinement to the estimate */
     double bytes;   /* peak so far, of Orthostat's arrays */

@@ -6,64 +6,86 @@
 
 #include <math.h>
 
-/* Cuts of a tet until a child's share is at most `share`. */
-static int cuts(const OstMarking *marking, double error, double share)
+double ost_smooth_fall(int order)
 {
-    const double fall = 2.0 * marking->order / 3.0 + 1.0; /* of a child's share in one cut, as a power of 1/2 */
-    if (!(error > share))
-        return 0;
-    return (int)fmin(ceil(log2(error / share) / fall), OST_MOST_CUTS);
+    return 2.0 * order / 3.0 + 1.0;
 }
 
-/* Collective. What is expected if no share is to be above this one. */
-static OstStatus expect(const OstMesh *mesh, const double *error, double share, OstMarking *marking)
+double ost_found_fall(int order, double before, double after, int cuts)
 {
+    const double least = 0.4; /* less is noise: children at the end of a crack have 2^-0.67 of the share */
+    if (!(after > 0.0))
+        return ost_smooth_fall(order);
+    return fmin(fmax(log2(before / after) / cuts, least), ost_smooth_fall(order));
+}
+
+/* What is to be marked. */
+typedef struct Shares {
+    const OstMesh *mesh;
+    const double *error, *fall;
+} Shares;
+
+/* Cuts of a tet until a child's share is at most `share`. */
+static int cuts(const Shares *shares, OstLocal tet, double share)
+{
+    if (!(shares->error[tet] > share))
+        return 0;
+    return (int)fmin(ceil(log2(shares->error[tet] / share) / shares->fall[tet]), OST_MOST_CUTS);
+}
+
+/* Collective. What is expected if no share is to be above this one. The children together have 2^(-2 order / 3) of the
+ * share in each cut where the solution is smooth, and near an edge about the same part of the power of one child. */
+static OstStatus expect(const Shares *shares, double share, OstMarking *marking)
+{
+    const double together = 2.0 * marking->order / 3.0 / ost_smooth_fall(marking->order);
     double sum[2] = {0.0, 0.0};
-    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
-        const int times = cuts(marking, error[t], share);
+    for (OstLocal t = 0; t < shares->mesh->owned_tets; t++) {
+        const int times = cuts(shares, t, share);
         sum[0] += ldexp(1.0, times);
-        sum[1] += error[t] * exp2(-2.0 * marking->order / 3.0 * times);
+        sum[1] += shares->error[t] * exp2(-together * shares->fall[t] * times);
     }
-    OST_TRY(ost_sum(mesh->ctx, 2, sum));
+    OST_TRY(ost_sum(shares->mesh->ctx, 2, sum));
     marking->expected_tets = sum[0];
     marking->expected_square = sum[1];
     return OST_SUCCESS;
 }
 
-/* The largest share that meets the target; where that takes too many tets, the smallest that does not. */
-static OstStatus find_share(const OstMesh *mesh, const double *error, double most, OstMarking *marking, double *share)
+/* The largest share that is expected to meet the target, above `least` and with no more tets than allowed. */
+static OstStatus find_share(const Shares *shares, double least, double most, OstMarking *marking, double *share)
 {
-    enum { STEPS = 40 };
-    double low = -100.0, high = 0.0; /* powers of 2, of the largest share */
+    enum { STEPS = 30 };
+    double low = log2(least), high = log2(most);
     for (int step = 0; step < STEPS; step++) {
         const double middle = 0.5 * (low + high);
-        OST_TRY(expect(mesh, error, most * exp2(middle), marking));
-        const int too_many = marking->expected_tets > marking->most_tets;
-        if (too_many || marking->expected_square <= marking->target)
+        OST_TRY(expect(shares, exp2(middle), marking));
+        if (marking->expected_tets > marking->most_tets || marking->expected_square <= marking->target)
             low = middle;
         else
             high = middle;
     }
-    *share = most * exp2(low);
-    OST_TRY(expect(mesh, error, *share, marking));
-    if (marking->expected_tets > marking->most_tets) {
-        *share = most * exp2(high);
-        return expect(mesh, error, *share, marking);
-    }
-    return OST_SUCCESS;
+    *share = exp2(low);
+    OST_TRY(expect(shares, *share, marking));
+    if (marking->expected_tets <= marking->most_tets)
+        return OST_SUCCESS;
+    *share = exp2(high);
+    return expect(shares, *share, marking);
 }
 
-OstStatus ost_mark(const OstMesh *mesh, const double *error, OstMarking *marking, unsigned char *times)
+OstStatus ost_mark(const OstMesh *mesh, const double *error, const double *fall, OstMarking *marking,
+                   unsigned char *times)
 {
-    double most = 0.0, share = 0.0;
+    const Shares shares = {mesh, error, fall};
+    double bound[2] = {0.0, 0.0}; /* the largest share, and the least that all tets can reach in one level */
+    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
+        bound[0] = fmax(bound[0], error[t]);
+        bound[1] = fmax(bound[1], error[t] * exp2(-OST_MOST_CUTS * fall[t]));
+    }
+    OST_TRY(ost_max(mesh->ctx, 2, bound));
+    double share = bound[0];
+    OST_TRY(expect(&shares, share, marking));
+    if (marking->expected_square > marking->target && bound[1] > 0.0)
+        OST_TRY(find_share(&shares, bound[1], bound[0], marking, &share));
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
-        most = fmax(most, error[t]);
-    OST_TRY(ost_max(mesh->ctx, 1, &most));
-    share = most; /* no tet is cut */
-    OST_TRY(expect(mesh, error, share, marking));
-    if (marking->expected_square > marking->target)
-        OST_TRY(find_share(mesh, error, most, marking, &share));
-    for (OstLocal t = 0; t < mesh->owned_tets; t++)
-        times[t] = (unsigned char)cuts(marking, error[t], share);
+        times[t] = (unsigned char)cuts(&shares, t, share);
     return OST_SUCCESS;
 }

@@ -4,9 +4,9 @@
 
 #include "mesh/mesh_data.h"
 
-/* How often each tet is to be cut. `error` is each own tet's share of the squared error, `order` that of the elements:
- * a cut of smooth functions is expected to leave 2^(-2 order / 3) of a tet's share, half in each child. The shares of
- * the new tets are to be about equal, since so the fewest tets have a given error. */
+/* How often each tet is to be cut. The shares of the new tets in the squared error are to be about equal, since so the
+ * fewest tets have a given error. A cut of smooth functions leaves 2^-(2 order / 3 + 1) of a tet's share in each child;
+ * at corners, edges and forces at points it leaves more, which is learnt from the cuts before. */
 typedef struct OstMarking {
     int order;
     double target;          /* of the squared error over all tets */
@@ -15,11 +15,18 @@ typedef struct OstMarking {
     double expected_square; /* found: the squared error */
 } OstMarking;
 
-/* The most cuts of a tet in one level: edges of a quarter of the length. What is seen of the error there says little
- * about smaller ones. */
-enum { OST_MOST_CUTS = 6 };
+/* The most cuts of a tet in one level: edges of half the length. */
+enum { OST_MOST_CUTS = 3 };
 
-/* Collective. `times`: owned_tets numbers of the caller. */
-OstStatus ost_mark(const OstMesh *mesh, const double *error, OstMarking *marking, unsigned char *times);
+/* Local. By which power of 1/2 a child's share falls in one cut of a tet, where the solution is smooth. */
+double ost_smooth_fall(int order);
+
+/* Local. The same as it was found, from the share of a tet that was cut `cuts` times, and that of the child. */
+double ost_found_fall(int order, double before, double after, int cuts);
+
+/* Collective. `error`: each own tet's share of the squared error; `fall` of each, expected of its next cuts; `times`:
+ * owned_tets numbers of the caller. */
+OstStatus ost_mark(const OstMesh *mesh, const double *error, const double *fall, OstMarking *marking,
+                   unsigned char *times);
 
 #endif

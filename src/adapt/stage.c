@@ -21,6 +21,9 @@ void ost_stage_destroy(OstStage **stage)
         return;
     OST_FREE((*stage)->start);
     OST_FREE((*stage)->tet_error);
+    OST_FREE((*stage)->fall);
+    OST_FREE((*stage)->before);
+    OST_FREE((*stage)->cuts);
     ost_result_destroy(&(*stage)->result);
     ost_bisection_destroy(&(*stage)->bisection);
     ost_scene_destroy(&(*stage)->scene);
@@ -37,6 +40,22 @@ OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 
 /* --- solving --- */
 
+/* What is expected of the next cuts, from what the last ones did. */
+static OstStatus learn(OstStage *stage)
+{
+    const int order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1;
+    OST_TRY(OST_NEW(stage->ctx, &stage->fall, stage->scene->mesh->owned_tets));
+    for (OstLocal t = 0; t < stage->scene->mesh->owned_tets; t++) {
+        const double *before = stage->before ? stage->before + 2 * (size_t)t : NULL;
+        stage->fall[t] = !before               ? ost_smooth_fall(order)
+                         : stage->cuts[t] == 0 ? before[1]
+                                               : ost_found_fall(order, before[0], stage->tet_error[t], stage->cuts[t]);
+    }
+    OST_FREE(stage->before);
+    OST_FREE(stage->cuts);
+    return OST_SUCCESS;
+}
+
 /* The solver of the stiffness at the answer is the analysis' own. */
 static OstStatus estimate(OstStage *stage, const OstProblem *problem, const OstAnalysis *analysis)
 {
@@ -51,7 +70,8 @@ static OstStatus estimate(OstStage *stage, const OstProblem *problem, const OstA
                                    stage->tet_error);
     ost_estimate_destroy(&estimate);
     stage->result->answer = stage->error;
-    return status;
+    OST_THEN(learn(stage));
+    return ost_agree(stage->ctx, status);
 }
 
 OstStatus ost_stage_solve(OstStage *stage)
@@ -92,6 +112,27 @@ static OstStatus carry_answer(const OstStage *stage, OstStage *next)
     return ost_bisection_carry(next->bisection, 3, stage->result->displacement, next->start);
 }
 
+/* Shares are compared between levels of one order. */
+static OstStatus carry_shares(const OstStage *stage, OstStage *next)
+{
+    const size_t old = (size_t)stage->scene->mesh->owned_tets, tets = (size_t)next->scene->mesh->owned_tets;
+    double *pairs = NULL;
+    if (stage->scene->mesh->nodes_per_tet != next->scene->mesh->nodes_per_tet)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(stage->ctx, &pairs, 2 * old);
+    OST_THEN(OST_NEW(stage->ctx, &next->before, 2 * tets));
+    OST_THEN(OST_NEW(stage->ctx, &next->cuts, tets));
+    status = ost_agree(stage->ctx, status);
+    for (size_t t = 0; t < old && status == OST_SUCCESS; t++) {
+        pairs[2 * t] = stage->tet_error[t];
+        pairs[2 * t + 1] = stage->fall[t];
+    }
+    if (status == OST_SUCCESS)
+        status = ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts);
+    OST_FREE(pairs);
+    return status;
+}
+
 static OstStatus make_finer(OstStage *stage, const unsigned char *times, int order, OstStage *next)
 {
     const OstShapeSurface surface = ost_scene_surface(&stage->c);
@@ -104,6 +145,7 @@ static OstStatus make_finer(OstStage *stage, const unsigned char *times, int ord
     OST_TRY(ost_bisection_split(next->bisection, times, &surface, &chunk));
     OST_TRY(ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene));
     OST_TRY(ost_bisection_settle(next->bisection, next->scene->mesh));
+    OST_TRY(carry_shares(stage, next));
     return carry_answer(stage, next);
 }
 
@@ -112,8 +154,7 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
     unsigned char *times = NULL;
     OstStatus status = ost_agree(stage->ctx, OST_NEW(stage->ctx, &times, stage->scene->mesh->owned_tets));
     if (status == OST_SUCCESS)
-        status = ost_mark(stage->scene->mesh, stage->tet_error, marking, times);
-    OST_FREE(stage->tet_error);
+        status = ost_mark(stage->scene->mesh, stage->tet_error, stage->fall, marking, times);
     if (status == OST_SUCCESS)
         status = make_finer(stage, times, marking->order, next);
     OST_FREE(times);

@@ -17,6 +17,9 @@ typedef struct Stage {
     OstResult *result;
     OstAnswerError error;
     double *tet_error; /* each own tet's share of the squared error */
+    double *fall;      /* of that share, expected of each own tet's next cuts */
+    double *before;    /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
+    int *cuts;         /* and how often that was cut */
 } OstStage;
 
 /* Collective, as all that follows. An empty stage. */
