@@ -134,6 +134,11 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
         return OST_SUCCESS;
     OstMarking marking = aim_of(adaption, order, growth);
     OST_TRY(ost_stage_refine(stage, &marking, next));
+    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected with %.2g %% of error, made %lld",
+            marking.expected_tets,
+            100.0 * error_of(&adaption->level[adaption->count - 1]) * sqrt(marking.expected_square) /
+                adaption->level[adaption->count - 1].error.energy_norm,
+            (long long)next->scene->mesh->global_tets);
     OST_TRY(ost_stage_solve(next));
     return note_level(adaption, next, level_start);
 }

@@ -50,24 +50,27 @@ static OstStatus expect(const Shares *shares, double share, OstMarking *marking)
     return OST_SUCCESS;
 }
 
+/* Shares are looked for on this grid, in steps a power of 2: the one that just meets the target would be that of some
+ * tet, and rounding would decide whether it and its likes are cut. */
+static const int grid = 8;
+
 /* The largest share that is expected to meet the target, above `least` and with no more tets than allowed. */
 static OstStatus find_share(const Shares *shares, double least, double most, OstMarking *marking, double *share)
 {
-    enum { STEPS = 30 };
-    double low = log2(least), high = log2(most);
-    for (int step = 0; step < STEPS; step++) {
-        const double middle = 0.5 * (low + high);
-        OST_TRY(expect(shares, exp2(middle), marking));
+    int low = (int)floor(grid * log2(least)), high = (int)ceil(grid * log2(most));
+    while (high - low > 1) {
+        const int middle = low + (high - low) / 2;
+        OST_TRY(expect(shares, exp2((double)middle / grid), marking));
         if (marking->expected_tets > marking->most_tets || marking->expected_square <= marking->target)
             low = middle;
         else
             high = middle;
     }
-    *share = exp2(low);
+    *share = exp2((double)low / grid);
     OST_TRY(expect(shares, *share, marking));
     if (marking->expected_tets <= marking->most_tets)
         return OST_SUCCESS;
-    *share = exp2(high);
+    *share = exp2((double)high / grid);
     return expect(shares, *share, marking);
 }
 
@@ -83,7 +86,7 @@ OstStatus ost_mark(const OstMesh *mesh, const double *error, const double *fall,
     OST_TRY(ost_max(mesh->ctx, 2, bound));
     double share = bound[0];
     OST_TRY(expect(&shares, share, marking));
-    if (marking->expected_square > marking->target && bound[1] > 0.0)
+    if (marking->expected_square > (1.0 + 1e-9) * marking->target && bound[1] > 0.0)
         OST_TRY(find_share(&shares, bound[1], bound[0], marking, &share));
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         times[t] = (unsigned char)cuts(&shares, t, share);
