@@ -9,8 +9,12 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+/* Of |e|_A²: steps end where two of them add less than this share, at this many at most (of nearly incompressible linear
+ * tets, which lock, the first ones find little); gains are taken to fall by no less than this ratio. */
+static const double small_gain = 0.05, largest_ratio = 0.75;
+enum { most_steps = 24 };
 
 struct OstEstimate {
     const OstProblem *problem;
@@ -142,35 +146,52 @@ static OstStatus precondition(Search *search)
     return OST_SUCCESS;
 }
 
+/* One step; `gain` is what it adds to |e|_A². */
+static OstStatus step(Search *search, double *weight, double *gain)
+{
+    double curvature = 0.0, product = 0.0;
+    OST_TRY(multiply(search));
+    OST_TRY(dot(search, search->p, search->q, &curvature));
+    search->failed = !(curvature > 0.0);
+    if (search->failed)
+        return OST_SUCCESS;
+    const double length = *weight / curvature;
+    *gain = length * *weight;
+    for (size_t i = 0; i < search->all; i++) {
+        search->e[i] += length * search->p[i];
+        search->r[i] -= length * search->q[i];
+    }
+    OST_TRY(precondition(search));
+    OST_TRY(dot(search, search->z, search->q, &product));
+    const double turn = -length * product / *weight; /* as if the preconditioner varied (Polak and Ribiere) */
+    OST_TRY(dot(search, search->r, search->z, weight));
+    for (size_t i = 0; i < search->all; i++)
+        search->p[i] = search->z[i] + turn * search->p[i];
+    return OST_SUCCESS;
+}
+
+/* Steps until two of them together add little to |e|_A². What later ones would add is extrapolated. */
 static OstStatus iterate(Search *search, double *square)
 {
-    const int steps = getenv("EST_STEPS") ? atoi(getenv("EST_STEPS")) : 4;
-    double weight = 0.0, curvature = 0.0, product = 0.0;
+    OstContext *ctx = search->estimate->problem->ctx;
+    double weight = 0.0, gain = 0.0, last = 0.0;
     *square = 0.0;
     OST_TRY(precondition(search));
     OST_TRY(dot(search, search->r, search->z, &weight));
     memcpy(search->p, search->z, search->all * sizeof *search->p);
-    for (int k = 0; k < steps && weight > 0.0 && !search->failed; k++) {
-        OST_TRY(multiply(search));
-        OST_TRY(dot(search, search->p, search->q, &curvature));
-        search->failed = !(curvature > 0.0);
+    for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
+        last = gain;
+        OST_TRY(step(search, &weight, &gain));
         if (search->failed)
             return OST_SUCCESS;
-        const double length = weight / curvature;
-        for (size_t i = 0; i < search->all; i++) {
-            search->e[i] += length * search->p[i];
-            search->r[i] -= length * search->q[i];
-        }
-        *square += length * weight;
-        ost_log(search->estimate->problem->ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e after %.3e more", k + 1,
-                sqrt(*square), length * weight / *square);
-        OST_TRY(precondition(search));
-        OST_TRY(dot(search, search->z, search->q, &product));
-        const double turn = -length * product / weight;
-        OST_TRY(dot(search, search->r, search->z, &weight));
-        for (size_t i = 0; i < search->all; i++)
-            search->p[i] = search->z[i] + turn * search->p[i];
+        *square += gain;
+        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, a share of %.1e new", k + 1, sqrt(*square),
+                gain / *square);
+        if (k > 0 && gain + last <= small_gain * *square)
+            break;
     }
+    const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
+    *square += gain * ratio / (1.0 - ratio);
     search->failed |= !(weight >= 0.0) || !isfinite(weight);
     return OST_SUCCESS;
 }

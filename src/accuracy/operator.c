@@ -110,38 +110,40 @@ static inline void evaluate(const Cells *cells, const OstElement *element, int q
 
 /* --- forces --- */
 
-/* The first Piola stress at a displacement gradient (row-major), times the volume. */
+/* The strain of a displacement gradient (row-major), less the eigenstrain. */
+static void find_strain(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9], OstPolar *polar,
+                        OstSimd elastic[6])
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd strain[6];
+    for (int i = 0; i < 3 && formulation == OST_FORMULATION_LINEAR; i++) {
+        const int next = (i + 1) % 3;
+        strain[i] = slope[4 * i];
+        strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
+    }
+    if (formulation != OST_FORMULATION_LINEAR) {
+        ost_polar(slope, polar);
+        ost_biot_strain(polar, strain);
+    }
+    ost_elastic_strain(elasticity, ost_elasticity_at(elasticity, q), strain, elastic);
+}
+
+/* The first Piola stress, times the volume; `mean` is that of the stiff mode over the tet. */
 static void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
-                        const OstSimd *volume, OstSimd piola[9])
+                        const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     const OstElasticity *elasticity = &cells->batch.elasticity;
     const int at = ost_elasticity_at(elasticity, q);
-    OstSimd strain[6], elastic[6], stress[6];
+    OstSimd elastic[6], stress[6];
     OstPolar polar;
-    if (formulation == OST_FORMULATION_LINEAR) {
-        for (int i = 0; i < 3; i++) {
-            const int next = (i + 1) % 3;
-            strain[i] = slope[4 * i];
-            strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
-        }
-    } else {
-        ost_polar(slope, &polar);
-        ost_biot_strain(&polar, strain);
-    }
-    ost_elastic_strain(elasticity, at, strain, elastic);
+    find_strain(cells, formulation, q, slope, &polar, elastic);
     ost_simd_stress(elasticity->c[at], elastic, stress);
-    if (elasticity->by_mean) {
-        OstSimd mode = elasticity->m[at][0] * elastic[0];
-        for (int p = 1; p < 6; p++)
-            mode += elasticity->m[at][p] * elastic[p];
-        for (int p = 0; p < 6; p++)
-            stress[p] += mode * elasticity->m[at][p];
-    }
-    if (formulation == OST_FORMULATION_LINEAR)
-        for (int n = 0; n < 9; n++)
-            piola[n] = stress[place[n]];
-    else
+    for (int p = 0; p < 6 && elasticity->by_mean; p++)
+        stress[p] += *mean * elasticity->m[at][p];
+    for (int n = 0; n < 9 && formulation == OST_FORMULATION_LINEAR; n++)
+        piola[n] = stress[place[n]];
+    if (formulation != OST_FORMULATION_LINEAR)
         ost_biot_piola(&polar, stress, piola);
     for (int n = 0; n < 9; n++)
         piola[n] *= *volume;
@@ -160,20 +162,52 @@ static inline void add_slope(const OstSimd *u, const OstSimd gradient[3], OstSim
             slope[3 * i + j] += u[i] * gradient[j];
 }
 
+/* The displacement gradient at a point; w may be NULL. */
+static inline void find_slope(const Cells *cells, const OstPoint *point, OstSimd gradient[OST_MAX_FUNCTIONS][3],
+                              const OstSimd *u, const OstSimd *w, OstSimd slope[9])
+{
+    ost_displacement_gradient(cells->nodes, point, u, slope);
+    for (int k = 0; k < cells->functions && w; k++)
+        add_slope(w + 3 * k, gradient[k], slope);
+}
+
+/* The mean of m'(strain - e0) over the tets where C is split. */
+static void find_mean(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
+                      const OstSimd *w, OstSimd *mean)
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd volume = {0};
+    *mean = (OstSimd){0};
+    for (int q = 0; q < cells->rule->count; q++) {
+        const OstSimd *m = elasticity->m[ost_elasticity_at(elasticity, q)];
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], elastic[6];
+        OstPoint point;
+        OstPolar polar;
+        evaluate(cells, element, q, &point, gradient);
+        find_slope(cells, &point, gradient, u, w, slope);
+        find_strain(cells, formulation, q, slope, &polar, elastic);
+        volume += point.volume;
+        for (int p = 0; p < 6; p++)
+            *mean += point.volume * m[p] * elastic[p];
+    }
+    *mean /= volume;
+}
+
 /* Forces of a batch; w may be NULL. */
 static void forces_of(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                       const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
+    OstSimd mean = {0};
     memset(at_nodes, 0, 3 * (size_t)cells->nodes * sizeof *at_nodes);
     memset(at_functions, 0, 3 * (size_t)cells->functions * sizeof *at_functions);
+    if (cells->batch.elasticity.by_mean)
+        find_mean(cells, element, formulation, u, w, &mean);
     for (int q = 0; q < cells->rule->count; q++) {
         OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], piola[9];
         OstPoint point;
         evaluate(cells, element, q, &point, gradient);
-        ost_displacement_gradient(cells->nodes, &point, u, slope);
-        for (int k = 0; k < cells->functions && w; k++)
-            add_slope(w + 3 * k, gradient[k], slope);
-        find_stress(cells, formulation, q, slope, &point.volume, piola);
+        find_slope(cells, &point, gradient, u, w, slope);
+        find_stress(cells, formulation, q, slope, &mean, &point.volume, piola);
         for (int a = 0; a < cells->nodes; a++)
             add_along(piola, point.gradient[a], at_nodes + 3 * a);
         for (int k = 0; k < cells->functions; k++)
@@ -237,32 +271,33 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
 
 /* --- the functions' own blocks --- */
 
-/* C at a point, with the stiff mode. */
-static void whole_elasticity(const OstElasticity *elasticity, int at, OstSimd c[OST_ELASTICITY_COUNT])
-{
-    memcpy(c, elasticity->c[at], sizeof elasticity->c[at]);
-    for (int p = 0, n = 0; p < 6 && elasticity->by_mean; p++)
-        for (int q = p; q < 6; q++, n++)
-            c[n] += elasticity->m[at][p] * elasticity->m[at][q];
-}
-
 static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd mode[OST_MAX_FUNCTIONS][3] = {{{0}}}, volume = {0}; /* m'B of the stiff mode, integrated */
     memset(block, 0, OST_MAX_FUNCTIONS * sizeof *block);
     for (int q = 0; q < cells->rule->count; q++) {
-        OstSimd gradient[OST_MAX_FUNCTIONS][3], c[OST_ELASTICITY_COUNT];
+        const int at = ost_elasticity_at(elasticity, q);
+        OstSimd gradient[OST_MAX_FUNCTIONS][3];
         OstPoint point;
         evaluate(cells, element, q, &point, gradient);
-        whole_elasticity(elasticity, ost_elasticity_at(elasticity, q), c);
+        volume += point.volume;
         for (int k = 0; k < cells->functions; k++) {
-            OstSimd stress[6][3], of_point[9];
-            ost_stress_columns(c, gradient[k], stress);
+            OstSimd stress[6][3], of_point[9], of_mode[3];
+            ost_stress_columns(elasticity->c[at], gradient[k], stress);
             ost_block_of_stress(gradient[k], stress, of_point);
             for (int n = 0; n < 9; n++)
                 block[k][n] += point.volume * of_point[n];
+            if (!elasticity->by_mean)
+                continue;
+            ost_force_of_stress(gradient[k], elasticity->m[at], of_mode);
+            for (int i = 0; i < 3; i++)
+                mode[k][i] += point.volume * of_mode[i];
         }
     }
+    for (int k = 0; k < cells->functions && elasticity->by_mean; k++)
+        for (int n = 0; n < 9; n++)
+            block[k][n] += mode[k][n / 3] * mode[k][n % 3] / volume;
 }
 
 /* P (P A P + (I - P) s)^-1 P, s of A's size. */

@@ -86,7 +86,7 @@ static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double
     *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
                              .tets = stage->scene->mesh->global_tets,
                              .unknowns = result->unknowns,
-                             .error = stage->error,
+                             .error = result->answer,
                              .strain_energy = result->checks.strain_energy,
                              .iterations = result->solve.iterations,
                              .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
@@ -194,7 +194,7 @@ static OstStatus adapt(OstAdaption *adaption, const OstCase *c)
     OST_TRY(climb(adaption, c, start));
     if (adaption->end != OST_ADAPT_MET && adaption->end != OST_ADAPT_NO_ESTIMATE)
         foretell(adaption);
-    return ost_stage_finish(adaption->stage, c->output_fields);
+    return ost_stage_finish(adaption->stage);
 }
 
 OstStatus ost_adapt(const OstCase *c, const OstAdaptLimits *limits, OstAdaption **adaption)

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "adapt/stage.h"
 
-#include "accuracy/estimate.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "problem/scene_parts.h"
-#include "solve/linear.h"
 #include "solve/recovery.h"
+#include "solve/strategy.h"
 
 OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
 {
@@ -20,7 +19,6 @@ void ost_stage_destroy(OstStage **stage)
     if (!*stage)
         return;
     OST_FREE((*stage)->start);
-    OST_FREE((*stage)->tet_error);
     OST_FREE((*stage)->fall);
     OST_FREE((*stage)->before);
     OST_FREE((*stage)->cuts);
@@ -40,6 +38,13 @@ OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 
 /* --- solving --- */
 
+/* A tet's share of the squared error. */
+static double share_of(const OstStage *stage, OstLocal tet)
+{
+    const double error = stage->result->tet_error[tet];
+    return error * error;
+}
+
 /* What is expected of the next cuts, from what the last ones did. */
 static OstStatus learn(OstStage *stage)
 {
@@ -49,29 +54,11 @@ static OstStatus learn(OstStage *stage)
         const double *before = stage->before ? stage->before + 2 * (size_t)t : NULL;
         stage->fall[t] = !before               ? ost_smooth_fall(order)
                          : stage->cuts[t] == 0 ? before[1]
-                                               : ost_found_fall(order, before[0], stage->tet_error[t], stage->cuts[t]);
+                                               : ost_found_fall(order, before[0], share_of(stage, t), stage->cuts[t]);
     }
     OST_FREE(stage->before);
     OST_FREE(stage->cuts);
     return OST_SUCCESS;
-}
-
-/* The solver of the stiffness at the answer is the analysis' own. */
-static OstStatus estimate(OstStage *stage, const OstProblem *problem, const OstAnalysis *analysis)
-{
-    const OstLinear *linear = analysis->work;
-    const OstResult *result = stage->result;
-    const double t = result->newton.used ? result->newton.reached : 1.0;
-    OstEstimate *estimate = NULL;
-    OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &stage->tet_error, stage->scene->mesh->owned_tets)));
-    OstStatus status = ost_estimate_create(problem, &estimate);
-    if (status == OST_SUCCESS)
-        status = ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &stage->error,
-                                   stage->tet_error);
-    ost_estimate_destroy(&estimate);
-    stage->result->answer = stage->error;
-    OST_THEN(learn(stage));
-    return ost_agree(stage->ctx, status);
 }
 
 OstStatus ost_stage_solve(OstStage *stage)
@@ -83,20 +70,19 @@ OstStatus ost_stage_solve(OstStage *stage)
         status = ost_analysis_create(problem, &stage->c.solver, &analysis);
     if (status == OST_SUCCESS) {
         analysis->start = stage->start;
-        status = ost_analysis_solve(analysis, 0, &stage->result);
+        status = ost_analysis_solve(analysis, 1U << OST_FIELD_ERROR, &stage->result);
     }
-    if (status == OST_SUCCESS)
-        status = estimate(stage, problem, analysis);
+    if (status == OST_SUCCESS && stage->result->answer.known)
+        status = ost_agree(stage->ctx, learn(stage));
     ost_analysis_destroy(&analysis);
     ost_problem_destroy(&problem);
     OST_FREE(stage->start);
     return status;
 }
 
-OstStatus ost_stage_finish(OstStage *stage, unsigned fields)
+OstStatus ost_stage_finish(OstStage *stage)
 {
-    const int recovers = ost_effect_on(&stage->scene->plan.effects, OST_EFFECT_RECOVERY);
-    stage->result->asked = recovers ? fields : 0;
+    stage->result->asked = ost_scene_result_fields(stage->scene);
     return ost_agree(stage->ctx, ost_result_recover(stage->result, stage->result->asked));
 }
 
@@ -124,7 +110,7 @@ static OstStatus carry_shares(const OstStage *stage, OstStage *next)
     OST_THEN(OST_NEW(stage->ctx, &next->cuts, tets));
     status = ost_agree(stage->ctx, status);
     for (size_t t = 0; t < old && status == OST_SUCCESS; t++) {
-        pairs[2 * t] = stage->tet_error[t];
+        pairs[2 * t] = share_of(stage, (OstLocal)t);
         pairs[2 * t + 1] = stage->fall[t];
     }
     if (status == OST_SUCCESS)
@@ -151,10 +137,17 @@ static OstStatus make_finer(OstStage *stage, const unsigned char *times, int ord
 
 OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 {
+    const OstMesh *mesh = stage->scene->mesh;
     unsigned char *times = NULL;
-    OstStatus status = ost_agree(stage->ctx, OST_NEW(stage->ctx, &times, stage->scene->mesh->owned_tets));
+    double *share = NULL;
+    OstStatus status = OST_NEW(stage->ctx, &times, mesh->owned_tets);
+    OST_THEN(OST_NEW(stage->ctx, &share, mesh->owned_tets));
+    status = ost_agree(stage->ctx, status);
+    for (OstLocal t = 0; status == OST_SUCCESS && t < mesh->owned_tets; t++)
+        share[t] = share_of(stage, t);
     if (status == OST_SUCCESS)
-        status = ost_mark(stage->scene->mesh, stage->tet_error, stage->fall, marking, times);
+        status = ost_mark(mesh, share, stage->fall, marking, times);
+    OST_FREE(share);
     if (status == OST_SUCCESS)
         status = make_finer(stage, times, marking->order, next);
     OST_FREE(times);

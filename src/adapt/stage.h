@@ -15,11 +15,9 @@ typedef struct Stage {
     OstBisection *bisection; /* of the scene's mesh; the finest level has it */
     double *start;           /* the answer of the level before, on this mesh; or NULL */
     OstResult *result;
-    OstAnswerError error;
-    double *tet_error; /* each own tet's share of the squared error */
-    double *fall;      /* of that share, expected of each own tet's next cuts */
-    double *before;    /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
-    int *cuts;         /* and how often that was cut */
+    double *fall;   /* of each own tet's share of the squared error, expected of its next cuts */
+    double *before; /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
+    int *cuts;      /* and how often that was cut */
 } OstStage;
 
 /* Collective, as all that follows. An empty stage. */
@@ -35,7 +33,7 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 /* Solves, and estimates the error. */
 OstStatus ost_stage_solve(OstStage *stage);
 
-/* Completes the result with the fields asked for. */
-OstStatus ost_stage_finish(OstStage *stage, unsigned fields);
+/* Completes the result with the fields that the case asks for. */
+OstStatus ost_stage_finish(OstStage *stage);
 
 #endif

@@ -65,8 +65,8 @@ static double output_bytes(const OstCase *c, const OstPlan *plan)
                         48.0 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     const double tet = 32.0 + 8.0 + 1.0 + 48.0 * ost_plan_writes(c, OST_FIELD_STRESS) +
                        48.0 * ost_plan_writes(c, OST_FIELD_STRAIN) + 8.0 * ost_plan_writes(c, OST_FIELD_ENERGY) +
-                       72.0 * ost_plan_writes(c, OST_FIELD_AXES) + 4.0 * ost_plan_writes(c, OST_FIELD_REGION) +
-                       4.0 * ost_plan_writes(c, OST_FIELD_RANK);
+                       8.0 * ost_plan_writes(c, OST_FIELD_ERROR) + 72.0 * ost_plan_writes(c, OST_FIELD_AXES) +
+                       4.0 * ost_plan_writes(c, OST_FIELD_REGION) + 4.0 * ost_plan_writes(c, OST_FIELD_RANK);
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 

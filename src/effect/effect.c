@@ -214,6 +214,18 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the output holds neither");
 }
 
+/* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers
+ * in the tets. Edges: Euler's formula, as for the matrix. */
+static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
+{
+    const double edges = vertices(f) + f->tets, faces = f->quadratic ? 2.0 * f->tets : 0.0;
+    if (f->error_field)
+        on(state, 204.0 * (edges + faces) + 144.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
+           "the output holds the error of the answer");
+    else
+        off(state, "the output does not hold the error of the answer");
+}
+
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
 {
 #define OST_EFFECT_RULE(name, label, rule) rule(facts, &effects->state[name - OST_EFFECT_FIRST]);

@@ -46,9 +46,23 @@ static void print_solve(const OstResult *result)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }
 
-/* The discretisation error is not in this: the line says "equations", so that nobody takes it for the whole error. */
-static void print_errors(const OstChecks *checks)
+/* "4 %", to two digits; 1e-8 where it is less than a thousandth of that. */
+static const char *percent(double share, char text[24])
 {
+    snprintf(text, 24, share > 1e-5 ? "%.2g %%" : "%.0e", share > 1e-5 ? 100.0 * share : share);
+    return text;
+}
+
+/* The error of the answer first: that of the equations is not the whole of it. */
+static void print_errors(const OstAnswerError *answer, const OstChecks *checks)
+{
+    char energy[24], displacement[24];
+    if (answer->known)
+        printf("  accuracy         answer about %s off in energy norm, %s in the largest displacement; equations "
+               "solved to "
+               "%.0e\n",
+               percent(answer->relative, energy), percent(answer->displacement, displacement),
+               isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
     if (!isfinite(checks->displacement_error))
         return;
     printf("  equations        solved to a relative error of about %.1e in the displacement",
@@ -119,10 +133,30 @@ static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
     return 1;
 }
 
+/* A larger error of the answer is warned of. */
+static const double coarse = 0.05;
+
+static int warn_of_coarse_mesh(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstAnswerError *answer = &result->answer;
+    const OstMesh *mesh = result->mesh;
+    char off[24], share[24], where[160] = "";
+    if (!answer->known || !(answer->relative > coarse))
+        return 0;
+    if (mesh->regions.count > 1)
+        snprintf(where, sizeof where, " in region '%.60s' (%s of it), most", mesh->regions.name[answer->region],
+                 percent(answer->region_share, share));
+    snprintf(text, OST_LONGEST_WARNING,
+             "the mesh is coarse: the answer is about %s off in energy norm; %s the mesh%s near (%.4g, %.4g, %.4g)",
+             percent(answer->relative, off), mesh->nodes_per_tet == 4 ? "set element: {order: 2}, or refine" : "refine",
+             where, answer->place[0], answer->place[1], answer->place[2]);
+    return 1;
+}
+
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
-    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted,
-                                                                  warn_of_jump};
+    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted, warn_of_jump,
+                                                                  warn_of_coarse_mesh};
     text[0] = '\0';
     return warn[number](result, text);
 }
@@ -173,7 +207,7 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     if (checks->linear)
         printf(", energy %.1e", checks->energy_imbalance);
     printf("\n");
-    print_errors(checks);
+    print_errors(&result->answer, checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
     for (int w = 0; w < OST_WARNINGS; w++)

@@ -34,9 +34,9 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
                                  const OstAdaption *adaption, const char *to);
 
 /* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, tets turned
- * inside out, a jump. Returns 0, and leaves the text empty, where the one of this number (below OST_WARNINGS) has no
- * cause. */
-enum { OST_WARNINGS = 3, OST_LONGEST_WARNING = 360 };
+ * inside out, a jump, a coarse mesh. Returns 0, and leaves the text empty, where the one of this number (below
+ * OST_WARNINGS) has no cause. */
+enum { OST_WARNINGS = 4, OST_LONGEST_WARNING = 400 };
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
 
 /* Local. The first of these, of any answer of linear theory. */

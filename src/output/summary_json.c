@@ -71,6 +71,18 @@ static json_t *checks_json(const OstChecks *checks)
         ost_json_number(checks->largest_strain), "largest_rotation", ost_json_number(checks->largest_rotation));
 }
 
+/* The error that the mesh makes; null: not estimated. */
+static json_t *answer_error_json(const OstResult *result)
+{
+    const OstAnswerError *answer = &result->answer;
+    if (!answer->known)
+        return json_null();
+    return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o}", "energy_norm", ost_json_number(answer->energy_norm), "relative",
+                     ost_json_number(answer->relative), "displacement", ost_json_number(answer->displacement),
+                     "worst_region", result->mesh->regions.name[answer->region], "region_share",
+                     ost_json_number(answer->region_share), "worst_place", vector_json(answer->place));
+}
+
 static json_t *large_rotation_json(const OstNewtonReport *newton)
 {
     if (!newton->judged)
@@ -148,15 +160,16 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 {
     const OstMesh *mesh = result->mesh;
     return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
-        scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
+        "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
         warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
         "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
         solver_json(&result->solve), "large_rotation", large_rotation_json(&result->newton), "checks",
-        checks_json(&result->checks), "largest_displacement", ost_json_number(result->largest_displacement),
-        "largest_at", vector_json(result->largest_at), "watched", watched_json(watched, scene->c->watch_count),
-        "effects", ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
+        checks_json(&result->checks), "answer_error", answer_error_json(result), "largest_displacement",
+        ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
+        watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
+        ledger_json(scene->ctx, summary), "output", file);
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,

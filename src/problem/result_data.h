@@ -40,6 +40,7 @@ struct OstResult {
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
+    double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;
     double largest_displacement;

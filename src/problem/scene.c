@@ -271,3 +271,11 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 {
     return scene->field;
 }
+
+unsigned ost_scene_result_fields(const OstScene *scene)
+{
+    const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const OstEffects *effects = &scene->plan.effects;
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
+}

@@ -26,4 +26,7 @@ struct OstScene {
  * outlives the scene. */
 OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMeshChunk **chunk, OstScene **scene);
 
+/* Local. The case's output fields, without those of effects that are off. */
+unsigned ost_scene_result_fields(const OstScene *scene);
+
 #endif

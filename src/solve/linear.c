@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/linear.h"
 
-#include "accuracy/estimate.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -92,18 +91,6 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
-    if (1) {
-        OstEstimate *estimate = NULL;
-        double t0 = ost_seconds(), t1;
-        OST_TRY(ost_estimate_create(problem, &estimate));
-        t1 = ost_seconds();
-        OST_TRY(
-            ost_estimate_find(estimate, linear->stiffness.solver, 1.0, result->displacement, &result->answer, NULL));
-        ost_log(analysis->ctx, OST_LOG_NORMAL, "EST %.6e rel %.4f disp %.4f create %.3f find %.3f",
-                result->answer.energy_norm, result->answer.relative, result->answer.displacement, t1 - t0,
-                ost_seconds() - t1);
-        ost_estimate_destroy(&estimate);
-    }
     if (solved == OST_SUCCESS)
         OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, &solved_for->errors));
     return solved;

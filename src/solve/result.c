@@ -39,6 +39,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
     OST_FREE((*result)->node_stress);
+    OST_FREE((*result)->tet_error);
     OST_FREE(*result);
 }
 
@@ -116,6 +117,16 @@ const double *ost_result_strain_energy_density(const OstResult *result)
 const double *ost_result_node_stress(const OstResult *result)
 {
     return result->node_stress;
+}
+
+const double *ost_result_tet_error(const OstResult *result)
+{
+    return result->tet_error;
+}
+
+const OstAnswerError *ost_result_answer_error(const OstResult *result)
+{
+    return &result->answer;
 }
 
 const OstSolveReport *ost_result_solve_report(const OstResult *result)

@@ -45,6 +45,10 @@ OstStatus ost_analysis_prepare(OstAnalysis *analysis);
 OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus solved, const OstSolvedFor *solved_for,
                                 unsigned fields, OstResult *result);
 
+/* Collective. Estimates the error that the mesh makes in a result whose displacement at t is there, while the solver of
+ * its stiffness lives. OST_EFFECT_ERROR_ESTIMATE. */
+OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result);
+
 /* Local. Marks a result that the solver left unfinished, with its words. */
 void ost_result_take_outcome(OstResult *result, OstStatus solved);
 

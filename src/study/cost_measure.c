@@ -29,6 +29,7 @@ static OstCostPhase phase_of(OstAccount account)
     case OST_LEDGER_SOLVE:
         return OST_COST_SOLVE;
     case OST_EFFECT_RECOVERY:
+    case OST_EFFECT_ERROR_ESTIMATE:
         return OST_COST_REST;
     default:
         return account < OST_LEDGER_PHASES ? OST_COST_REST : OST_COST_ASSEMBLY;

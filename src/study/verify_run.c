@@ -89,7 +89,7 @@ static OstStatus run_level(OstVerifyReport *report, const OstExact *exact, int s
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &run->reading, c->verify->quantity_count)));
     c->order = steps->order;
     c->refinement = run->refinement;
-    c->output_fields = 0;
+    c->output_fields = 1U << OST_FIELD_ERROR;
     return solve_and_measure(c, exact, run);
 }
 
