@@ -28,12 +28,14 @@ void ost_stage_destroy(OstStage **stage)
     OST_FREE(*stage);
 }
 
-/* Linear tets first, unless the case says otherwise: they are cheap, and tell whether they are enough. */
 OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 {
     stage->c = *c;
     OST_TRY(ost_scene_create(&stage->c, &stage->scene));
-    return ost_bisection_create(stage->scene->mesh, &stage->bisection);
+    ost_ledger_enter(c->ctx, OST_EFFECT_ADAPTIVITY);
+    const OstStatus status = ost_bisection_create(stage->scene->mesh, &stage->bisection);
+    ost_ledger_leave(c->ctx);
+    return status;
 }
 
 /* --- solving --- */
@@ -119,17 +121,28 @@ static OstStatus carry_shares(const OstStage *stage, OstStage *next)
     return status;
 }
 
-static OstStatus make_finer(OstStage *stage, const unsigned char *times, int order, OstStage *next)
+/* Cuts the tets that have the error. */
+static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisection, OstMeshChunk **chunk)
 {
+    const OstMesh *mesh = stage->scene->mesh;
     const OstShapeSurface surface = ost_scene_surface(&stage->c);
-    OstMeshChunk *chunk = NULL;
-    next->c = stage->c;
-    next->c.order = order;
-    next->c.refinement = 0;
-    next->bisection = stage->bisection;
-    stage->bisection = NULL;
-    OST_TRY(ost_bisection_split(next->bisection, times, &surface, &chunk));
-    OST_TRY(ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene));
+    unsigned char *times = NULL;
+    double *share = NULL;
+    OstStatus status = OST_NEW(stage->ctx, &times, mesh->owned_tets);
+    OST_THEN(OST_NEW(stage->ctx, &share, mesh->owned_tets));
+    OST_TRY_DONE(ost_agree(stage->ctx, status));
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        share[t] = share_of(stage, t);
+    OST_TRY_DONE(ost_mark(mesh, share, stage->fall, marking, times));
+    OST_TRY_DONE(ost_bisection_split(bisection, times, &surface, chunk));
+done:
+    OST_FREE(times);
+    OST_FREE(share);
+    return status;
+}
+
+static OstStatus carry(const OstStage *stage, OstStage *next)
+{
     OST_TRY(ost_bisection_settle(next->bisection, next->scene->mesh));
     OST_TRY(carry_shares(stage, next));
     return carry_answer(stage, next);
@@ -137,19 +150,21 @@ static OstStatus make_finer(OstStage *stage, const unsigned char *times, int ord
 
 OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 {
-    const OstMesh *mesh = stage->scene->mesh;
-    unsigned char *times = NULL;
-    double *share = NULL;
-    OstStatus status = OST_NEW(stage->ctx, &times, mesh->owned_tets);
-    OST_THEN(OST_NEW(stage->ctx, &share, mesh->owned_tets));
-    status = ost_agree(stage->ctx, status);
-    for (OstLocal t = 0; status == OST_SUCCESS && t < mesh->owned_tets; t++)
-        share[t] = share_of(stage, t);
+    OstContext *ctx = stage->ctx;
+    OstMeshChunk *chunk = NULL;
+    next->c = stage->c;
+    next->c.order = marking->order;
+    next->c.refinement = 0;
+    next->bisection = stage->bisection;
+    stage->bisection = NULL;
+    ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
+    OstStatus status = cut(stage, marking, next->bisection, &chunk);
+    ost_ledger_leave(ctx);
     if (status == OST_SUCCESS)
-        status = ost_mark(mesh, share, stage->fall, marking, times);
-    OST_FREE(share);
+        status = ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene);
+    ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
     if (status == OST_SUCCESS)
-        status = make_finer(stage, times, marking->order, next);
-    OST_FREE(times);
+        status = carry(stage, next);
+    ost_ledger_leave(ctx);
     return status;
 }
