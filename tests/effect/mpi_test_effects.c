@@ -40,6 +40,7 @@
 #define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
 #define ACCURATE "accuracy: {relative_error: 0.1}\n"
+#define ERROR_FIELD "output: {fields: [displacement, error]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {
@@ -71,6 +72,7 @@ static const struct {
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_ADAPTIVITY) = {BLOCK SOFT HELD PULLED NO_FIELDS ACCURATE, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_ERROR_ESTIMATE) = {BLOCK SOFT HELD PULLED ERROR_FIELD, BLOCK SOFT HELD PULLED ALL_FIELDS},
 #undef ROW
 };
 
