@@ -69,7 +69,8 @@ static int seem_lost(const OstErrors *errors)
     return of_forces(errors) > large_error && of_forces(errors) > 2.0 * errors->displacement;
 }
 
-OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, OstErrors *errors)
+OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, int once,
+                          OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
@@ -81,6 +82,8 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const do
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));
     OST_TRY_DONE(measure(&search, 1.0, errors));
+    if (once)
+        goto done;
     if (errors->known && fmax(errors->displacement, of_forces(errors)) > small_error)
         OST_TRY_DONE(measure(&search, 0.1, errors));
     for (double missing = 1e-3; missing > 1e-8 && errors->known && seem_lost(errors); missing *= 1e-2)

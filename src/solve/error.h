@@ -10,7 +10,8 @@
  * summed tet by tet. That takes differences of displacements between the nodes of a tet, so it is far more exact than
  * the rounded entries of the stiffness: what rounding these has cost is found too. Takes one application of the
  * preconditioner where all errors come out below 1e-6, and some more steps elsewhere. errors->known: 0 where the solver
- * cannot tell. */
-OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, OstErrors *errors);
+ * cannot tell. `once`: never more than the one application. */
+OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const double *displacement, int once,
+                          OstErrors *errors);
 
 #endif

@@ -234,6 +234,7 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const 
 
 void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
 {
+    ost_ledger_multiplied(blocks->ctx, (double)blocks->value_start[blocks->count]);
     if (blocks->size == 3)
         apply_blocks(blocks, 3, step, r);
     else
