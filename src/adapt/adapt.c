@@ -10,9 +10,10 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A mesh is refined for this share of the error that is asked for, so that an estimate that is somewhat low, and
- * regions that are less smooth than expected, do not take another level. */
-static const double aim = 0.7;
+/* The estimate is to be within this share of the error that is asked for: it is up to a quarter low near edges and
+ * corners. A mesh is refined for somewhat less, so that regions that are less smooth than expected do not take another
+ * level. */
+static const double safety = 0.75, aim = 0.6;
 
 /* By how much a level may reduce the error, by order: what is expected of finer meshes is not trusted further. */
 static const double most_reduction[3] = {0.0, 2.0, 4.0};
@@ -71,7 +72,7 @@ static void foretell(OstAdaption *adaption)
             log(error_of(&last[-1]) / error_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
         adaption->rate = fmin(fmax(found, 0.05), 1.5 * smooth);
     }
-    const double growth = pow(error_of(last) / adaption->request, 1.0 / adaption->rate);
+    const double growth = pow(error_of(last) / (safety * adaption->request), 1.0 / adaption->rate);
     adaption->needed_unknowns = growth * (double)last->unknowns;
     adaption->needed_seconds = pow(growth, seconds_power) * last->seconds;
     adaption->needed_bytes = memory_beside * growth * last->bytes;
@@ -147,12 +148,10 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
 static int is_over(OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    const int over =
-        !last->error.known || error_of(last) <= adaption->request || adaption->count == OST_MOST_ADAPT_LEVELS;
+    const int met = error_of(last) <= safety * adaption->request;
+    const int over = !last->error.known || met || adaption->count == OST_MOST_ADAPT_LEVELS;
     if (over)
-        adaption->end = !last->error.known                    ? OST_ADAPT_NO_ESTIMATE
-                        : error_of(last) <= adaption->request ? OST_ADAPT_MET
-                                                              : OST_ADAPT_OUT_OF_LEVELS;
+        adaption->end = !last->error.known ? OST_ADAPT_NO_ESTIMATE : met ? OST_ADAPT_MET : OST_ADAPT_OUT_OF_LEVELS;
     return over;
 }
 

@@ -74,7 +74,7 @@ void ost_adaption_print(const OstAdaption *adaption)
     }
     ost_adaption_words(adaption, words);
     if (adaption->end == OST_ADAPT_MET)
-        printf("  accuracy         %.3g %% asked for, about %.2g %% reached\n", 100.0 * adaption->request,
+        printf("  request          %.3g %% asked for, about %.2g %% reached\n", 100.0 * adaption->request,
                100.0 * adaption->level[adaption->count - 1].error.relative);
     else
         printf("  WARNING          %s\n", words);

@@ -43,17 +43,13 @@ static void a_request_is_met_and_not_by_far(void **state)
     (void)state;
     static const double request[2] = {0.1, 0.05};
     OstCase *c = NULL;
-    OstAdaption *fine = adapt(BEAM "accuracy: {relative_error: 0.025}\n", &no_limits, &c);
-    const double left = last_of(fine)->error.relative;
-    const double energy = last_of(fine)->strain_energy / (1.0 - left * left);
-    assert_int_equal(fine->end, OST_ADAPT_MET);
-    end(&fine, &c);
+    const double energy = 0.666362; /* by 222,330 unknowns that are 0.7 % off, and what they miss */
     for (int r = 0; r < 2; r++) {
         char text[1024];
         snprintf(text, sizeof text, BEAM "accuracy: {relative_error: %g}\n", request[r]);
         OstAdaption *adaption = adapt(text, &no_limits, &c);
         assert_int_equal(adaption->end, OST_ADAPT_MET);
-        assert_true(last_of(adaption)->error.relative <= request[r]);
+        assert_true(last_of(adaption)->error.relative <= 0.75 * request[r]);
         assert_true(true_error(adaption, energy) < request[r]);
         assert_true(true_error(adaption, energy) > 0.3 * request[r]);
         assert_int_equal(ost_adaption_result(adaption)->unknowns, last_of(adaption)->unknowns);
@@ -68,19 +64,19 @@ static void levels_start_from_the_last_answer(void **state)
     (void)state;
     OstCase *c = NULL;
     OstAdaption *adaption = adapt(
-        BEAM "accuracy: {relative_error: 0.03, relative_residual: 1e-6}\nsolver: {method: metric}\n", &no_limits, &c);
+        BEAM "accuracy: {relative_error: 0.08, relative_residual: 1e-6}\nsolver: {method: metric}\n", &no_limits, &c);
     OstCase *alone = NULL;
     OstAdaption *once = NULL;
     const int most = last_of(adaption)->iterations;
     assert_int_equal(adaption->end, OST_ADAPT_MET);
-    assert_true(adaption->count > 4);
+    assert_true(adaption->count > 3);
     for (int l = 2; l < adaption->count; l++) {
         assert_true(adaption->level[l].error.relative < adaption->level[l - 1].error.relative);
         assert_true(adaption->level[l].tets > adaption->level[l - 1].tets);
         assert_int_equal(adaption->level[l].order, 2);
     }
-    /* the same mesh, uniformly refined twice, from nothing */
-    once = adapt("element: {order: 2}\nmesh: {block: {size: [3, 1, 1], divisions: [3, 1, 1]}, refine: 2}\n"
+    /* the same mesh, uniformly refined, from nothing */
+    once = adapt("element: {order: 2}\nmesh: {block: {size: [3, 1, 1], divisions: [3, 1, 1]}, refine: 1}\n"
                  "materials: [{region: all, youngs_modulus: [1e6, 1e5, 1e5], poissons_ratio: 0.3}]\n"
                  "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
                  "loads: [{on: {boundary: xmax}, traction: [0, 0, 100]}]\nlarge_rotation: off\n"
