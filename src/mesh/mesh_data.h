@@ -38,8 +38,11 @@ struct OstMeshChunk {
     OstGlobal *node_label; /* numbers as in the file; NULL: 1, 2, 3, ... */
     OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
+    int relabelled;        /* the file's numbers of tets were no use, and were replaced */
     int32_t *tet_region;   /* index into regions */
     double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
+    double *tet_field;     /* NULL, or tet_count × field_width: a field of the file that somebody asked for */
+    int field_width;       /* the same on all ranks; 0 without a field */
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
@@ -64,6 +67,8 @@ struct OstMesh {
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */
     double *tet_axes;       /* NULL, or tet_count × 9 */
+    double *tet_field;      /* NULL, or tet_count × field_width: as in the chunk; children have that of their parent */
+    int field_width;
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;

@@ -95,6 +95,13 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     return solved;
 }
 
+static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
+{
+    const OstLinear *linear = analysis->work;
+    const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
+    return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
+}
+
 /* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
  * energy, of reactions, of rounding. */
 static int is_good_enough(const OstErrors *errors, const OstAnswerError *answer)
@@ -117,7 +124,7 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstResult *result, O
     ost_solve_stop_close(&stop);
     if (solved != OST_SUCCESS || !result->solve.stopped)
         return solved;
-    OST_TRY(ost_find_errors(problem, solver, result->displacement, 1, errors));
+    OST_TRY(find_errors(analysis, result, 1, errors));
     return is_good_enough(errors, &result->answer) ? OST_SUCCESS : run_solver(analysis, NULL, 1, result);
 }
 
@@ -134,10 +141,10 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
         may_stop ? solve_to_stop(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
     if (!result->reached)
         return solved;
+    if (solved == OST_SUCCESS && !result->solve.stopped)
+        OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
     solved_for->errors = errors;
-    if (solved == OST_SUCCESS && !result->solve.stopped)
-        OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, 0, &solved_for->errors));
     return solved;
 }
 
