@@ -20,7 +20,7 @@
 #define JUMPS                                                                      \
     "materials:\n  - {region: block, youngs_modulus: 1000, poissons_ratio: 0.3}\n" \
     "  - {region: core, youngs_modulus: [1e6, 2e4, 1e4], poissons_ratio: 0.2, " TURNED "}\n"
-#define FINE "accuracy: {relative_residual: 1e-10}\noutput: {fields: [error]}\n"
+#define FINE "large_rotation: off\naccuracy: {relative_residual: 1e-10}\noutput: {fields: [error]}\n"
 
 /* Tets of a region `core`, here and there, where the case has a material for it. */
 static void add_core(const OstCase *c, OstMeshChunk *chunk)
@@ -105,6 +105,26 @@ static void true_errors_are_estimated(void **state)
     }
 }
 
+/* A beam whose end turns by 30 degrees: how far is it still to go? */
+static void large_rotations_are_estimated(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "mesh: {block: {size: [10, 1, 1], divisions: [20, 2, 2]}}\n" STEEL HELD
+        "loads: [{on: {boundary: xmax}, traction: [0, 0, 2]}]\nlarge_rotation: on\noutput: {fields: [error]}\n";
+    Answer coarse = solve(text, 1, 0), fine = solve(text, 2, 0);
+    const double far = ost_result_largest_displacement(fine.result, NULL);
+    const double truth = 1.0 - ost_result_largest_displacement(coarse.result, NULL) / far;
+    const OstAnswerError found = *ost_result_answer_error(coarse.result);
+    assert_true(ost_result_newton_report(fine.result)->used && found.known);
+    assert_true(truth > 0.2);
+    if (!(found.displacement > 0.7 * truth && found.displacement < 1.5 * truth))
+        fail_msg("the displacement is off by %g, and by %g as estimated", truth, found.displacement);
+    assert_true(ost_result_answer_error(fine.result)->displacement < 0.02);
+    release(&coarse);
+    release(&fine);
+}
+
 /* Answers that the elements hold have no error, whatever acts on the body. */
 static void exact_answers_have_no_error(void **state)
 {
@@ -174,6 +194,7 @@ static void ranks_agree(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(true_errors_are_estimated),
+    cmocka_unit_test(large_rotations_are_estimated),
     cmocka_unit_test(exact_answers_have_no_error),
     cmocka_unit_test(shares_add_up),
     cmocka_unit_test(ranks_agree),
