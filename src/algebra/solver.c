@@ -12,7 +12,9 @@
 #include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,6 +32,8 @@ struct OstSolver {
     OstMetric *metric;
     OstDirect *direct;
     OstEpetraMap *map;
+    double nonzeros;         /* of the matrix, over all ranks */
+    double stopped_at;       /* error in the norm of the energy where the last solve was stopped; else 0 */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
@@ -210,6 +214,8 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->matrix = matrix;
     made->geometry = *geometry;
     made->options = *options;
+    made->nonzeros = 9.0 * matrix->row_start[matrix->rows];
+    OST_TRY_DONE(ost_sum(ctx, 1, &made->nonzeros));
     OST_TRY_DONE(ost_epetra_map_create(ctx, 3 * matrix->rows, &made->map));
     status = start(made, options);
 done:
@@ -272,6 +278,7 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     const int before = goal->iterations;
     const OstStatus status = improve(solver, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
+                          : goal->enough                 ? "the error is small enough"
                           : goal->end == OST_END_REACHED ? "reached the requested residual"
                                                          : goal->words;
     OstSolveStep *step = note_step(report->step, &report->steps, solver->method, outcome);
@@ -332,8 +339,47 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
     return OST_SUCCESS;
 }
 
+/* The user's stop, for a system solved with f and u divided by `size`. */
+typedef struct ScaledStop {
+    OstErrorStop stop;
+    const OstErrorStop *user;
+    double size;
+    double *u; /* with room for 3 × rows */
+    size_t n;
+    double seconds; /* that the user's took */
+} ScaledStop;
+
+static OstStatus ask_user(void *data, const double *u, double error, double *next)
+{
+    ScaledStop *scaled = data;
+    const double start = ost_seconds();
+    for (size_t i = 0; i < scaled->n; i++)
+        scaled->u[i] = scaled->size * u[i];
+    *next *= scaled->size;
+    const OstStatus status = scaled->user->ask(scaled->user->data, scaled->u, scaled->size * error, next);
+    *next /= scaled->size;
+    scaled->seconds += ost_seconds() - start;
+    return status;
+}
+
+static void report_goal(const OstGoal *goal, double size, OstSolveReport *report)
+{
+    report->iterations = goal->iterations;
+    report->indefinite = goal->indefinite;
+    report->algebraic_error = size * goal->error.estimate;
+    report->algebraic_bound = size * goal->error.bound;
+    report->stopped = goal->enough;
+    report->iterations_saved = ost_goal_saved(goal);
+    if (!(goal->start > 0.0))
+        return;
+    report->relative_residual = goal->norm / goal->start;
+    report->attainable_residual = ost_goal_attainable(goal);
+    report->rounding_limited = goal->end == OST_END_ROUNDING;
+}
+
 /* Solves with f scaled to order 1. */
-static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, const ScaledStop *stop,
+                              OstSolveReport *report)
 {
     OstGoal goal;
     if (solver->method == OST_METHOD_AUTO && solver->matrix->global_rows > 0)
@@ -344,18 +390,14 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;
+    goal.stop = stop->user ? &stop->stop : NULL;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
-    report->iterations = goal.iterations;
     solver->smallest = goal.smallest;
-    report->indefinite = goal.indefinite;
-    if (goal.start > 0.0) {
-        report->relative_residual = goal.norm / goal.start;
-        report->attainable_residual = ost_goal_attainable(&goal);
-        report->rounding_limited = goal.end == OST_END_ROUNDING;
-    }
+    report_goal(&goal, stop->size, report);
+    solver->stopped_at = report->stopped ? report->algebraic_error : 0.0;
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
@@ -368,18 +410,23 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
+    ScaledStop stop = {.stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
     double *scaled = NULL;
-    double size;
-    OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
-    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n)));
+    OST_TRY(ost_vector_size(solver->ctx, n, f, &stop.size));
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n : n)));
     for (size_t i = 0; i < n; i++) {
-        scaled[i] = f[i] / size;
-        u[i] = 0.0;
+        scaled[i] = f[i] / stop.size;
+        u[i] = solver->aim.goes_on ? u[i] / stop.size : 0.0;
     }
-    const OstStatus status = solve_scaled(solver, scaled, u, report);
+    if (stop.user) {
+        stop.u = scaled + n;
+        stop.stop.first = stop.user->first;
+    }
+    const OstStatus status = solve_scaled(solver, scaled, u, &stop, report);
     for (size_t i = 0; i < n; i++)
-        u[i] *= size;
+        u[i] *= stop.size;
     OST_FREE(scaled);
+    report->solve_seconds = -stop.seconds;
     return status;
 }
 
@@ -387,6 +434,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
+    report->nonzeros = solver->nonzeros;
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
@@ -394,9 +442,24 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     const double setup = solver->setup_seconds;
     const OstStatus status = solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
+    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
+}
+
+/* The error that a stopped solve has left: M^-1 r, as large as makes its work on r the error's square. The residual may
+ * hold more than the solve has left; M^-1 r is the least that is taken. */
+static OstStatus error_where_stopped(OstSolver *solver, const double *residual, double *error, int *found)
+{
+    const size_t n = 3 * (size_t)solver->matrix->rows;
+    double work = 0.0;
+    OST_TRY(ost_solver_precondition(solver, residual, error, found));
+    OST_TRY(ost_vector_dot(solver->ctx, n, residual, error, &work));
+    *found = *found && work > 0.0 && isfinite(work);
+    const double factor = *found ? fmax(solver->stopped_at * (solver->stopped_at / work), 1.0) : 1.0;
+    for (size_t i = 0; i < n; i++)
+        error[i] *= factor;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
@@ -409,7 +472,9 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     current_system(solver, &system, &preconditioner);
     const OstStatus status =
-        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
+        solver->stopped_at > 0.0 && missing >= 1.0
+            ? error_where_stopped(solver, residual, error, found)
+            : ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
     return status;
 }

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_SOLVER_H
 
 #include "algebra/krylov/error_of_residual.h"
+#include "algebra/krylov/goal.h"
 #include "algebra/matrix/geometry.h"
 #include "orthostat/solver.h"
 
@@ -27,19 +28,23 @@ typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 
 /* Local. How later solves go about it, in place of the options' relative residual: Newton's method needs little at
- * first. `crude`: the error of the solution is not estimated. `probing`: the matrix may be indefinite, and the first
- * sign of it ends update and solve with OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried
- * otherwise. */
+ * first. `stop`: ends a solve by multigrid before that, where the error in the norm of the energy is small enough; it
+ * lives as long as the aim. `goes_on`: solves begin with the u given and not with 0. `crude`: the error of the solution
+ * is not estimated. `probing`: the matrix may be indefinite, and the first sign of it ends update and solve with
+ * OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried otherwise. */
 typedef struct OstSolverAim {
     double relative_residual; /* 0: the options' */
     int crude, probing;
     OstMethod first; /* an update that rebuilds begins with this strategy, or a later one that the plan names */
+    const OstErrorStop *stop; /* NULL: none */
+    int goes_on;
 } OstSolverAim;
 void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
 
-/* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm.
- * The residual is recomputed from A, u and f; if the recursive one has drifted from it, the iteration continues. f and
- * u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any number of right-hand sides.
+/* Collective. Solves A u = f from u = 0 (but see OstSolverAim) until ||f - A u|| <= options.relative_residual ||f|| in
+ * the unscaled 2-norm. The residual is recomputed from A, u and f; if the recursive one has drifted from it, the
+ * iteration continues. f and u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any
+ * number of right-hand sides.
  *
  * With AUTO the solver gives up a strategy that would need more than options.patience further iterations, whose
  * preconditioner is not positive definite (r·z <= 0), or that gains nothing more. The next one continues from the

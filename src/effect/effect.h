@@ -63,6 +63,7 @@ typedef struct OstEffectFacts {
     int node_fields; /* numbers a node likewise */
     int error_field; /* is the error of the answer among them? */
     double nodes, tets, regions; /* of the mesh */
+    double vertices, edges;      /* of its tets */
     unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 

@@ -30,12 +30,33 @@ static void print_strategies(const OstSolveReport *report)
                report->step[s].seconds, report->step[s].outcome);
 }
 
+/* "4 %", to two digits; 1e-8 where it is less than a thousandth of that. */
+static const char *percent(double share, char text[24])
+{
+    snprintf(text, 24, share > 1e-5 ? "%.2g %%" : "%.0e", share > 1e-5 ? 100.0 * share : share);
+    return text;
+}
+
+/* Why so few iterations. */
+static void print_stop(const OstSolveReport *report, const OstAnswerError *answer)
+{
+    char equations[24], mesh[24];
+    if (!report->stopped || !answer->known)
+        return;
+    const double relative = report->algebraic_error * answer->relative / answer->energy_norm;
+    printf("  stopped          where the equations are %s off in energy norm, and the mesh %s; about %d iteration%s "
+           "saved\n",
+           percent(relative, equations), percent(answer->relative, mesh), report->iterations_saved,
+           plural(report->iterations_saved));
+}
+
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     printf("  engine           %s\n", report->engine);
+    print_stop(report, &result->answer);
     print_strategies(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
@@ -44,13 +65,6 @@ static void print_solve(const OstResult *result)
                report->attainable_residual);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
-}
-
-/* "4 %", to two digits; 1e-8 where it is less than a thousandth of that. */
-static const char *percent(double share, char text[24])
-{
-    snprintf(text, 24, share > 1e-5 ? "%.2g %%" : "%.0e", share > 1e-5 ? 100.0 * share : share);
-    return text;
 }
 
 /* The error of the answer first: that of the equations is not the whole of it. */

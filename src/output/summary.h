@@ -6,14 +6,15 @@
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
-/* The ledger over all ranks: seconds of the slowest rank, sums of bytes. */
+/* The ledger over all ranks: seconds of the slowest rank, sums of bytes and of multiplied entries. */
 typedef struct OstLedgerSummary {
     double seconds[OST_EFFECT_END];
     double peak_bytes[OST_EFFECT_END];
     long entries[OST_EFFECT_END];
-    double total_seconds;      /* since the context was made */
-    double peak_tracked_bytes; /* of our own arrays, all ranks */
-    double peak_process_bytes; /* as the system saw the processes, all ranks */
+    double multiplied[OST_EFFECT_END]; /* entries of matrices */
+    double total_seconds;              /* since the context was made */
+    double peak_tracked_bytes;         /* of our own arrays, all ranks */
+    double peak_process_bytes;         /* as the system saw the processes, all ranks */
 } OstLedgerSummary;
 
 /* Collective. */

@@ -96,21 +96,6 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
     return create_field(mesh, NULL, materials, axes, tet_axes, field);
 }
 
-static OstStatus set_eigenstrain(OstScene *scene)
-{
-    const OstNames *regions = &scene->mesh->regions;
-    double *strain = NULL;
-    OST_TRY(OST_NEW(scene->ctx, &strain, 6 * regions->count));
-    for (int r = 0; r < regions->count; r++) {
-        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
-        if (stated)
-            memcpy(strain + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
-    }
-    const OstStatus status = ost_field_set_eigenstrain(scene->field, strain, 0, NULL);
-    OST_FREE(strain);
-    return status;
-}
-
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
 {
     OstContext *ctx = scene->ctx;
@@ -124,7 +109,7 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
                           gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))
-        status = ost_agree(ctx, set_eigenstrain(scene));
+        status = ost_agree(ctx, ost_scene_set_eigenstrain(scene));
     return status;
 }
 

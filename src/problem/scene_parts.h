@@ -40,4 +40,10 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
  * tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
 
+/* Collective. Reads the field of the mesh file that the case's eigenstrains name, if any, into the chunk. */
+OstStatus ost_scene_read_tet_field(const OstCase *c, OstMeshChunk *chunk);
+
+/* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */
+OstStatus ost_scene_set_eigenstrain(OstScene *scene);
+
 #endif

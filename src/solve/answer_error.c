@@ -44,10 +44,11 @@ static OstStatus estimate_tets(OstEstimate *estimate, OstSolver *solver, double 
 {
     OstContext *ctx = result->ctx;
     double *share = NULL;
-    OstStatus status = OST_NEW(ctx, &result->tet_error, result->mesh->owned_tets);
+    OstStatus status = result->tet_error ? OST_SUCCESS : OST_NEW(ctx, &result->tet_error, result->mesh->owned_tets);
     OST_THEN(OST_NEW(ctx, &share, result->mesh->regions.count));
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_estimate_find(estimate, solver, t, result->displacement, &result->answer, result->tet_error));
+    if (!result->answer.known) /* the solve may have been stopped by it */
+        OST_TRY_DONE(ost_estimate_find(estimate, solver, t, result->displacement, &result->answer, result->tet_error));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     else
@@ -64,7 +65,7 @@ OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult
     const OstLinear *linear = analysis->work;
     OstEstimate *estimate = NULL;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    OstStatus status = ost_estimate_create(analysis->problem, &estimate);
+    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
     OST_THEN(estimate_tets(estimate, linear->stiffness.solver, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);

@@ -81,7 +81,9 @@ static OstStatus take_direction(OstNewton *newton)
 static OstStatus attempt(OstNewton *newton, int definite, double forcing, const double *rhs, int *again)
 {
     const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
-    ost_solver_aim(newton->stiffness->solver, (OstSolverAim){forcing, 1, !definite, newton->method});
+    ost_solver_aim(
+        newton->stiffness->solver,
+        (OstSolverAim){.relative_residual = forcing, .crude = 1, .probing = !definite, .first = newton->method});
     newton->solve.indefinite = 0;
     OST_TRY(update(newton, definite));
     const OstStatus status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);

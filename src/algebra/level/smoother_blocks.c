@@ -236,6 +236,7 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, int fr
 
 void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
 {
+    ost_ledger_multiplied(blocks->ctx, (double)blocks->value_start[blocks->count]);
     if (blocks->size == 3 && step->from_zero)
         apply_blocks(blocks, 3, 1, step, r);
     else if (blocks->size == 3)
