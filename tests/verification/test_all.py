@@ -17,5 +17,4 @@ check("FAIL" not in finished.output, finished.output)
 with open(report, encoding="utf-8") as stream:
     document = json.load(stream)
 check_cases(document["cases"])
-check_drawn("effectivity.png", pictures.numbers_of_effectivity(document), 0.1, "verify")
 check_drawn("verify.png", pictures.numbers_of_verify(document), 0.05, "verify")
