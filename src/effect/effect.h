@@ -65,6 +65,7 @@ typedef struct OstEffectFacts {
     int error_field; /* is the error of the answer among them? */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */
     double nodes, tets, regions; /* of the mesh */
+    double vertices, edges;      /* of its tets */
     unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 
