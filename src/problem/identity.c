@@ -220,7 +220,8 @@ static const char *what_differs(const OstProblemIdentity *found, const OstProble
     if (found->mesh != expected->mesh)
         return "mesh, materials or time tables have";
     for (int m = 0; m < OST_MARKS; m++)
-        if (!(fabs(found->mark[m] - expected->mark[m]) <= same * (found->size[m] + expected->size[m])))
+        if (!(fabs(found->mark[m] - expected->mark[m]) <= same * expected->size[m]) ||
+            !(fabs(found->size[m] - expected->size[m]) <= same * expected->size[m]))
             return words[m];
     return found->ranks == expected->ranks && found->bits != expected->bits ? "numbers or the partition have" : NULL;
 }
