@@ -120,6 +120,11 @@ typedef struct OstSurface {
 OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
 void ost_surface_destroy(OstSurface **surface);
 
+/* Collective. Number of faces on the body's surface: of a mesh, exactly; of a chunk, from a sample of its faces where
+ * it has more than 100,000 tets. */
+OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces);
+OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces);
+
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);
 
