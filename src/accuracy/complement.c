@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/complement.h"
 
-#include "accuracy/complement_halo.h"
+#include "accuracy/function_halo.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -15,98 +15,11 @@ static const double small_share = 1e-9;
 void ost_complement_clear(OstComplement *complement)
 {
     ost_edge_table_clear(&complement->edges);
-    OST_FREE(complement->face_start);
-    OST_FREE(complement->face_high);
-    OST_FREE(complement->face_of_tet);
+    ost_face_table_clear(&complement->faces);
     ost_halo_destroy(&complement->edge_halo);
     ost_halo_destroy(&complement->face_halo);
     OST_FREE(complement->support);
     OST_FREE(complement->projector);
-}
-
-/* --- faces --- */
-
-/* The vertices of a face by ascending global number. */
-static void sort_face(const OstMesh *mesh, const OstLocal *nodes, const int corner[3], OstLocal sorted[3])
-{
-    for (int i = 0; i < 3; i++)
-        sorted[i] = nodes[corner[i]];
-    for (int pass = 0; pass < 3; pass++) {
-        const int i = pass % 2;
-        if (mesh->node_number[sorted[i]] > mesh->node_number[sorted[i + 1]]) {
-            const OstLocal larger = sorted[i];
-            sorted[i] = sorted[i + 1];
-            sorted[i + 1] = larger;
-        }
-    }
-}
-
-OstLocal ost_complement_find_face(const OstComplement *complement, OstLocal edge, OstLocal high)
-{
-    for (OstLocal f = complement->face_start[edge]; f < complement->face_start[edge + 1]; f++)
-        if (complement->face_high[f] == high)
-            return f;
-    return -1;
-}
-
-/* Lists the third vertices of the faces at each edge, once for every tet with the face; `start` has two numbers more
- * than there are edges. */
-static OstStatus list_third_vertices(OstComplement *complement, OstLocal *start)
-{
-    const OstMesh *mesh = complement->mesh;
-    OstLocal *next = start + 1, *edge = NULL, sorted[3];
-    OST_TRY(OST_NEW(mesh->ctx, &edge, 4 * (size_t)mesh->tet_count));
-    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count; k++) {
-        sort_face(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        edge[k] = ost_edge_find(&complement->edges, mesh, sorted[0], sorted[1]);
-        next[edge[k] + 1]++;
-    }
-    for (OstLocal e = 0; e < complement->edges.count; e++)
-        next[e + 1] += next[e];
-    const OstStatus status = OST_NEW(mesh->ctx, &complement->face_high, 4 * (size_t)mesh->tet_count);
-    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count && status == OST_SUCCESS; k++) {
-        sort_face(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        complement->face_high[next[edge[k]]++] = sorted[2];
-    }
-    OST_FREE(edge);
-    return status;
-}
-
-static void remove_repetitions(OstComplement *complement, const OstLocal *start)
-{
-    OstLocal kept = 0;
-    for (OstLocal e = 0; e < complement->edges.count; e++) {
-        complement->face_start[e] = kept;
-        complement->face_start[e + 1] = kept;
-        for (OstLocal k = start[e]; k < start[e + 1]; k++) {
-            const OstLocal high = complement->face_high[k];
-            if (ost_complement_find_face(complement, e, high) >= 0)
-                continue;
-            complement->face_high[kept++] = high;
-            complement->face_start[e + 1] = kept;
-        }
-    }
-    complement->face_count = kept;
-}
-
-static OstStatus make_faces(OstComplement *complement)
-{
-    const OstMesh *mesh = complement->mesh;
-    OstLocal *start = NULL, sorted[3];
-    OstStatus status = OST_NEW(mesh->ctx, &start, (size_t)complement->edges.count + 2);
-    OST_THEN(OST_NEW(mesh->ctx, &complement->face_start, (size_t)complement->edges.count + 1));
-    OST_THEN(OST_NEW(mesh->ctx, &complement->face_of_tet, 4 * (size_t)mesh->tet_count));
-    OST_THEN(list_third_vertices(complement, start));
-    if (status == OST_SUCCESS)
-        remove_repetitions(complement, start);
-    OST_FREE(start);
-    OST_THEN(OST_RESIZE(mesh->ctx, &complement->face_high, complement->face_count));
-    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count && status == OST_SUCCESS; k++) {
-        sort_face(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        const OstLocal edge = ost_edge_find(&complement->edges, mesh, sorted[0], sorted[1]);
-        complement->face_of_tet[k] = ost_complement_find_face(complement, edge, sorted[2]);
-    }
-    return status;
 }
 
 int ost_complement_per_tet(const OstComplement *complement)
@@ -117,8 +30,8 @@ int ost_complement_per_tet(const OstComplement *complement)
 void ost_complement_of_tet(const OstComplement *complement, OstLocal tet, OstLocal *functions)
 {
     memcpy(functions, complement->edges.of_tet + 6 * (size_t)tet, 6 * sizeof *functions);
-    for (size_t f = 0; f < 4 && complement->face_count > 0; f++)
-        functions[6 + f] = complement->edges.count + complement->face_of_tet[4 * (size_t)tet + f];
+    for (size_t f = 0; f < 4 && complement->faces.count > 0; f++)
+        functions[6 + f] = complement->edges.count + complement->faces.of_tet[4 * (size_t)tet + f];
 }
 
 int ost_complement_of_face(const OstComplement *complement, const OstLocal *nodes, OstLocal functions[4])
@@ -128,11 +41,11 @@ int ost_complement_of_face(const OstComplement *complement, const OstLocal *node
     OstLocal sorted[3];
     for (int i = 0; i < 3; i++)
         functions[i] = ost_edge_find(&complement->edges, mesh, nodes[i], nodes[(i + 1) % 3]);
-    if (complement->face_count == 0)
+    if (complement->faces.count == 0)
         return 3;
-    sort_face(mesh, nodes, corner, sorted);
+    ost_face_sort(mesh, nodes, corner, sorted);
     const OstLocal edge = ost_edge_find(&complement->edges, mesh, sorted[0], sorted[1]);
-    functions[3] = complement->edges.count + ost_complement_find_face(complement, edge, sorted[2]);
+    functions[3] = complement->edges.count + ost_face_find(&complement->faces, edge, sorted[2]);
     return 4;
 }
 
@@ -250,11 +163,13 @@ OstStatus ost_complement_create(const OstMesh *mesh, const OstSupports *supports
     *complement = (OstComplement){.mesh = mesh};
     OstStatus status = ost_edge_table_build(mesh, &complement->edges);
     if (status == OST_SUCCESS && mesh->nodes_per_tet == 10)
-        status = make_faces(complement);
+        status = ost_face_table_build(mesh, &complement->edges, &complement->faces);
     OST_TRY(ost_agree(mesh->ctx, status));
-    complement->count = complement->edges.count + complement->face_count;
+    complement->count = complement->edges.count + complement->faces.count;
     complement->owned_edges = complement->edges.start[mesh->owned_nodes];
-    complement->owned_faces = mesh->nodes_per_tet == 10 ? complement->face_start[complement->owned_edges] : 0;
-    OST_TRY(ost_complement_connect(complement));
+    complement->owned_faces = mesh->nodes_per_tet == 10 ? complement->faces.start[complement->owned_edges] : 0;
+    OST_TRY(ost_function_halo(mesh, &complement->edges, NULL, &complement->edge_halo));
+    if (mesh->nodes_per_tet == 10)
+        OST_TRY(ost_function_halo(mesh, &complement->edges, &complement->faces, &complement->face_halo));
     return find_constraints(complement, supports);
 }

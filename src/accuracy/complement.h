@@ -2,9 +2,9 @@
 #ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_H
 #define ORTHOSTAT_ACCURACY_COMPLEMENT_H
 
+#include "accuracy/face_table.h"
 #include "assembly/supports.h"
 #include "element/element.h"
-#include "mesh/refinement/mid_nodes.h"
 
 /* What the next order of elements adds to the mesh's own: one vector-valued function for each edge, and for each face
  * of quadratic tets. In barycentric coordinates: 4 L_a L_b for an edge of linear tets; for quadratic ones 8 L_a L_b
@@ -16,11 +16,8 @@ enum { OST_MAX_FUNCTIONS = 10 }; /* of a tet: 6 edges as ost_tet_edge, 4 faces a
 typedef struct OstComplement {
     const OstMesh *mesh;
     EdgeTable edges;
-    OstLocal face_count;   /* 0 on linear tets */
-    OstLocal *face_start;  /* edges.count + 1: the faces whose two lowest vertices are the ends of an edge */
-    OstLocal *face_high;   /* the third vertex */
-    OstLocal *face_of_tet; /* 4 × tet_count */
-    OstLocal count;        /* edges and faces */
+    FaceTable faces; /* none on linear tets */
+    OstLocal count;  /* edges and faces */
     OstLocal owned_edges, owned_faces;
     struct OstHalo *edge_halo, *face_halo;
     OstLocal *support; /* count: index of its projector, or -1: it is free */

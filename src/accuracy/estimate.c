@@ -11,9 +11,9 @@
 
 #include <string.h>
 
-/* Of |e|_A²: steps end where two of them add less than this share, at this many at most (of nearly incompressible linear
- * tets, which lock, the first ones find little); gains are taken to fall by no less than this ratio. */
-static const double small_gain = 0.05, largest_ratio = 0.75;
+/* Of |e|_A²: steps end where two of them add less than this share, at this many at most (of nearly incompressible
+ * linear tets, which lock, the first ones find little); gains are taken to fall by no less than this ratio. */
+static const double small_gain = 0.1, largest_ratio = 0.75;
 enum { most_steps = 24 };
 
 struct OstEstimate {
@@ -146,27 +146,34 @@ static OstStatus precondition(Search *search)
     return OST_SUCCESS;
 }
 
-/* One step; `gain` is what it adds to |e|_A². */
-static OstStatus step(Search *search, double *weight, double *gain)
+/* Goes along p: `gain` is what that adds to |e|_A², `weight` r·z before. */
+static OstStatus go_on(Search *search, double weight, double *gain)
 {
-    double curvature = 0.0, product = 0.0;
+    double curvature = 0.0;
     OST_TRY(multiply(search));
     OST_TRY(dot(search, search->p, search->q, &curvature));
     search->failed = !(curvature > 0.0);
-    if (search->failed)
-        return OST_SUCCESS;
-    const double length = *weight / curvature;
-    *gain = length * *weight;
+    const double length = search->failed ? 0.0 : weight / curvature;
     for (size_t i = 0; i < search->all; i++) {
         search->e[i] += length * search->p[i];
         search->r[i] -= length * search->q[i];
     }
+    *gain = length * weight;
+    return OST_SUCCESS;
+}
+
+/* The next direction, as if the preconditioner varied (Polak and Ribiere). */
+static OstStatus turn(Search *search, double gain, double *weight)
+{
+    const double before = *weight;
+    double product = 0.0;
     OST_TRY(precondition(search));
-    OST_TRY(dot(search, search->z, search->q, &product));
-    const double turn = -length * product / *weight; /* as if the preconditioner varied (Polak and Ribiere) */
     OST_TRY(dot(search, search->r, search->z, weight));
+    OST_TRY(dot(search, search->z, search->q, &product));
+    const double share = before > 0.0 ? -gain * product / (before * before) : 0.0;
     for (size_t i = 0; i < search->all; i++)
-        search->p[i] = search->z[i] + turn * search->p[i];
+        search->p[i] = search->z[i] + share * search->p[i];
+    search->failed |= !(*weight >= 0.0) || !isfinite(*weight);
     return OST_SUCCESS;
 }
 
@@ -176,23 +183,19 @@ static OstStatus iterate(Search *search, double *square)
     OstContext *ctx = search->estimate->problem->ctx;
     double weight = 0.0, gain = 0.0, last = 0.0;
     *square = 0.0;
-    OST_TRY(precondition(search));
-    OST_TRY(dot(search, search->r, search->z, &weight));
-    memcpy(search->p, search->z, search->all * sizeof *search->p);
+    OST_TRY(turn(search, 0.0, &weight));
     for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
         last = gain;
-        OST_TRY(step(search, &weight, &gain));
-        if (search->failed)
-            return OST_SUCCESS;
+        OST_TRY(go_on(search, weight, &gain));
         *square += gain;
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, a share of %.1e new", k + 1, sqrt(*square),
                 gain / *square);
-        if (k > 0 && gain + last <= small_gain * *square)
+        if (search->failed || (k > 0 && gain + last <= small_gain * *square))
             break;
+        OST_TRY(turn(search, gain, &weight));
     }
     const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
     *square += gain * ratio / (1.0 - ratio);
-    search->failed |= !(weight >= 0.0) || !isfinite(weight);
     return OST_SUCCESS;
 }
 
@@ -211,7 +214,10 @@ static OstStatus find_residual(Search *search, double t, const double *u)
         if (!ost_complement_owns(complement, (OstLocal)k))
             memset(of_functions + 3 * k, 0, 3 * sizeof *of_functions);
     ost_complement_project(complement, of_functions);
-    OstStatus status = OST_NEW(problem->ctx, &own, 3 * (size_t)problem->mesh->owned_nodes);
+    OstStatus status = OST_SUCCESS;
+    if (problem->mesh->nodes_per_tet == 4 && !problem->field->region_formula) /* the same quadrature: r is 0 */
+        return OST_SUCCESS;
+    OST_THEN(OST_NEW(problem->ctx, &own, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation,
                                    ost_problem_factor(problem, 0, t), u, own, NULL));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)

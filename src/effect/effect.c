@@ -220,7 +220,7 @@ static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
 {
     const double edges = vertices(f) + f->tets, faces = f->quadratic ? 2.0 * f->tets : 0.0;
     if (f->error_field)
-        on(state, 204.0 * (edges + faces) + 144.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
+        on(state, 228.0 * (edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
            "the output holds the error of the answer");
     else
         off(state, "the output does not hold the error of the answer");

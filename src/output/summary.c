@@ -176,8 +176,9 @@ int ost_result_warning(const OstResult *result, int number, char text[OST_LONGES
 }
 
 /* What was found out about large rotations, and what was done about them. */
-static void print_large_rotation(const OstNewtonReport *newton)
+static void print_large_rotation(const OstScene *scene, const OstResult *result)
 {
+    const OstNewtonReport *newton = &result->newton;
     char off[32];
     if (!newton->judged)
         return;
@@ -198,7 +199,9 @@ static void print_large_rotation(const OstNewtonReport *newton)
     if (newton->cut_backs > 0)
         printf("                   %d load step%s given up and cut back\n", newton->cut_backs,
                plural(newton->cut_backs));
-    if (newton->reached < 1.0)
+    if (result->unfinished && scene->c->path_steps > 0)
+        printf("                   the path is followed up to t = %.6g\n", newton->reached);
+    else if (result->unfinished)
         printf("                   %.6g of the load is reached\n", newton->reached);
 }
 
@@ -215,7 +218,7 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
            (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
-    print_large_rotation(&result->newton);
+    print_large_rotation(scene, result);
     printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e",
            checks->relative_residual, checks->force_imbalance, checks->moment_imbalance);
     if (checks->linear)

@@ -43,6 +43,7 @@ typedef struct OstEffectRun {
     int large_rotation; /* was it solved for? */
     double pose;        /* largest |u - u0| of a node over the largest |u0| */
     double energy;      /* of the strain energy */
+    double energy_scale;
     OstWatched watched[OST_MOST_WATCHES];
     double watch[OST_MOST_WATCHES]; /* change over the size of the quantity, or of its kind where that is larger */
 } OstEffectRun;

@@ -43,7 +43,7 @@ static OstStatus measure_all(const OstScene *scene, const OstResult *result, con
     const OstVerifyQuantity energy = {.name = "energy", .kind = OST_MEASURE_FIELD, .norm = OST_NORM_ENERGY};
     OstVerifyReading truth = {0};
     OST_TRY(ost_verify_measure(scene, result, exact, &energy, &truth));
-    ost_log(mesh->ctx, OST_LOG_NORMAL, "EFF %s order %d level %d tets %lld true %.4e rel %.4f eff %.3f", scene->c->path, scene->c->order, run->refinement, (long long)run->tets, truth.obtained, truth.error, result->answer.energy_norm / truth.obtained);
+    ost_log(mesh->ctx, OST_LOG_VERBOSE, "EFF %s order %d level %d tets %lld true %.4e rel %.4f eff %.3f", scene->c->path, scene->c->order, run->refinement, (long long)run->tets, truth.obtained, truth.error, result->answer.energy_norm / truth.obtained);
     for (int q = 0; q < verify->quantity_count; q++)
         OST_TRY(ost_verify_measure(scene, result, exact, &verify->quantity[q], &run->reading[q]));
     return OST_SUCCESS;

@@ -38,6 +38,7 @@
 #define ALONG "path: {times: [0.5, 1]}\n"
 #define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
+#define ERROR_FIELD "output: {fields: [displacement, error]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {
@@ -68,6 +69,7 @@ static const struct {
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_ERROR_ESTIMATE) = {BLOCK SOFT HELD PULLED ERROR_FIELD, BLOCK SOFT HELD PULLED ALL_FIELDS},
 #undef ROW
 };
 
