@@ -331,6 +331,7 @@ void ost_case_destroy(OstCase **c)
         return;
     for (int i = 0; i < (*c)->material_count; i++) {
         OST_FREE((*c)->materials[i].region);
+        OST_FREE((*c)->materials[i].eigen_field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)

@@ -90,13 +90,14 @@ static double relative(double square_of_error, double square)
 static OstStatus add_all_stresses(const OstProblem *problem, const double *displacement, const double *error,
                                   double *sums)
 {
+    const double share = ost_problem_eigen_share(problem, 1.0);
     double *zero = NULL;
-    ost_visit_means(problem->mesh, problem->field, 1.0, displacement, add_stresses, &sums[STRESS]);
+    ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
     ost_visit_means(problem->mesh, problem->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
     if (!ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
-    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_eigenstrains, sums);
+    ost_visit_means(problem->mesh, problem->field, share, zero, add_eigenstrains, sums);
     OST_FREE(zero);
     return OST_SUCCESS;
 }
@@ -133,7 +134,8 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
         ost_problem_load(problem, 1.0, NULL, load);
         memcpy(straining, load, n * sizeof *load);
         if (ost_field_is_eigenstrained(problem->field))
-            status = ost_eigenstrain_force(problem->mesh, problem->field, 1.0, straining);
+            status =
+                ost_eigenstrain_force(problem->mesh, problem->field, ost_problem_eigen_share(problem, 1.0), straining);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t i = 0; i < n; i++) {

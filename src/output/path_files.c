@@ -56,10 +56,12 @@ typedef struct History {
     OstPath *path;
 } History;
 
-/* Does a load or a prescribed displacement follow this function of time? */
+/* Does a load, a prescribed displacement or an eigenstrain follow this function of time? */
 static int is_followed(const OstCase *c, int function)
 {
     int followed = 0;
+    for (int i = 0; i < c->material_count; i++)
+        followed |= c->materials[i].eigenstrained && c->eigen_table == function;
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)

@@ -66,6 +66,20 @@ static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t u
     return OST_SUCCESS;
 }
 
+/* Takes the unknowns of the displacement to start from, if there is one. */
+static int take_start(const OstAnalysis *analysis)
+{
+    const OstSystem *system = analysis->problem->system;
+    const OstLinear *linear = analysis->work;
+    for (OstLocal row = 0; analysis->start && row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, analysis->start + 3 * (size_t)node, linear->v + 3 * (size_t)row);
+    }
+    return analysis->start != NULL;
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
@@ -85,6 +99,13 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     return solved;
 }
 
+static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
+{
+    const OstLinear *linear = analysis->work;
+    const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
+    return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
+}
+
 /* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
  * energy, of reactions, of rounding. By how much an error exceeds what is good enough; INFINITY: nobody knows. */
 static double excess(const OstErrors *errors, const OstAnswerError *answer)
@@ -100,10 +121,10 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
 {
     enum { ROUNDS = 3 };
     for (int round = 0; round < ROUNDS; round++) {
-        OST_TRY(run_solver(analysis, &stop->stop, round > 0, result));
+        OST_TRY(run_solver(analysis, &stop->stop, round > 0 || take_start(analysis), result));
         if (!result->solve.stopped)
             return OST_SUCCESS;
-        OST_TRY(ost_find_errors(analysis->problem, stop->solver, result->displacement, 1, errors));
+        OST_TRY(find_errors(analysis, result, 1, errors));
         const double beyond = excess(errors, &result->answer);
         if (beyond <= 1.0)
             return OST_SUCCESS;
@@ -136,13 +157,14 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved = may_stop ? stop_early(analysis, result, &errors) : run_solver(analysis, NULL, 0, result);
+    const OstStatus solved =
+        may_stop ? stop_early(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
     if (!result->reached)
         return solved;
+    if (solved == OST_SUCCESS && !result->solve.stopped)
+        OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
     solved_for->errors = errors;
-    if (solved == OST_SUCCESS && !result->solve.stopped)
-        OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, 0, &solved_for->errors));
     return solved;
 }
 

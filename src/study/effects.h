@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_EFFECTS_H
 #define ORTHOSTAT_STUDY_EFFECTS_H
 
-#include "study/meter.h"
+#include "study/forecast/meter.h"
 #include "study/watch.h"
 
 /* Which effects does a scene call for? The case is solved as it is, and once more for each effect that can be left out

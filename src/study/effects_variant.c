@@ -100,9 +100,13 @@ static OstStatus isotropic_mean(OstContext *ctx, const OstMaterial *material, Os
 /* `stated` is NULL for a material of the mesh file, which has none. */
 static void take_eigenstrain(const OstCaseMaterial *stated, OstCaseMaterial *made)
 {
-    memset(made->eigenstrain, 0, sizeof made->eigenstrain);
-    if (stated)
-        memcpy(made->eigenstrain, stated->eigenstrain, sizeof made->eigenstrain);
+    static const OstCaseMaterial none = {0};
+    const OstCaseMaterial *from = stated ? stated : &none;
+    memcpy(made->eigenstrain, from->eigenstrain, sizeof made->eigenstrain);
+    made->eigenstrained = from->eigenstrained;
+    made->eigen_field = from->eigen_field;
+    made->eigen_place = from->eigen_place;
+    made->eigen_per_unit = from->eigen_per_unit;
 }
 
 /* One entry of `materials` for each region of the mesh, whatever the case and the mesh file say. */

@@ -65,7 +65,16 @@ static void eigenstrains_say_what_is_wrong(void **state)
         "3:72: materials[0].eigenstrain: found a list of 2, expected a strain: one number, three along e1, e2, "
         "e3, or six with the shears 12, 23, 31");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {per_unit: 1}"),
-                   "3:72: key 'change' is missing in materials[0].eigenstrain");
+                   "3:72: 'per_unit' is a strain for each unit of a change; give the 'change' too");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {value: 1, change: 2}"),
+                   "3:91: 'change' belongs to 'per_unit', not to 'value'");
+    assert_refused(CUBE
+                   "materials:\n"
+                   "  - {region: all, youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {value: 1, time: [[0, "
+                   "1]]}}\n"
+                   "  - {region: block, youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: 2}\npath: {steps: 2}\n",
+                   "4:74: this eigenstrain follows another time table than that of region 'all' in line 3; give all "
+                   "eigenstrains the same, or none");
 }
 
 static void only_a_pressure_follows(void **state)

@@ -1,4 +1,5 @@
 """What is said about paths: how far they went, what was written, what happened in steps before the last; and of springs in `check`."""
+import csv
 import json
 import os
 
@@ -44,7 +45,7 @@ path: {steps: 2}
 refused, _ = call(BLOCK + STEEL + tables, "solve", "case.yaml")
 check(refused.exit_code == 2 and "where two meet, give both the same table" in refused.errors, refused.errors)
 
-# Turned inside out half-way, and back again: only that step's own warning tells.
+# Turned inside out half-way, by a jump, and back again: only that step's own warnings tell.
 pushed = """constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
   - {on: {boundary: xmax}, displacement: [-1.2, 0, 0], time: [[0, 0], [0.5, 1], [1, 0.1]]}
@@ -54,10 +55,20 @@ path: {times: [0.1, 0.5, 1]}
 for ranks in fewer((1, 3)):
     warned, _ = call(BLOCK + STEEL + pushed, "solve", "case.yaml", ranks=ranks)
     check(warned.exit_code == 0, warned.errors)
-    lines = [line for line in warned.errors.splitlines() if "warning" in line]
-    check(len([line for line in lines if "step 2, at t = 0.5: " in line and "inside out" in line]) == 1, warned.errors)
-    check("step 1" not in warned.errors and "step 3" not in warned.errors, warned.errors)
+    for words in ("inside out", "the body jumps to another state"):
+        lines = [line for line in warned.errors.splitlines() if words in line]
+        check(len(lines) == 1 and "warning: step 2, at t = 0.5: " in lines[0], warned.errors)
     check("inside out" not in warned.output, warned.output)
+
+# A path of an eigenstrain alone has its factor in the history, by a table or without.
+for time, factors in (("", [0.5, 1.0]), (", time: [[0, 0], [0.5, 1], [1, 0.25]]", [1.0, 0.25])):
+    swollen, folder = call(BLOCK + f"""materials:
+  - {{region: all, youngs_modulus: 1000, poissons_ratio: 0.3, eigenstrain: {{value: [0.1, 0.2, 0.3]{time}}}}}
+""" + HELD + "path: {steps: 2}\n", "solve", "case.yaml")
+    check(swollen.exit_code == 0, swollen.errors)
+    with open(os.path.join(folder, "case_history.csv")) as stream:
+        rows = list(csv.DictReader(stream))
+    check([float(row["load_factor"]) for row in rows] == factors, rows)
 
 # A spring is named beside constraints and loads.
 springs = "springs: [{on: {boundary: xmin}, foundation: 5}, {on: {nearest: [0, 0, 0]}, spring: 1}]\n"

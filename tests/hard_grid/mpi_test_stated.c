@@ -81,6 +81,7 @@ static void what_holds_no_digit_is_refused_for_rounding(void **state)
         OstScene *scene = make_scene(&bodies[b], &hard);
         OstResult *result = NULL;
         const OstStatus status = ost_scene_solve(scene, &result);
+        print_message("%zu %s %s\n", b, ost_error_text(ctx), result ? "result":""); if (result) print_message("err %g %g\n", result->checks.displacement_error, result->checks.force_error);
         assert_true(status == OST_CHECK_FAILED || status == OST_NOT_CONVERGED);
         assert_non_null(strstr(ost_error_text(ctx), "rounding"));
         assert_null(strstr(ost_error_text(ctx), "move freely"));

@@ -203,6 +203,10 @@ static OstStatus fill_tets(const Making *making, const OstGlobal *label)
     OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_region, count));
     if (mesh->tet_axes)
         OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_axes, 9 * count));
+    const size_t field = (size_t)mesh->field_width;
+    chunk->field_width = mesh->field_width;
+    if (field > 0)
+        OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_field, field * count));
     for (size_t i = 0; i < count; i++) {
         const Leaf *leaf = &forest->leaf[i];
         for (int v = 0; v < 4; v++)
@@ -211,6 +215,8 @@ static OstStatus fill_tets(const Making *making, const OstGlobal *label)
         chunk->tet_region[i] = mesh->tet_region[leaf->root];
         if (mesh->tet_axes)
             memcpy(chunk->tet_axes + 9 * i, mesh->tet_axes + 9 * (size_t)leaf->root, 9 * sizeof(double));
+        if (field > 0)
+            memcpy(chunk->tet_field + field * i, mesh->tet_field + field * (size_t)leaf->root, field * sizeof(double));
     }
     return OST_SUCCESS;
 }
