@@ -20,8 +20,9 @@ struct OstEstimate {
     const OstProblem *problem;
     OstComplement complement;
     OstSurplusLoads loads;
-    OstOperator operator;
-    double *inverse; /* of the functions' blocks */
+    OstOperator stiffness;
+    double *inverse; /* of the functions' blocks, once they are known */
+    int has_inverse; /* of linear theory */
 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
@@ -37,13 +38,21 @@ void ost_estimate_destroy(OstEstimate **estimate)
 static OstStatus create(OstEstimate *estimate)
 {
     const OstProblem *problem = estimate->problem;
-    OstContext *ctx = problem->ctx;
     OST_TRY(ost_complement_create(problem->mesh, problem->supports, &estimate->complement));
     OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
-    estimate->operator=(OstOperator){problem, &estimate->complement};
-    OstStatus status = OST_NEW(ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count);
-    OST_THEN(ost_operator_diagonal(&estimate->operator, estimate->inverse));
-    return ost_agree(ctx, status);
+    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL};
+    return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
+}
+
+/* Takes the stiffness to u. */
+static OstStatus move(OstEstimate *estimate, const double *u)
+{
+    const int is_linear = ost_problem_is_linear(estimate->problem);
+    estimate->stiffness.turned_by = is_linear ? NULL : u;
+    if (is_linear && estimate->has_inverse)
+        return OST_SUCCESS;
+    estimate->has_inverse = is_linear;
+    return ost_agree(estimate->problem->ctx, ost_operator_diagonal(&estimate->stiffness, estimate->inverse));
 }
 
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
@@ -123,7 +132,7 @@ static OstStatus multiply(Search *search)
     double *of_functions = search->q + search->rows;
     OST_TRY(ost_system_displacement(problem->system, 0.0, search->p, search->u));
     OST_TRY(ost_complement_import(&search->estimate->complement, search->p + search->rows));
-    ost_operator_apply(&search->estimate->operator, search->u, search->p + search->rows, search->force, of_functions);
+    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, search->u, search->force);
     take_rows(search, search->q);
@@ -206,7 +215,7 @@ static OstStatus find_residual(Search *search, double t, const double *u)
     const OstProblem *problem = estimate->problem;
     const OstComplement *complement = &estimate->complement;
     double *of_functions = search->r + search->rows, *own = NULL;
-    ost_operator_force(&estimate->operator, t, u, search->force, of_functions);
+    ost_operator_force(&estimate->stiffness, t, u, search->force, of_functions);
     for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
         of_functions[i] = -of_functions[i];
     ost_surplus_loads_add(&estimate->loads, problem, complement, t, u, of_functions);
@@ -254,7 +263,7 @@ static OstStatus share(Search *search, double square, double *tet_error)
     const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
     OST_TRY(ost_complement_import(&search->estimate->complement, search->e + search->rows));
-    ost_operator_energy(&search->estimate->operator, search->u, search->e + search->rows, tet_error);
+    ost_operator_energy(&search->estimate->stiffness, search->u, search->e + search->rows, tet_error);
     for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
         sum += tet_error[tet];
     OST_TRY(ost_sum(problem->ctx, 1, &sum));
@@ -271,7 +280,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     *found = (OstAnswerError){0};
     if (!estimate->problem->scene)
         return OST_SUCCESS;
-    OstStatus status = open_search(estimate, solver, &search);
+    OstStatus status = move(estimate, u);
+    OST_THEN(open_search(estimate, solver, &search));
     OST_THEN(find_residual(&search, t, u));
     OST_THEN(iterate(&search, &square));
     if (status == OST_SUCCESS && !search.failed) {

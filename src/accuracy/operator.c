@@ -21,11 +21,14 @@ typedef struct Cells {
     const OstQuadrature *rule;
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
+    const double *turned_by; /* as the operator's; then its displacements */
+    OstSimd base[NUMBERS];
 } Cells;
 
 /* Degrees 2 and 5 integrate products of the functions' gradients in straight tets without error. */
 static void clear_cells(const OstOperator *operator, double eigen_share, Cells *cells)
 {
+    cells->turned_by = operator->turned_by;
     cells->nodes = operator->complement->mesh->nodes_per_tet;
     cells->functions = ost_complement_per_tet(operator->complement);
     cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
@@ -65,6 +68,8 @@ static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Ce
                 k < 6 ? ost_complement_turn(mesh, nodes[ost_tet_edge[k][0]], nodes[ost_tet_edge[k][1]]) : 1.0;
     }
     ost_batch_gather_vectors(batch, cells->nodes, mesh->coordinates, batch->x);
+    if (cells->turned_by)
+        ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
     if (field->region_formula)
         find_places(cells, places);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->rule->count, places);
@@ -171,6 +176,36 @@ static inline void find_slope(const Cells *cells, const OstPoint *point, OstSimd
         add_slope(w + 3 * k, gradient[k], slope);
 }
 
+/* R at a point of the turned body. */
+static void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
+{
+    OstSimd slope[9];
+    OstPolar polar;
+    ost_displacement_gradient(cells->nodes, point, cells->base, slope);
+    ost_polar(slope, &polar);
+    ost_polar_rotation(&polar, rotation);
+}
+
+/* R' slope, and R slope. */
+static void turn_back(const OstSimd rotation[9], OstSimd slope[9])
+{
+    OstSimd given[9];
+    memcpy(given, slope, sizeof given);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] = rotation[i] * given[j] + rotation[3 + i] * given[3 + j] + rotation[6 + i] * given[6 + j];
+}
+
+static void turn(const OstSimd rotation[9], OstSimd slope[9])
+{
+    OstSimd given[9];
+    memcpy(given, slope, sizeof given);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] =
+                rotation[3 * i] * given[j] + rotation[3 * i + 1] * given[3 + j] + rotation[3 * i + 2] * given[6 + j];
+}
+
 /* The mean of m'(strain - e0) over the tets where C is split. */
 static void find_mean(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                       const OstSimd *w, OstSimd *mean)
@@ -180,11 +215,15 @@ static void find_mean(const Cells *cells, const OstElement *element, OstFormulat
     *mean = (OstSimd){0};
     for (int q = 0; q < cells->rule->count; q++) {
         const OstSimd *m = elasticity->m[ost_elasticity_at(elasticity, q)];
-        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], elastic[6];
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], elastic[6], rotation[9];
         OstPoint point;
         OstPolar polar;
         evaluate(cells, element, q, &point, gradient);
         find_slope(cells, &point, gradient, u, w, slope);
+        if (cells->turned_by) {
+            find_rotation(cells, &point, rotation);
+            turn_back(rotation, slope);
+        }
         find_strain(cells, formulation, q, slope, &polar, elastic);
         volume += point.volume;
         for (int p = 0; p < 6; p++)
@@ -203,11 +242,17 @@ static void forces_of(const Cells *cells, const OstElement *element, OstFormulat
     if (cells->batch.elasticity.by_mean)
         find_mean(cells, element, formulation, u, w, &mean);
     for (int q = 0; q < cells->rule->count; q++) {
-        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], piola[9];
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], piola[9], rotation[9];
         OstPoint point;
         evaluate(cells, element, q, &point, gradient);
         find_slope(cells, &point, gradient, u, w, slope);
+        if (cells->turned_by) {
+            find_rotation(cells, &point, rotation);
+            turn_back(rotation, slope);
+        }
         find_stress(cells, formulation, q, slope, &mean, &point.volume, piola);
+        if (cells->turned_by)
+            turn(rotation, piola);
         for (int a = 0; a < cells->nodes; a++)
             add_along(piola, point.gradient[a], at_nodes + 3 * a);
         for (int k = 0; k < cells->functions; k++)
@@ -260,8 +305,8 @@ static void forces_of_linear(const Cells *cells, const OstElement *element, cons
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
-    const int is_simple =
-        cells->nodes == 4 && cells->batch.elasticity.points == 1 && formulation == OST_FORMULATION_LINEAR;
+    const int is_simple = cells->nodes == 4 && cells->batch.elasticity.points == 1 &&
+                          formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
     if (is_simple)
         forces_of_linear(cells, element, u, w, at_nodes, at_functions);
     else
@@ -291,7 +336,8 @@ static void sum_forces(const OstOperator *operator, OstFormulation formulation, 
 void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions)
 {
     const OstProblem *problem = operator->problem;
-    sum_forces(operator, problem->formulation, ost_problem_factor(problem, 0, t), u, NULL, force, of_functions);
+    const OstOperator unturned = {problem, operator->complement, NULL};
+    sum_forces(&unturned, problem->formulation, ost_problem_factor(problem, 0, t), u, NULL, force, of_functions);
 }
 
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
@@ -373,6 +419,24 @@ static void add_blocks(const Cells *cells, const OstElement *element, OstSimd bl
             block[k][n] += mode[k][n / 3] * mode[k][n % 3] / volume;
 }
 
+/* R block R' with the rotation at the centroid. */
+static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
+{
+    OstSimd rotation[9];
+    OstPoint point;
+    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
+    find_rotation(cells, &point, rotation);
+    for (int k = 0; k < cells->functions; k++) {
+        turn(rotation, block[k]);
+        for (int n = 0; n < 3; n++) {
+            OstSimd row[3] = {block[k][3 * n], block[k][3 * n + 1], block[k][3 * n + 2]};
+            for (int i = 0; i < 3; i++)
+                block[k][3 * n + i] =
+                    rotation[3 * i] * row[0] + rotation[3 * i + 1] * row[1] + rotation[3 * i + 2] * row[2];
+        }
+    }
+}
+
 /* P (P A P + (I - P) s)^-1 P, s of A's size. */
 static OstStatus invert(OstContext *ctx, const double *projector, double block[9])
 {
@@ -409,6 +473,8 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
             add_linear_blocks(&cells, element, block);
         else
             add_blocks(&cells, element, block);
+        if (cells.turned_by)
+            turn_blocks(&cells, element, block);
         for (int slot = 0; slot < cells.batch.count; slot++)
             for (int k = 0; k < cells.functions; k++)
                 for (int n = 0; n < 9; n++)

@@ -10,12 +10,15 @@
 typedef struct OstOperator {
     const OstProblem *problem;
     const OstComplement *complement;
+    const double
+        *turned_by; /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
 } OstOperator;
 
 /* Local. The internal forces at t of the displacement u of the nodes. */
 void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions);
 
-/* Local. The linear stiffness times a displacement. */
+/* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body.
+ * (What the stress adds to it is left out: so it is definite.) */
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
                         double *of_functions);
 

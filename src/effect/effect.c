@@ -169,11 +169,12 @@ static void eigenstrain(const OstEffectFacts *f, OstEffectState *state)
         off(state, "no material has an eigenstrain");
 }
 
-/* A stiffness of nine numbers a node, which foundations and springs share. */
+/* A stiffness of nine numbers a node, which foundations and springs share; for the check of free motions a foundation
+ * keeps the normals of its surface at each node too. */
 static void foundation(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->foundations > 0)
-        on(state, 72.0 * f->nodes, "%d of %d springs are spread over an area", f->foundations, f->springs);
+        on(state, 248.0 * f->nodes, "%d of %d springs are spread over an area", f->foundations, f->springs);
     else
         off(state, f->springs > 0 ? "no spring is spread over an area" : "the case has no springs");
 }

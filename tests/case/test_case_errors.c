@@ -258,10 +258,10 @@ static void what_no_version_does_is_refused_in_words(void **state)
     assert_refused(CUBE STEEL "effects: {large_rotation: auto}\n",
                    "3:1: unknown key 'effects' in the case. Known keys: ...");
     assert_refused(
-        CUBE STEEL "output: {fields: [displacement, error]}\n",
-        "3:33: unknown field 'error'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
+        CUBE STEEL "output: {fields: [displacement, temperature]}\n",
+        "3:33: unknown field 'temperature'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
         "strain_energy_density, "
-        "axes, region, rank");
+        "axes, region, rank, error");
 }
 
 static void bad_settings_are_refused(void **state)
