@@ -53,7 +53,7 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
 OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, double *tet_error,
                               OstAnswerError *answer, OstSolveStop *stop)
 {
-    *stop = (OstSolveStop){.stop = {.ask = ask, .data = stop, .first = largest_error},
+    *stop = (OstSolveStop){.stop = {.ask = ask, .data = stop, .first = largest_error, .relative = 1},
                            .problem = problem,
                            .solver = solver,
                            .share = share,
@@ -67,4 +67,10 @@ OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, doub
     if (status != OST_SUCCESS)
         ost_solve_stop_close(stop);
     return status;
+}
+
+void ost_solve_stop_tighten(OstSolveStop *stop, double error)
+{
+    stop->stop.first = error;
+    stop->stop.relative = 0;
 }

@@ -24,4 +24,7 @@ OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, doub
                               OstAnswerError *answer, OstSolveStop *stop);
 void ost_solve_stop_close(OstSolveStop *stop);
 
+/* Local. The next solve goes on from where one was stopped, to this error. */
+void ost_solve_stop_tighten(OstSolveStop *stop, double error);
+
 #endif

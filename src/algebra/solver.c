@@ -33,7 +33,6 @@ struct OstSolver {
     OstDirect *direct;
     OstEpetraMap *map;
     double nonzeros;         /* of the matrix, over all ranks */
-    double stopped_at;       /* error in the norm of the energy where the last solve was stopped; else 0 */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
@@ -397,7 +396,6 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     solver->smallest = goal.smallest;
     report_goal(&goal, stop->size, report);
-    solver->stopped_at = report->stopped ? report->algebraic_error : 0.0;
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
@@ -420,7 +418,8 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     }
     if (stop.user) {
         stop.u = scaled + n;
-        stop.stop.first = stop.user->first;
+        stop.stop.relative = stop.user->relative;
+        stop.stop.first = stop.user->first / (stop.user->relative ? 1.0 : stop.size);
     }
     const OstStatus status = solve_scaled(solver, scaled, u, &stop, report);
     for (size_t i = 0; i < n; i++)
@@ -447,21 +446,6 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     return status;
 }
 
-/* The error that a stopped solve has left: M^-1 r, as large as makes its work on r the error's square. The residual may
- * hold more than the solve has left; M^-1 r is the least that is taken. */
-static OstStatus error_where_stopped(OstSolver *solver, const double *residual, double *error, int *found)
-{
-    const size_t n = 3 * (size_t)solver->matrix->rows;
-    double work = 0.0;
-    OST_TRY(ost_solver_precondition(solver, residual, error, found));
-    OST_TRY(ost_vector_dot(solver->ctx, n, residual, error, &work));
-    *found = *found && work > 0.0 && isfinite(work);
-    const double factor = *found ? fmax(solver->stopped_at * (solver->stopped_at / work), 1.0) : 1.0;
-    for (size_t i = 0; i < n; i++)
-        error[i] *= factor;
-    return OST_SUCCESS;
-}
-
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
 {
     OstCgSystem system;
@@ -472,9 +456,7 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     current_system(solver, &system, &preconditioner);
     const OstStatus status =
-        solver->stopped_at > 0.0 && missing >= 1.0
-            ? error_where_stopped(solver, residual, error, found)
-            : ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
+        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
     return status;
 }

@@ -44,10 +44,11 @@ static void print_stop(const OstSolveReport *report, const OstAnswerError *answe
     if (!report->stopped || !answer->known)
         return;
     const double relative = report->algebraic_error * answer->relative / answer->energy_norm;
-    printf("  stopped          where the equations are %s off in energy norm, and the mesh %s; about %d iteration%s "
-           "saved\n",
-           percent(relative, equations), percent(answer->relative, mesh), report->iterations_saved,
-           plural(report->iterations_saved));
+    printf("  stopped          where the equations are %s off in energy norm, and the mesh %s",
+           percent(relative, equations), percent(answer->relative, mesh));
+    if (report->iterations_saved > 0)
+        printf("; about %d iteration%s saved", report->iterations_saved, plural(report->iterations_saved));
+    printf("\n");
 }
 
 static void print_solve(const OstResult *result)

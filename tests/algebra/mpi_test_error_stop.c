@@ -99,7 +99,7 @@ static void follow(const ElasticBlock *block)
 {
     Body body = create(block);
     Watch seen = {.body = &body, .low = HUGE_VAL, .enough = 1e-6 * energy_norm(&body, body.solution)};
-    const OstErrorStop stop = {.ask = watch, .data = &seen, .first = 0.9};
+    const OstErrorStop stop = {.ask = watch, .data = &seen, .first = 0.9, .relative = 1};
     OstSolveReport report;
     ost_solver_aim(body.solver, (OstSolverAim){.stop = &stop});
     assert_success(ost_solver_solve(body.solver, body.problem.force, body.u, &report));
@@ -138,7 +138,7 @@ static void a_stop_saves_what_it_says_and_the_solve_goes_on_from_there(void **st
     (void)state;
     Body body = create(&uneven);
     double share = 0.1;
-    const OstErrorStop stop = {.ask = ask_for_less, .data = &share, .first = 0.1};
+    const OstErrorStop stop = {.ask = ask_for_less, .data = &share, .first = 0.1, .relative = 1};
     OstSolveReport whole, report, rest;
     assert_success(ost_solver_solve(body.solver, body.problem.force, body.u, &whole));
     ost_solver_aim(body.solver, (OstSolverAim){.stop = &stop});
@@ -172,7 +172,7 @@ static void without_an_answer_the_residual_ends_the_iteration(void **state)
     (void)state;
     Body body = create(&easy);
     int asked = 0;
-    const OstErrorStop stop = {.ask = give_up, .data = &asked, .first = 0.1};
+    const OstErrorStop stop = {.ask = give_up, .data = &asked, .first = 0.1, .relative = 1};
     OstSolveReport report;
     ost_solver_aim(body.solver, (OstSolverAim){.stop = &stop});
     assert_success(ost_solver_solve(body.solver, body.problem.force, body.u, &report));
@@ -195,7 +195,7 @@ static void a_failure_of_the_stop_is_passed_on(void **state)
 {
     (void)state;
     Body body = create(&easy);
-    const OstErrorStop stop = {.ask = fail_alone, .first = 0.1};
+    const OstErrorStop stop = {.ask = fail_alone, .first = 0.1, .relative = 1};
     OstSolveReport report;
     ost_solver_aim(body.solver, (OstSolverAim){.stop = &stop});
     assert_failure(ost_solver_solve(body.solver, body.problem.force, body.u, &report), OST_CHECK_FAILED,

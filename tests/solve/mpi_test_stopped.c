@@ -75,6 +75,28 @@ static void a_soft_part_beside_a_stiff_one_is_not_left_behind(void **state)
     destroy(&stopped);
 }
 
+/* One correction fewer, and what it would have changed is far below the error of the mesh. */
+static void newtons_method_stops_too(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    Stopped stopped;
+    assert_success(read_text("mesh: {block: {size: [8, 1, 1], divisions: [16, 2, 2]}}\nelement: {order: 2}\n"
+                             "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]\n"
+                             "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+                             "loads: [{on: {boundary: xmax}, total_force: [0, 0, 2e3]}]\nlarge_rotation: on\n"
+                             "solver: {method: metric}\n",
+                             &c));
+    solve_twice(c, NULL, &stopped);
+    const OstNewtonReport *newton = &stopped.result->newton;
+    assert_true(stopped.result->solve.stopped && stopped.result->answer.known);
+    assert_true(newton->iterations < stopped.whole->newton.iterations);
+    assert_true(newton->linear_iterations < stopped.whole->newton.linear_iterations);
+    assert_true(stopped.distance < 0.1 * stopped.result->answer.energy_norm);
+    assert_true(stopped.displacement < 3.0 * stopped.result->checks.displacement_error);
+    destroy(&stopped);
+}
+
 static void a_residual_asked_for_is_reached(void **state)
 {
     (void)state;
@@ -101,6 +123,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_is_left_is_stated_and_small),
     cmocka_unit_test(a_prescribed_displacement_too),
     cmocka_unit_test(a_soft_part_beside_a_stiff_one_is_not_left_behind),
+    cmocka_unit_test(newtons_method_stops_too),
     cmocka_unit_test(a_residual_asked_for_is_reached),
 };
 

@@ -86,7 +86,7 @@ OstStatus ost_cg_judge_error(OstCgRun *run, const double *u, OstGoal *goal)
     if (!stop || run->runs > 0)
         return OST_SUCCESS;
     find_error(run, goal);
-    if (!(goal->error.estimate <= (goal->next > 0.0 ? goal->next : stop->first * goal->error.size)))
+    if (!(goal->error.estimate <= ost_goal_next(goal)))
         return OST_SUCCESS;
     if (run->system->scaling)
         ost_scaling_from_scaled(run->system->scaling, u, reached);

@@ -31,13 +31,19 @@ void ost_goal_end_by_iterations(OstGoal *goal)
     snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
 }
 
+double ost_goal_next(const OstGoal *goal)
+{
+    const OstErrorStop *stop = goal->stop;
+    return goal->next > 0.0 ? goal->next : stop->first * (stop->relative ? goal->error.size : 1.0);
+}
+
 /* Iterations still needed, by the residual or by the error, whichever takes fewer; 0 before that can be said. */
 static double remaining(const OstGoal *goal)
 {
     const double of_residual = ost_convergence_remaining(&goal->convergence, goal->target);
-    const double next = goal->next > 0.0 || !goal->stop ? goal->next : goal->stop->first * goal->error.size;
-    if (!goal->stop || !(next > 0.0 && isfinite(goal->error.estimate)))
+    if (!goal->stop || !(goal->error.estimate > 0.0 && isfinite(goal->error.estimate)))
         return of_residual;
+    const double next = ost_goal_next(goal);
     return fmin(of_residual, log(next / goal->error.estimate) / log(ost_convergence_factor(&goal->convergence)));
 }
 

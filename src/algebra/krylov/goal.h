@@ -19,12 +19,13 @@ typedef enum {
 
 /* Ends an iteration by the error of u in the norm of the energy, |u - u*|_A, which is estimated on the way. */
 typedef struct OstErrorStop {
-    /* Collective. Asked once the error is about `first` of |u|_A, and then again each time it has come down to *next.
+    /* Collective. Asked once the error has come down to `first`, and then again each time it has to *next.
      * u is that reached, and `error` its error. Sets *next: one that is no smaller than `error` ends the iteration, 0
      * leaves its end to the residual. */
     OstStatus (*ask)(void *data, const double *u, double error, double *next);
     void *data;
     double first;
+    int relative; /* `first` is a share of |u|_A, of a solve from u = 0 */
 } OstErrorStop;
 
 /* What a solver works towards and how close it is. Norms are 2-norms of the unscaled residual. */
@@ -72,6 +73,9 @@ OstStatus ost_goal_refuse_indefinite(OstGoal *goal, double energy);
 
 /* Local. The iterations that the stop saves: as many more would reach the target, at the present rate. */
 int ost_goal_saved(const OstGoal *goal);
+
+/* Local. The error at which the stop is asked next. */
+double ost_goal_next(const OstGoal *goal);
 
 /* Local. Estimate of the smallest relative residual that double precision allows: the limit, or the residual reached
  * where that is smaller. 0 if the limit was not computed. */
