@@ -59,7 +59,8 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
         return ost_yaml_raise_type(yaml, keys[FRACTION].value, "a number from 0 to 0.5", "");
     if (keys[OUT_OF_REACH].value)
         OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
-    if (keys[ERROR].value)
+    c->asks_error = keys[ERROR].value != NULL;
+    if (c->asks_error)
         OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
     if (!(c->relative_error > 0.0 && c->relative_error < 1.0))
         return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0 and below 1", "");

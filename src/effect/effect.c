@@ -211,11 +211,20 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
 static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
 {
     const double faces = f->quadratic ? 2.0 * f->tets : 0.0;
-    if (f->error_field)
+    if (f->error_field || f->asks_error)
         on(state, 240.0 * (f->edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
-           "the output holds the error of the answer");
+           f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
     else
         off(state, "the output does not hold the error of the answer");
+}
+
+/* What it takes depends on the meshes to come. */
+static void adaptivity(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->asks_error)
+        on(state, 0.0, "an error of %.3g %% is asked for", 100.0 * f->accuracy);
+    else
+        off(state, "no accuracy is asked for: the mesh stays as it is");
 }
 
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)

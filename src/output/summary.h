@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_OUTPUT_SUMMARY_H
 #define ORTHOSTAT_OUTPUT_SUMMARY_H
 
+#include "adapt/adapt.h"
 #include "orthostat/path.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
@@ -26,11 +27,12 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
- * `path` is that which led to the result, or NULL; `watched` holds the case's quantities of interest, in their order.
+ * `path` is that which led to the result, or NULL, as is `adaption`; `watched` holds the case's quantities of interest,
+ * in their order.
  */
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
                                  const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
-                                 const char *to);
+                                 const OstAdaption *adaption, const char *to);
 
 /* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, tets turned
  * inside out, a jump, a coarse mesh. Returns 0, and leaves the text empty, where the one of this number (below

@@ -188,7 +188,7 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
                                  const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
-                                 const char *to)
+                                 const OstAdaption *adaption, const char *to)
 {
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
@@ -199,5 +199,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
                          "the summary holds a number that is not finite, which JSON cannot hold");
     if (path)
         json_object_set_new(document, "steps", ost_path_json(scene, path));
+    if (adaption)
+        json_object_set_new(document, "adaption", ost_adaption_json(adaption));
     return ost_json_write(ctx, document, to);
 }

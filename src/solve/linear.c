@@ -62,6 +62,20 @@ static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t u
     return OST_SUCCESS;
 }
 
+/* Takes the unknowns of the displacement to start from, if there is one. */
+static int take_start(const OstAnalysis *analysis)
+{
+    const OstSystem *system = analysis->problem->system;
+    const OstLinear *linear = analysis->work;
+    for (OstLocal row = 0; analysis->start && row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, analysis->start + 3 * (size_t)node, linear->v + 3 * (size_t)row);
+    }
+    return analysis->start != NULL;
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
@@ -106,7 +120,7 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstResult *result, O
     OST_TRY(ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &result->tet_error, problem->mesh->owned_tets)));
     OST_TRY(ost_solve_stop_open(problem, solver, analysis->options.algebraic_fraction, result->tet_error,
                                 &result->answer, &stop));
-    OstStatus solved = run_solver(analysis, &stop.stop, 0, result);
+    OstStatus solved = run_solver(analysis, &stop.stop, take_start(analysis), result);
     ost_solve_stop_close(&stop);
     if (solved != OST_SUCCESS || !result->solve.stopped)
         return solved;
@@ -124,7 +138,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
     const OstStatus solved =
-        may_stop ? solve_to_stop(analysis, result, &errors) : run_solver(analysis, NULL, 0, result);
+        may_stop ? solve_to_stop(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
     if (!result->reached)
         return solved;
     if (solved == OST_SUCCESS && !result->solve.stopped)

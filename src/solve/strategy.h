@@ -24,7 +24,8 @@ struct OstAnalysis {
     OstProblem *problem;
     OstSolverOptions options;
     const OstStrategy *strategy;
-    void *work; /* the strategy's; NULL until prepared */
+    void *work;          /* the strategy's; NULL until prepared */
+    const double *start; /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 
 extern const OstStrategy ost_linear_strategy;    /* linear.c */

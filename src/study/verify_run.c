@@ -90,6 +90,7 @@ static OstStatus run_level(OstVerifyReport *report, const OstExact *exact, int s
     c->order = steps->order;
     c->refinement = run->refinement;
     c->output_fields = 1U << OST_FIELD_ERROR;
+    c->asks_error = 0;
     return solve_and_measure(c, exact, run);
 }
 

@@ -296,6 +296,45 @@ static void fields_are_carried(void **state)
     }
 }
 
+/* A tet that is cut n times becomes tets of 2^-n of its volume, which know it by its label. */
+static void tets_are_cut_as_often_as_asked_and_know_their_parents(void **state)
+{
+    (void)state;
+    OstMesh *mesh = make_block(ctx), *fine = NULL;
+    OstBisection *bisection = NULL;
+    unsigned char *times = calloc((size_t)mesh->owned_tets + 1, 1);
+    double *of_parent = calloc((size_t)mesh->owned_tets + 1, 3 * sizeof *of_parent);
+    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
+        times[t] = mesh->tet_label[t] % 10 == 0 ? 4 : 0;
+        of_parent[3 * t] = (double)mesh->tet_label[t];
+        of_parent[3 * t + 1] = ost_tet_volume(mesh->coordinates, tet_of(mesh, t));
+        of_parent[3 * t + 2] = times[t];
+    }
+    assert_success(ost_bisection_create(mesh, &bisection));
+    assert_success(ost_bisection_refine(bisection, times, NULL, &fine));
+    double *carried = calloc((size_t)fine->owned_tets + 1, 3 * sizeof *carried);
+    int *cuts = calloc((size_t)fine->owned_tets + 1, sizeof *cuts);
+    assert_success(ost_bisection_carry_tets(bisection, 3, of_parent, carried, cuts));
+    double *label = calloc((size_t)fine->global_tets, sizeof *label); /* the parent's, by the tet's own */
+    for (OstLocal t = 0; t < fine->owned_tets; t++) {
+        const double volume = ost_tet_volume(fine->coordinates, tet_of(fine, t));
+        assert_close(ldexp(volume, cuts[t]) / carried[3 * t + 1], 1.0, 1e-13);
+        assert_true(cuts[t] >= (int)carried[3 * t + 2]);
+        label[fine->tet_label[t] - 1] = carried[3 * t];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, label, (int)fine->global_tets, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    for (OstGlobal t = 1; t < fine->global_tets; t++)
+        assert_true(label[t] >= label[t - 1]);
+    free(label);
+    free(cuts);
+    free(carried);
+    free(of_parent);
+    free(times);
+    ost_bisection_destroy(&bisection);
+    ost_mesh_destroy(&fine);
+    ost_mesh_destroy(&mesh);
+}
+
 static void nothing_marked_leaves_the_mesh_as_it_is(void **state)
 {
     (void)state;
@@ -331,6 +370,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(shapes_of_an_irregular_mesh_stay_bounded),
     cmocka_unit_test(regions_axes_points_and_curves_are_inherited),
     cmocka_unit_test(fields_are_carried),
+    cmocka_unit_test(tets_are_cut_as_often_as_asked_and_know_their_parents),
     cmocka_unit_test(nothing_marked_leaves_the_mesh_as_it_is),
     cmocka_unit_test(steps_out_of_order_are_refused),
 };

@@ -5,13 +5,16 @@
 #include "mesh/bisection/forest.h"
 #include "mesh/check/check.h"
 
+#include <string.h>
+
 struct OstBisection {
     OstContext *ctx;
-    const OstMesh *mesh; /* to be bisected next */
-    OstTag *tag;         /* of each of its local tets */
-    Forest *forest;      /* of the last split: from the mesh before */
-    OstGlobal *leaf_label;
-    int curved; /* has that mesh curved edges, which no shape says better? */
+    const OstMesh *mesh;   /* to be bisected next */
+    OstTag *tag;           /* of each of its local tets */
+    Forest *forest;        /* of the last split: from the mesh before */
+    OstGlobal *leaf_label; /* of the forest's leaves: labels of the new mesh's tets */
+    int settled;           /* is there a mesh made of them? */
+    int curved;            /* has that mesh curved edges, which no shape says better? */
 };
 
 void ost_bisection_destroy(OstBisection **bisection)
@@ -181,7 +184,7 @@ done:
 OstStatus ost_bisection_carry(const OstBisection *bisection, int width, const double *old, double *carried)
 {
     OstContext *ctx = bisection->ctx;
-    if (!bisection->forest || bisection->leaf_label || width < 1 || (size_t)width * sizeof *carried > OST_LARGEST_ENTRY)
+    if (!bisection->settled || width < 1 || (size_t)width * sizeof *carried > OST_LARGEST_ENTRY)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "there is no bisected mesh to carry %d numbers a node to; call ost_bisection_settle first, "
                          "and carry 1 to %d numbers",
@@ -194,24 +197,25 @@ OstStatus ost_bisection_carry(const OstBisection *bisection, int width, const do
 
 /* --- one generation --- */
 
-static OstStatus split(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+static OstStatus split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                        OstMeshChunk **chunk)
 {
     ost_forest_destroy(&bisection->forest);
     OST_FREE(bisection->leaf_label);
+    bisection->settled = 0;
     OST_TRY(ost_forest_create(bisection->mesh, bisection->tag, shape, &bisection->forest));
-    OST_TRY(ost_forest_grow(bisection->forest, marked));
+    OST_TRY(ost_forest_grow(bisection->forest, times));
     OST_TRY(ost_forest_chunk(bisection->forest, chunk, &bisection->leaf_label));
     bisection->curved = bisection->mesh->nodes_per_tet == 10 && !bisection->forest->shape;
     return OST_SUCCESS;
 }
 
-OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                               OstMeshChunk **chunk)
 {
     *chunk = NULL;
     ost_ledger_enter(bisection->ctx, OST_LEDGER_MESH);
-    const OstStatus status = split(bisection, marked, shape, chunk);
+    const OstStatus status = split(bisection, times, shape, chunk);
     if (status != OST_SUCCESS) {
         ost_forest_destroy(&bisection->forest);
         OST_FREE(bisection->leaf_label);
@@ -220,30 +224,73 @@ OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *mark
     return status;
 }
 
-/* The tags of the new mesh's tets, ghosts included, from the ranks that cut them. */
-static OstStatus fetch_tags(const OstBisection *bisection, const OstMesh *mesh, OstTag *tag)
+/* Values of the new mesh's first `count` tets, from the ranks that cut them: `value` has `size` bytes for each leaf. */
+static OstStatus fetch(const OstBisection *bisection, const OstMesh *mesh, size_t size, const void *value,
+                       OstLocal count, void *fetched)
 {
     OstContext *ctx = bisection->ctx;
-    const Forest *forest = bisection->forest;
-    const OstLocal leaves = forest->leaf_count;
+    const OstLocal leaves = bisection->forest->leaf_count;
     OstKey *known = NULL, *key = NULL;
-    OstTag *told = NULL;
     OstStatus status = OST_NEW(ctx, &known, leaves);
-    OST_THEN(OST_NEW(ctx, &told, leaves));
-    OST_THEN(OST_NEW(ctx, &key, mesh->tet_count));
+    OST_THEN(OST_NEW(ctx, &key, count));
     OST_TRY_DONE(ost_agree(ctx, status));
-    for (OstLocal i = 0; i < leaves; i++) {
+    for (OstLocal i = 0; i < leaves; i++)
         known[i] = ost_key(bisection->leaf_label[i], bisection->leaf_label[i]);
-        told[i] = forest->leaf[i].tag;
-    }
-    for (OstLocal t = 0; t < mesh->tet_count; t++)
+    for (OstLocal t = 0; t < count; t++)
         key[t] = ost_key(mesh->tet_label[t], mesh->tet_label[t]);
-    OST_TRY_DONE(
-        ost_rendezvous(ctx, "tet", sizeof *tag, &(OstKeyed){leaves, known, NULL, told}, mesh->tet_count, key, tag));
+    OST_TRY_DONE(ost_rendezvous(ctx, "tet", size, &(OstKeyed){leaves, known, NULL, value}, count, key, fetched));
 done:
     OST_FREE(known);
-    OST_FREE(told);
     OST_FREE(key);
+    return status;
+}
+
+static OstStatus fetch_tags(const OstBisection *bisection, const OstMesh *mesh, OstTag *tag)
+{
+    const Forest *forest = bisection->forest;
+    OstTag *told = NULL;
+    OST_TRY(ost_agree(bisection->ctx, OST_NEW(bisection->ctx, &told, forest->leaf_count)));
+    for (OstLocal i = 0; i < forest->leaf_count; i++)
+        told[i] = forest->leaf[i].tag;
+    const OstStatus status = fetch(bisection, mesh, sizeof *tag, told, mesh->tet_count, tag);
+    OST_FREE(told);
+    return status;
+}
+
+/* The roots' numbers, then the number of cuts. */
+static void list_roots(const Forest *forest, size_t width, const double *old, double *row)
+{
+    for (OstLocal i = 0; i < forest->leaf_count; i++, row += width + 1) {
+        const Leaf *leaf = &forest->leaf[i];
+        memcpy(row, old + (size_t)leaf->root * width, width * sizeof *row);
+        row[width] = leaf->depth;
+    }
+}
+
+OstStatus ost_bisection_carry_tets(const OstBisection *bisection, int width, const double *old, double *carried,
+                                   int *cuts)
+{
+    OstContext *ctx = bisection->ctx;
+    const OstMesh *mesh = bisection->mesh;
+    const size_t all = (size_t)width + 1;
+    double *told = NULL, *heard = NULL;
+    if (!bisection->settled)
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "there is no bisected mesh to carry to; call ost_bisection_settle first");
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    OstStatus status = OST_NEW(ctx, &told, all * (size_t)bisection->forest->leaf_count);
+    OST_THEN(OST_NEW(ctx, &heard, all * (size_t)mesh->owned_tets));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    list_roots(bisection->forest, (size_t)width, old, told);
+    OST_TRY_DONE(fetch(bisection, mesh, all * sizeof *told, told, mesh->owned_tets, heard));
+    for (size_t t = 0; t < (size_t)mesh->owned_tets; t++) {
+        memcpy(carried + t * (size_t)width, heard + t * all, (size_t)width * sizeof *carried);
+        cuts[t] = (int)heard[t * all + (size_t)width];
+    }
+done:
+    OST_FREE(told);
+    OST_FREE(heard);
+    ost_ledger_leave(ctx);
     return status;
 }
 
@@ -268,7 +315,7 @@ static OstStatus settle(OstBisection *bisection, OstMesh *mesh)
         return status;
     }
     OST_FREE(bisection->tag);
-    OST_FREE(bisection->leaf_label);
+    bisection->settled = 1;
     bisection->tag = tag;
     bisection->mesh = mesh;
     return OST_SUCCESS;
@@ -276,7 +323,7 @@ static OstStatus settle(OstBisection *bisection, OstMesh *mesh)
 
 OstStatus ost_bisection_settle(OstBisection *bisection, OstMesh *mesh)
 {
-    if (!bisection->leaf_label)
+    if (!bisection->leaf_label || bisection->settled)
         return OST_RAISE(bisection->ctx, OST_INVALID_INPUT,
                          "there is no chunk that a new mesh could be made of; call ost_bisection_split first");
     ost_ledger_enter(bisection->ctx, OST_LEDGER_MESH);
@@ -285,7 +332,7 @@ OstStatus ost_bisection_settle(OstBisection *bisection, OstMesh *mesh)
     return status;
 }
 
-OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *marked, const OstShapeSurface *shape,
+OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                                OstMesh **fine)
 {
     OstContext *ctx = bisection->ctx;
@@ -293,7 +340,7 @@ OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *mar
     OstMeshChunk *chunk = NULL;
     OstMesh *linear = NULL;
     *fine = NULL;
-    OstStatus status = ost_bisection_split(bisection, marked, shape, &chunk);
+    OstStatus status = ost_bisection_split(bisection, times, shape, &chunk);
     if (status == OST_SUCCESS)
         status = ost_mesh_distribute(ctx, &chunk, &linear);
     if (status == OST_SUCCESS && quadratic) {

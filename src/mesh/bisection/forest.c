@@ -249,12 +249,12 @@ typedef struct Round {
     OstLocal *leaf;
 } Round;
 
-static OstStatus choose(Forest *forest, const unsigned char *marked, Round *round)
+static OstStatus choose(Forest *forest, const unsigned char *times, Round *round)
 {
     round->count = 0;
     for (OstLocal i = 0; i < forest->leaf_count; i++) {
         const Leaf *leaf = &forest->leaf[i];
-        int cut = marked && marked[leaf->root];
+        int cut = leaf->depth < times[leaf->root];
         for (int e = 0; e < 6; e++)
             cut |= forest->edge[leaf->edge[e]].cut >= 0;
         if (!cut)
@@ -275,10 +275,10 @@ static OstStatus cut_leaves(Forest *forest, const Round *round)
 
 /* Cuts are told before leaves are bisected, and edges that this brings after it: in each round all ranks cut what one
  * rank alone would. */
-static OstStatus cut_round(Forest *forest, const unsigned char *marked, Round *round, OstGlobal *cut)
+static OstStatus cut_round(Forest *forest, const unsigned char *times, Round *round, OstGlobal *cut)
 {
     OstLocal items = 0;
-    OST_TRY(ost_agree(forest->ctx, choose(forest, marked, round)));
+    OST_TRY(ost_agree(forest->ctx, choose(forest, times, round)));
     OST_TRY(ost_forest_exchange(forest));
     OstStatus status = cut_leaves(forest, round);
     OST_THEN(ost_forest_split_items(forest, &items));
@@ -289,13 +289,13 @@ static OstStatus cut_round(Forest *forest, const unsigned char *marked, Round *r
     return ost_sum_numbers(forest->ctx, 1, cut);
 }
 
-OstStatus ost_forest_grow(Forest *forest, const unsigned char *marked)
+OstStatus ost_forest_grow(Forest *forest, const unsigned char *times)
 {
     Round round = {0};
     OstGlobal cut = 1;
     OstStatus status = ost_forest_exchange(forest);
-    for (; status == OST_SUCCESS && cut > 0; marked = NULL)
-        status = cut_round(forest, marked, &round, &cut);
+    while (status == OST_SUCCESS && cut > 0)
+        status = cut_round(forest, times, &round, &cut);
     OST_FREE(round.leaf);
     ost_cuts_destroy(&forest->cuts);
     return status;

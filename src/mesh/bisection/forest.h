@@ -79,9 +79,9 @@ typedef struct Forest {
 OstStatus ost_forest_create(const OstMesh *mesh, const OstTag *tag, const OstShapeSurface *shape, Forest **forest);
 void ost_forest_destroy(Forest **forest);
 
-/* Collective. Bisects the marked tets (one for each of the rank's own), and others until all tets of the body meet in
- * whole faces. */
-OstStatus ost_forest_grow(Forest *forest, const unsigned char *marked);
+/* Collective. Bisects each of the rank's own tets and their children as many times as it says, and others until all
+ * tets of the body meet in whole faces. */
+OstStatus ost_forest_grow(Forest *forest, const unsigned char *times);
 
 /* Collective. The leaves as a chunk of linear tets. The leaves are put in order: by root, then by path. `leaf_label`
  * receives the label of each, an array that the caller frees. */
