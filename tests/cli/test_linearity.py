@@ -15,6 +15,7 @@ constraints:
 loads:
   - {on: {boundary: xmax}, total_force: FORCE}
 large_rotation: WORD
+output: {fields: [displacement]}
 """
 
 
