@@ -407,8 +407,7 @@ static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *furt
         return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
     current_system(solver, &system, &preconditioner);
     report->method = solver->method;
-    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s",
-             solver->direct ? "MUMPS factors" : "ML cycle");
+    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s", solver->direct ? "MUMPS factors" : "ML cycle");
     return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, &report->iterations,
                            &report->relative_residual);
 }

@@ -311,8 +311,8 @@ void ost_large_rotation_force(const OstElement *element, OstFormulation formulat
 }
 
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from,
-                                  int definite, OstSimd *blocks)
+                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
+                                  OstSimd *blocks)
 {
     if (formulation == OST_FORMULATION_CLASSICAL)
         classical_stiffness(element, x, elasticity, u, blocks);

@@ -80,10 +80,6 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
 /* Collective. The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
 OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction);
 
-/* Collective. The correction by the stiffness that the problem has been filled with and the skew part of the load's, by
- * the solver as it stands. */
-OstStatus ost_newton_solve_skew(OstNewton *newton, double forcing, const double *rhs);
-
 /* Collective. Goes along newton->direction until the energy (without one, the residual) is low enough; evaluates there.
  * *length: of the step, 0 if none helps. */
 OstStatus ost_newton_search(OstNewton *newton, double *length);

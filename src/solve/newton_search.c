@@ -111,8 +111,8 @@ static void move(OstNewton *newton)
     newton->recent[newton->step_iterations % OST_RECENT] = newton->energy;
 }
 
-/* Where nothing is minimised. On the way residuals may rise a thousandfold and say nothing: load steps are cut back where
- * whole corrections do not converge. */
+/* Where nothing is minimised. On the way residuals may rise a thousandfold and say nothing: load steps are cut back
+ * where whole corrections do not converge. */
 static OstStatus take_whole(OstNewton *newton, double *length)
 {
     Point point;

@@ -77,7 +77,8 @@ static void force_of(const Case *test, OstFormulation formulation, OstSimd *forc
 static void stiffness_of(const Case *test, OstFormulation formulation, int definite, int slot, double *k)
 {
     OstSimd blocks[9 * MOST_NODES * (MOST_NODES + 1) / 2];
-    ost_large_rotation_stiffness(test->element, formulation, test->x, &test->elasticity, test->u, NULL, definite, blocks);
+    ost_large_rotation_stiffness(test->element, formulation, test->x, &test->elasticity, test->u, NULL, definite,
+                                 blocks);
     full_matrix(test->element->nodes, blocks, slot, k);
 }
 
@@ -216,7 +217,8 @@ static void a_rigid_rotation_costs_nothing(void **state)
 }
 
 /* The linear force up to second order, and without cancellation where u is tiny. */
-/* Largest of K (w × x) over the size of K, x the places at u, w a rotation, with the stress linear between `from` and u.
+/* Largest of K (w × x) over the size of K, x the places at u, w a rotation, with the stress linear between `from` and
+ * u.
  */
 static double resistance_to_turning(const Case *test, const OstSimd *from, int slot)
 {
@@ -255,7 +257,8 @@ static void the_linear_stress_knows_no_stretch_by_rotation(void **state)
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             assert_true(resistance_to_turning(&test, NULL, slot) > 1e-3);
             assert_true(resistance_to_turning(&test, none, slot) < 1e-13);
-            const double same = resistance_to_turning(&test, test.u, slot), at_u = resistance_to_turning(&test, NULL, slot);
+            const double same = resistance_to_turning(&test, test.u, slot),
+                         at_u = resistance_to_turning(&test, NULL, slot);
             assert_close(same / at_u, 1.0, 1e-12);
         }
     }
