@@ -55,7 +55,7 @@ static void bend(double angle, OstCase **c, OstScene **scene, OstResult **result
              "loads:\n  - {on: {box: {min: [%g, -1, -1], max: [%g, 1, %g]}}, pressure: %.17g, follows: true}\n"
              "  - {on: {box: {min: [%g, -1, %g], max: [%g, 1, 1]}}, pressure: %.17g, follows: true}\n"
              "large_rotation: on\n",
-             end, width, height, DIVISIONS + 1, modulus, 1e3 * modulus, end - 0.1 * cap, end + 0.1 * cap, 0.5 * height,
+             end, width, height, DIVISIONS + 1, modulus, 30.0 * modulus, end - 0.1 * cap, end + 0.1 * cap, 0.5 * height,
              pressure, end - 0.1 * cap, 0.5 * height, end + 0.1 * cap, -pressure);
     assert_success(read_text(text, c));
     assert_success(ost_chunk_create_block(ctx, &(*c)->block, &chunk));
