@@ -140,17 +140,17 @@ static OstStatus do_work(const Bench *bench, OstSystem *system, const OstMateria
                          const double *u, double *force)
 {
     const OstTangent tangent = {.formulation = OST_FORMULATION_CONSISTENT, .u = u, .definite = work == DEFINITE};
-    double energy;
     if (work == LINEAR_FORCE)
-        return ost_internal_force(bench->mesh, field, u, force, NULL);
+        return ost_internal_force(bench->mesh, field, 1.0, u, force, NULL);
     if (work == FORCE)
-        return ost_internal_force_of(bench->mesh, field, tangent.formulation, u, force, NULL);
+        return ost_internal_force_of(bench->mesh, field, tangent.formulation, 1.0, u, force, NULL);
     if (work >= STIFFNESS)
         return ost_system_fill_tangent(system, field, &tangent);
     if (work == LINEAR_FILL)
         return ost_system_fill(system, field);
-    ost_large_rotation_energy_of(bench->mesh, field, tangent.formulation, u, &energy);
-    return OST_SUCCESS;
+    return ost_large_rotation_energy_of(bench->mesh, field, tangent.formulation, 1.0, u) >= 0.0
+               ? OST_SUCCESS
+               : OST_RAISE(bench->ctx, OST_CHECK_FAILED, "the energy of the bent tube is negative");
 }
 
 static OstStatus time_large_rotation(const Bench *bench, OstSystem *system, const OstMaterialField *field,

@@ -21,7 +21,8 @@ typedef struct OstCase OstCase;
     X(OST_FIELD_ENERGY, "strain_energy_density") \
     X(OST_FIELD_AXES, "axes")                    \
     X(OST_FIELD_REGION, "region")                \
-    X(OST_FIELD_RANK, "rank")
+    X(OST_FIELD_RANK, "rank")                    \
+    X(OST_FIELD_ERROR, "error")
 #define OST_OUTPUT_FIELD_ENUM(name, word) name,
 typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
 #undef OST_OUTPUT_FIELD_ENUM

@@ -42,6 +42,7 @@ typedef struct OstLedgerEntry {
     long entries;      /* how often the account was entered from another one */
     size_t bytes;      /* held now */
     size_t peak_bytes; /* the most held at any time */
+    double multiplied; /* entries of matrices (stiffness, levels, prolongators, smoothers) that were multiplied */
 } OstLedgerEntry;
 
 struct OstContext;
@@ -54,6 +55,9 @@ const char *ost_ledger_label(const struct OstContext *ctx, OstAccount account);
  * part of that effect. */
 void ost_ledger_enter(struct OstContext *ctx, OstAccount account);
 void ost_ledger_leave(struct OstContext *ctx);
+
+/* Local. Books so many multiplied entries of a matrix to the innermost account. */
+void ost_ledger_multiplied(struct OstContext *ctx, double entries);
 
 /* Local. What this rank booked so far; running clocks are brought up to date first. */
 OstLedgerEntry ost_ledger_entry(struct OstContext *ctx, OstAccount account);

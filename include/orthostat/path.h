@@ -48,9 +48,10 @@ OstPathStep *ost_path_step(OstPath *path, int number);
  * when it is complete. */
 OstStatus ost_path_save(const OstPath *path, const char *file);
 
-/* Collective. Goes on from a checkpoint: on the same number of ranks the steps that follow have the same bits as
- * without the interruption. Without a file the path stays at its beginning. Raises OST_INVALID_INPUT for a damaged
- * file, or one of another case, mesh or number of ranks; the path can then only be destroyed. */
+/* Collective. Goes on from a checkpoint, which any number of ranks may have made: on the same number the steps that
+ * follow have the same bits as without the interruption, on another they agree within rounding. Without a file the path
+ * stays at its beginning. Raises OST_INVALID_INPUT for a damaged file, or one of another case, mesh, formulation or
+ * solver's options; the path can then only be destroyed. */
 OstStatus ost_path_resume(OstPath *path, const char *file);
 
 OST_API_END

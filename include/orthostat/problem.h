@@ -56,9 +56,11 @@ typedef struct OstProblemParts {
     OstFormulation formulation; /* of the answer; 0: linear */
     int timed_count;            /* the same on all ranks, as are the tables */
     const OstTimedParts *timed;
+    int eigenstrain_follows; /* 0: the field's eigenstrain grows with t; k: it follows timed[k - 1] */
 } OstProblemParts;
 
-/* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all. */
+/* Collective. Raises OST_INVALID_INPUT for contradicting constraints, or none at all, or eigenstrain_follows beyond
+ * timed_count. */
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem);
 void ost_problem_destroy(OstProblem **problem);
 
@@ -93,7 +95,7 @@ void ost_problem_load(const OstProblem *problem, double t, const double *u, doub
  * follows a surface with a rim that is free to move there is none, and the result is no more than a measure. */
 OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work);
 
-/* Collective. The strain energy of the body under u, with t times its eigenstrain, and the energy of the springs. (The
+/* Collective. The strain energy of the body under u, with its eigenstrain at t, and the energy of the springs. (The
  * classical formulation's force is not its gradient.) */
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy);
 

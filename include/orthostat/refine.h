@@ -54,6 +54,44 @@ OstStatus ost_mesh_linear(const OstMesh *quadratic, OstMesh **linear, OstLocal *
  * OST_INVALID_INPUT for others. `parents`: 2 × node_count numbers of the caller. */
 OstStatus ost_mesh_parents(const OstMesh *quadratic, const OstMesh *linear, OstLocal *parents);
 
+/* Local refinement by bisection, generation after generation: a tet is cut in two across an edge, and its neighbours
+ * are, until all tets meet in whole faces again. Each tet has a tag that says how its descendants are cut (D. N.
+ * Arnold, A. Mukherjee, L. Pouly, SIAM J. Sci. Comput. 22 (2000) 431-448); the first tags follow from the longest
+ * edges. So however often and wherever tets are marked, they take a bounded number of shapes. What is cut, labels and
+ * coordinates do not depend on the number of ranks.
+ *
+ * Vertices keep their labels; new ones follow the highest. Tets are labelled 1, 2, 3, ... in the order of their
+ * parents. Regions, axes, and boundaries of points, curves and faces are inherited, but points on mid-edge nodes are
+ * left out. */
+typedef struct OstBisection OstBisection;
+
+/* Collective. Tags the tets of a mesh, linear or quadratic, which is to live until it has been refined and nothing is
+ * to be carried from it any more. */
+OstStatus ost_bisection_create(const OstMesh *mesh, OstBisection **bisection);
+void ost_bisection_destroy(OstBisection **bisection);
+
+/* Collective. Cuts each of this rank's own tets, and its children, at least as often as `times` says (0 to 60: 3 halve
+ * all edges); the new mesh is partitioned anew. A quadratic mesh gives a quadratic one: what is curved stays as it is,
+ * unless a shape says better. The new mesh, the caller's, is the one that is refined next. Raises OST_INVALID_INPUT if
+ * a tet would be inverted or fold over, OST_LIMIT_EXCEEDED where labels or local numbers overflow. */
+OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
+                               OstMesh **fine);
+
+/* Collective. The same in two steps, for a caller who distributes the chunk of linear tets and perhaps raises the mesh
+ * (ost_mesh_raise): `settle` tags that mesh, and bends its edges as the old mesh's are where no shape was given. */
+OstStatus ost_bisection_split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
+                              OstMeshChunk **chunk);
+OstStatus ost_bisection_settle(OstBisection *bisection, OstMesh *mesh);
+
+/* Collective. Carries a field from the mesh before to the refined one, whichever their orders: `width` numbers for each
+ * local node there and here. It is evaluated where the new nodes lie in the old tets. */
+OstStatus ost_bisection_carry(const OstBisection *bisection, int width, const double *old, double *carried);
+
+/* Collective. Likewise `width` numbers of each own tet, from the tet that a new one lies in; `cuts` receives how often
+ * that one was cut to make it. */
+OstStatus ost_bisection_carry_tets(const OstBisection *bisection, int width, const double *old, double *carried,
+                                   int *cuts);
+
 OST_API_END
 
 #endif

@@ -51,6 +51,18 @@ typedef struct OstNewtonReport {
     double seconds;           /* of Newton's method */
 } OstNewtonReport;
 
+/* The estimated error of the answer that the mesh and its elements make (not that of the equations, which OstChecks
+ * has): the distance from the solution of the continuous problem. */
+typedef struct OstAnswerError {
+    double energy_norm;  /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
+    double relative;     /* that over |u + e|_E */
+    double displacement; /* largest |e| at a node, over the largest |u + e| */
+    int known;           /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
+    int region;          /* of the mesh, the one with the largest share of the squared error; and that share */
+    double region_share;
+    double place[3]; /* centroid of the tet with the largest share */
+} OstAnswerError;
+
 /* One rank's piece of the answer, on one piece of a mesh; the mesh outlives it. */
 typedef struct OstResult OstResult;
 
@@ -71,6 +83,8 @@ const double *ost_result_stress(const OstResult *result);       /* owned_tets ×
 const double *ost_result_strain(const OstResult *result);       /* owned_tets × 6: mean, shear doubled */
 const double *ost_result_strain_energy_density(const OstResult *result); /* owned_tets */
 const double *ost_result_node_stress(const OstResult *result);           /* node_count × 6 */
+const double *ost_result_tet_error(const OstResult *result); /* owned_tets: each one's error in the norm of the energy,
+                                                                whose squares add up to that of OstAnswerError */
 
 /* Local. Over the whole body: the largest displacement and, unless NULL, the place of its node; the unknowns. */
 double ost_result_largest_displacement(const OstResult *result, double at[3]);
@@ -81,6 +95,7 @@ OstGlobal ost_result_unknowns(const OstResult *result);
 const OstSolveReport *ost_result_solve_report(const OstResult *result);
 const OstChecks *ost_result_checks(const OstResult *result);
 const OstNewtonReport *ost_result_newton_report(const OstResult *result);
+const OstAnswerError *ost_result_answer_error(const OstResult *result);
 
 /* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result
  * has. A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it), field data

@@ -32,6 +32,9 @@ enum {
 typedef struct OstSolverOptions {
     OstMethod method;
     double relative_residual;      /* of the true, unscaled residual */
+    double algebraic_fraction;     /* multigrid stops before that where the error of the equations is this share of the
+                                      discretisation error, both in the norm of the energy, and the latter is estimated
+                                      (OST_FIELD_ERROR); 0: it does not */
     int accept_attainable;         /* take what double precision holds where that is less */
     int max_iterations;            /* over all strategies */
     int patience;                  /* AUTO leaves a strategy that would need more further iterations than this */
@@ -102,7 +105,13 @@ typedef struct OstSolveReport {
     OstSolverPlan plan;
     int steps; /* strategies tried */
     OstSolveStep step[OST_MAX_STEPS];
-    int indefinite; /* did p·Ap < 0 show that the matrix is? */
+    int indefinite;         /* did p·Ap < 0 show that the matrix is? */
+    double nonzeros;        /* of the matrix, over all ranks */
+    double algebraic_error; /* |u - u*| in the norm of the energy, sqrt(u·K u), as conjugate gradients tell; 0 if not
+                               known */
+    double algebraic_bound; /* the same from above, about */
+    int stopped;            /* that was small enough beside the discretisation error before the residual was */
+    int iterations_saved;   /* which so many further iterations would have made, at the rate reached */
 } OstSolveReport;
 
 /* Local. The defaults: AUTO, 1e-8 in at most 1000 iterations, patience 150, 40 / 8 / 7 nodes, degree 3,

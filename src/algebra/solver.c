@@ -3,6 +3,7 @@
 
 #include "algebra/direct/direct.h"
 #include "algebra/krylov/cg.h"
+#include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/multigrid/metric.h"
 #include "algebra/solver_options.h"
@@ -11,7 +12,9 @@
 #include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,6 +32,7 @@ struct OstSolver {
     OstMetric *metric;
     OstDirect *direct;
     OstEpetraMap *map;
+    double nonzeros;         /* of the matrix, over all ranks */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
@@ -209,6 +213,8 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->matrix = matrix;
     made->geometry = *geometry;
     made->options = *options;
+    made->nonzeros = 9.0 * matrix->row_start[matrix->rows];
+    OST_TRY_DONE(ost_sum(ctx, 1, &made->nonzeros));
     OST_TRY_DONE(ost_epetra_map_create(ctx, 3 * matrix->rows, &made->map));
     status = start(made, options);
 done:
@@ -271,6 +277,7 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     const int before = goal->iterations;
     const OstStatus status = improve(solver, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
+                          : goal->enough                 ? "the error is small enough"
                           : goal->end == OST_END_REACHED ? "reached the requested residual"
                                                          : goal->words;
     OstSolveStep *step = note_step(report->step, &report->steps, solver->method, outcome);
@@ -331,8 +338,47 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
     return OST_SUCCESS;
 }
 
+/* The user's stop, for a system solved with f and u divided by `size`. */
+typedef struct ScaledStop {
+    OstErrorStop stop;
+    const OstErrorStop *user;
+    double size;
+    double *u; /* with room for 3 × rows */
+    size_t n;
+    double seconds; /* that the user's took */
+} ScaledStop;
+
+static OstStatus ask_user(void *data, const double *u, double error, double *next)
+{
+    ScaledStop *scaled = data;
+    const double start = ost_seconds();
+    for (size_t i = 0; i < scaled->n; i++)
+        scaled->u[i] = scaled->size * u[i];
+    *next *= scaled->size;
+    const OstStatus status = scaled->user->ask(scaled->user->data, scaled->u, scaled->size * error, next);
+    *next /= scaled->size;
+    scaled->seconds += ost_seconds() - start;
+    return status;
+}
+
+static void report_goal(const OstGoal *goal, double size, OstSolveReport *report)
+{
+    report->iterations = goal->iterations;
+    report->indefinite = goal->indefinite;
+    report->algebraic_error = size * goal->error.estimate;
+    report->algebraic_bound = size * goal->error.bound;
+    report->stopped = goal->enough;
+    report->iterations_saved = ost_goal_saved(goal);
+    if (!(goal->start > 0.0))
+        return;
+    report->relative_residual = goal->norm / goal->start;
+    report->attainable_residual = ost_goal_attainable(goal);
+    report->rounding_limited = goal->end == OST_END_ROUNDING;
+}
+
 /* Solves with f scaled to order 1. */
-static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, const ScaledStop *stop,
+                              OstSolveReport *report)
 {
     OstGoal goal;
     if (solver->method == OST_METHOD_AUTO && solver->matrix->global_rows > 0)
@@ -343,18 +389,13 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;
+    goal.stop = stop->user ? &stop->stop : NULL;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
-    report->iterations = goal.iterations;
     solver->smallest = goal.smallest;
-    report->indefinite = goal.indefinite;
-    if (goal.start > 0.0) {
-        report->relative_residual = goal.norm / goal.start;
-        report->attainable_residual = ost_goal_attainable(&goal);
-        report->rounding_limited = goal.end == OST_END_ROUNDING;
-    }
+    report_goal(&goal, stop->size, report);
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
@@ -367,18 +408,24 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, Ost
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
+    ScaledStop stop = {.stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
     double *scaled = NULL;
-    double size;
-    OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
-    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n)));
+    OST_TRY(ost_vector_size(solver->ctx, n, f, &stop.size));
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n : n)));
     for (size_t i = 0; i < n; i++) {
-        scaled[i] = f[i] / size;
-        u[i] = 0.0;
+        scaled[i] = f[i] / stop.size;
+        u[i] = solver->aim.goes_on ? u[i] / stop.size : 0.0;
     }
-    const OstStatus status = solve_scaled(solver, scaled, u, report);
+    if (stop.user) {
+        stop.u = scaled + n;
+        stop.stop.relative = stop.user->relative;
+        stop.stop.first = stop.user->first / (stop.user->relative ? 1.0 : stop.size);
+    }
+    const OstStatus status = solve_scaled(solver, scaled, u, &stop, report);
     for (size_t i = 0; i < n; i++)
-        u[i] *= size;
+        u[i] *= stop.size;
     OST_FREE(scaled);
+    report->solve_seconds = -stop.seconds;
     return status;
 }
 
@@ -386,6 +433,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
+    report->nonzeros = solver->nonzeros;
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
@@ -393,7 +441,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     const double setup = solver->setup_seconds;
     const OstStatus status = solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
+    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
 }
@@ -438,5 +486,20 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     const OstStatus status =
         ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    double *scaled = NULL;
+    *found = solver->method != OST_METHOD_AUTO;
+    if (!*found)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
+    current_system(solver, &system, &preconditioner);
+    const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
+    OST_FREE(scaled);
     return status;
 }

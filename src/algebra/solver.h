@@ -4,6 +4,7 @@
 
 #include "algebra/krylov/error_of_residual.h"
 #include "algebra/krylov/gmres.h"
+#include "algebra/krylov/goal.h"
 #include "algebra/matrix/geometry.h"
 #include "orthostat/solver.h"
 
@@ -28,19 +29,23 @@ typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 
 /* Local. How later solves go about it, in place of the options' relative residual: Newton's method needs little at
- * first. `crude`: the error of the solution is not estimated. `probing`: the matrix may be indefinite, and the first
- * sign of it ends update and solve with OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried
- * otherwise. */
+ * first. `stop`: ends a solve by multigrid before that, where the error in the norm of the energy is small enough; it
+ * lives as long as the aim. `goes_on`: solves begin with the u given and not with 0. `crude`: the error of the solution
+ * is not estimated. `probing`: the matrix may be indefinite, and the first sign of it ends update and solve with
+ * OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried otherwise. */
 typedef struct OstSolverAim {
     double relative_residual; /* 0: the options' */
     int crude, probing;
     OstMethod first; /* an update that rebuilds begins with this strategy, or a later one that the plan names */
+    const OstErrorStop *stop; /* NULL: none */
+    int goes_on;
 } OstSolverAim;
 void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
 
-/* Collective. Solves A u = f from u = 0 until ||f - A u|| <= options.relative_residual ||f|| in the unscaled 2-norm.
- * The residual is recomputed from A, u and f; if the recursive one has drifted from it, the iteration continues. f and
- * u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any number of right-hand sides.
+/* Collective. Solves A u = f from u = 0 (but see OstSolverAim) until ||f - A u|| <= options.relative_residual ||f|| in
+ * the unscaled 2-norm. The residual is recomputed from A, u and f; if the recursive one has drifted from it, the
+ * iteration continues. f and u have 3 × rows numbers of any unit (account OST_LEDGER_SOLVE). May be called for any
+ * number of right-hand sides.
  *
  * With AUTO the solver gives up a strategy that would need more than options.patience further iterations, whose
  * preconditioner is not positive definite (r·z <= 0), or that gains nothing more. The next one continues from the
@@ -63,5 +68,9 @@ OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *
  * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.
  */
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
+
+/* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
+ * *found: 0 if the solver has no strategy. */
+OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found);
 
 #endif

@@ -61,7 +61,7 @@ void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstF
         if (formulation == OST_FORMULATION_LINEAR)
             element->means(batch.x, &batch.elasticity, of_nodes, &means);
         else
-            ost_large_rotation_means(element, batch.x, &batch.elasticity, of_nodes, &means);
+            ost_large_rotation_means(element, formulation, batch.x, &batch.elasticity, of_nodes, &means);
         visit(data, &batch, element, of_nodes, &means);
     }
 }

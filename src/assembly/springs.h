@@ -24,11 +24,25 @@ void ost_supports_add_spring(OstSupports *supports, OstLocal node, const OstSpri
  * integrated at the vertices of linear faces and the mid-edge nodes of quadratic ones, where these rules have degree 1
  * and 2. So it converges as fast as the elements, couples no nodes, and makes no waves where the foundation is stiff
  * (J. C. J. Schellekens and R. de Borst, On the numerical integration of interface elements, 1993). */
-void ost_supports_add_foundation(OstSupports *supports, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
-                                 const OstSpringStiffness *stiffness);
+OstStatus ost_supports_add_foundation(OstSupports *supports, OstLocal face_count, const OstLocal *faces,
+                                      int nodes_per_face, const OstSpringStiffness *stiffness);
 
-/* Local. The directions in which springs hold a node, in `held->direction`; returns their number. */
+/* What foundations add at a node along the normals of its faces, beyond what they add in every direction. */
+typedef struct OstBed {
+    double block[9]; /* stiffness, part of OstSupports.spring */
+    int sides;
+    struct {
+        double stiffness;
+        double normal[3]; /* weighted sum of its faces' normals, along that of the surface */
+    } side[3];            /* smooth pieces of the surface, which meet in edges */
+} OstBed;
+
+/* Local. The directions in which springs hold a node, in `held->direction`, leaving out the node's OstBed. */
 OstStatus ost_spring_directions(const OstSupports *supports, OstLocal node, OstSupport *held);
+
+/* Local. How the node's OstBed holds it: `facets` has the directions held by the faces as the mesh has them, `smooth`
+ * those held if the surface is smooth there. Rows, whose squared lengths sum up to 1, or to 0 where there is none. */
+OstStatus ost_bed_directions(const OstSupports *supports, OstLocal node, double facets[9], double smooth[9]);
 
 /* Local. Adds scale × the springs' forces on the body, -S u, to the owned nodes' forces. */
 void ost_spring_force(const OstSupports *supports, double scale, const double *u, double *force);

@@ -46,6 +46,7 @@ void ost_supports_destroy(OstSupports **supports)
     OST_FREE((*supports)->index);
     OST_FREE((*supports)->support);
     OST_FREE((*supports)->spring);
+    OST_FREE((*supports)->bed);
     OST_FREE(*supports);
 }
 

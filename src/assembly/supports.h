@@ -24,6 +24,7 @@ typedef struct OstSupports {
     OstSupport *support;
     double
         *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
+    struct OstBed *bed; /* owned_nodes: what of it acts along surface normals alone; NULL: nothing on this rank */
 } OstSupports;
 
 OstStatus ost_supports_create(const OstMesh *mesh, OstSupports **supports);

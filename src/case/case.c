@@ -96,6 +96,16 @@ static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *la
     return OST_SUCCESS;
 }
 
+/* Until the accuracy section gives one. */
+static const double not_given = -1.0;
+
+/* What verify measures is the discretisation error, to many digits. */
+static void settle_fraction(OstCase *c)
+{
+    if (c->solver.algebraic_fraction == not_given)
+        c->solver.algebraic_fraction = c->verify ? 0.0 : 0.1;
+}
+
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
 {
     enum {
@@ -163,6 +173,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
     OST_TRY(check_materials(yaml, c));
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
+    settle_fraction(c);
     return check_gravity(yaml, c);
 }
 
@@ -220,6 +231,7 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
+    (*c)->solver.algebraic_fraction = not_given;
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
@@ -319,6 +331,7 @@ void ost_case_destroy(OstCase **c)
         return;
     for (int i = 0; i < (*c)->material_count; i++) {
         OST_FREE((*c)->materials[i].region);
+        OST_FREE((*c)->materials[i].eigen_field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)

@@ -95,6 +95,10 @@ typedef struct OstCaseMaterial {
     OstMaterial material;
     double eigenstrain[6]; /* in material axes, 11 22 33 12 23 31, engineering shear; one that has directions makes the
                               material count as not isotropic, so that its axes are kept */
+    int eigenstrained;     /* does the case state one? */
+    char *eigen_field;     /* the mesh file's field of it, tet by tet; or NULL */
+    OstPlace eigen_place;
+    int eigen_per_unit; /* the field is the change that `eigenstrain` is multiplied by, not the strain itself */
     OstAxesSpec axes;
 } OstCaseMaterial;
 
@@ -159,12 +163,15 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
+    const OstCaseMaterial *eigen_field; /* the first material that has one; NULL: none has */
+    int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
     OstWatch *watches;
     struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */
     OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
     double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
+    int asks_error;           /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file;        /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields;   /* bits of OstOutputField */
     unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */

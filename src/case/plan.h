@@ -12,23 +12,47 @@
 /* Larger than any count in use; sums and small multiples of it still fit 64 bits. */
 #define OST_PLAN_MOST (INT64_MAX / 64)
 
+/* How large a mesh is, and the stiffness on it: what memory and seconds are foretold from. Whole numbers where they are
+ * known, else estimates. */
+typedef struct OstMeshCounts {
+    double nodes, tets;
+    double vertices, edges, surface; /* of the tets; faces on the surface */
+    double blocks, linear_blocks;    /* of the stiffness, and of that of linear tets on the same vertices */
+} OstMeshCounts;
+
+/* Multigrid's levels, as they are foretold (src/case/plan_memory.c). */
+typedef struct OstPlanLevels {
+    double aggregate_nodes; /* of an aggregate of linear tets' nodes, as they turn out */
+    double columns;         /* of a row of their prolongator */
+    double coarsest;        /* unknowns of the last level */
+    int count;              /* those of linear tets */
+    double kept;            /* bytes of the hierarchy, over all ranks, and those needed on top while it is made */
+    double transient;
+} OstPlanLevels;
+
 typedef struct OstPlan {
     OstEffects effects;
     OstSolverFacts facts; /* as far as they are known */
     OstSolverPlan solver;
     OstGlobal nodes, tets; /* of the mesh as given */
-    OstGlobal unknowns;    /* upper bound: 3 × nodes, before supports are taken off */
-    int least_ranks;       /* predicted: on fewer ranks, one would hold more than it can number */
+    int quadratic;
+    OstMeshCounts counts;
+    OstPlanLevels levels; /* zeros where multigrid is not planned */
+    OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */
+    int least_ranks;      /* predicted: on fewer ranks, one would hold more than it can number */
     /* Predicted, over all ranks (by src/case/plan_memory.c and the effects' rules): pieces of the mesh with their
      * halos; K by blocks, its pattern and its scatter map; the solver's copies and vectors; arrays of the effects; the
      * output files. */
     double bytes_mesh, bytes_matrix, bytes_solver, bytes_effects, bytes_output;
+    double bytes_in_all; /* at the peak: the solve, the estimate of the error after it, or strains and stresses when
+                            the solver is gone */
 } OstPlan;
 
 /* What is known of the mesh when a plan is made: from the shape or the file, or the mesh itself. */
 typedef struct OstPlanMesh {
     OstGlobal nodes, tets;
     int quadratic;
+    double surface;                    /* faces on the surface; 0: not known, or of a shape, which tells */
     const OstNames *regions;           /* NULL: one region of any name, as shapes have */
     const OstFileMaterials *materials; /* those that came with the file, or NULL */
     const OstEffect *load;             /* the effect of each load (ost_load_effects); NULL: by the case alone */
@@ -58,9 +82,14 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
  * number of ranks; OST_INVALID_INPUT if the case expects its mesh from a program. */
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
 
-/* Local. Converts the counts of a mesh file to those of the case's mesh, refined and in its order: the tets exactly,
- * the nodes about. */
-void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets);
+/* Local. Faces on the surface of a shape; 0 for a mesh file. */
+double ost_plan_shape_surface(const OstCase *c);
+
+/* Local. Converts the counts of a mesh file to those of the case's mesh, refined and in its order. */
+void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets, double *surface);
+
+/* Local. What follows from nodes, tets and faces on the surface (0: not known; a compact body is assumed). */
+OstMeshCounts ost_mesh_counts(double nodes, double tets, int quadratic, double surface);
 
 /* Local. Fills the facts of the materials in use that effects and solver depend on. */
 void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver);
@@ -76,7 +105,7 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softes
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 
-/* Local. Predicts the plan's bytes from its nodes, tets, method and effects. */
-void ost_plan_memory(const OstCase *c, int quadratic, int ranks, OstPlan *plan);
+/* Local. Predicts the plan's bytes from its counts, method and effects. */
+void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan);
 
 #endif

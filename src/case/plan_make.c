@@ -42,12 +42,18 @@ static void count_springs(const OstCase *c, OstEffectFacts *facts)
 
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
+    const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
+    const OstMeshCounts counts = ost_mesh_counts((double)mesh->nodes, (double)mesh->tets, mesh->quadratic, surface);
     OstEffectFacts facts = {.quadratic = mesh->quadratic,
-                            .nodes = (double)mesh->nodes,
-                            .tets = (double)mesh->tets,
+                            .nodes = counts.nodes,
+                            .tets = counts.tets,
+                            .vertices = counts.vertices,
+                            .edges = counts.edges,
                             .regions = mesh->regions ? mesh->regions->count : 1,
                             .without = c->without};
     memset(plan, 0, sizeof *plan);
+    plan->counts = counts;
+    plan->quadratic = mesh->quadratic;
     plan->nodes = mesh->nodes;
     plan->tets = mesh->tets;
     plan->unknowns = 3 * mesh->nodes;
@@ -67,43 +73,12 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.tables = c->table_count;
     facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
                         ost_plan_writes(c, OST_FIELD_ENERGY);
+    facts.asks_error = c->asks_error && c->path_steps == 0;
+    facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
     facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
-    ost_plan_memory(c, mesh->quadratic, ranks, plan);
-}
-
-static OstGlobal bounded(double count)
-{
-    return count < (double)OST_PLAN_MOST ? (OstGlobal)count : OST_PLAN_MOST;
-}
-
-/* Computed in double precision, which is exact for all counts in use and cannot overflow. */
-void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
-{
-    /* A refinement doubles a shape's divisions. For the nodes, so does a node on every edge. */
-    const double fine = (double)(1 << c->refinement);
-    const double nodal = c->order == 2 ? 2.0 * fine : fine;
-    const OstTubeShape *tube = &c->tube;
-    const OstSectorShape *sector = &c->sector;
-    const double around = c->octant.around;
-    const OstLocal *n = c->block.divisions;
-    double points = 0.0, cells = 0.0;
-    if (c->mesh_kind == OST_MESH_TUBE) {
-        points = (nodal * tube->axial + 1.0) * nodal * tube->around * (nodal * tube->radial + 1.0);
-        cells = (double)tube->axial * tube->around * tube->radial;
-    } else if (c->mesh_kind == OST_MESH_SECTOR) {
-        points = (nodal * sector->axial + 1.0) * (nodal * sector->around + 1.0) * (nodal * sector->radial + 1.0);
-        cells = (double)sector->axial * sector->around * sector->radial;
-    } else if (c->mesh_kind == OST_MESH_OCTANT) {
-        points = (3.0 * nodal * around * (nodal * around + 1.0) + 1.0) * (nodal * c->octant.radial + 1.0);
-        cells = 3.0 * around * around * c->octant.radial;
-    } else if (c->mesh_kind == OST_MESH_BLOCK) {
-        points = (nodal * n[0] + 1.0) * (nodal * n[1] + 1.0) * (nodal * n[2] + 1.0);
-        cells = (double)n[0] * n[1] * n[2];
-    }
-    *nodes = bounded(points);
-    *tets = bounded(6.0 * cells * fine * fine * fine);
+    ost_plan_memory(c, ranks, plan);
 }
 
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
@@ -120,23 +95,6 @@ OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
                      "%s: %s%lld nodes have three unknowns each; Epetra and ML number at most 2^31 - 1 over all ranks, "
                      "which is %lld nodes: use a coarser mesh",
                      c->path, nodes == OST_PLAN_MOST ? "more than " : "", (long long)nodes, (long long)most);
-}
-
-void ost_plan_file_size(const OstCase *c, int nodes_per_tet, OstGlobal *nodes, OstGlobal *tets)
-{
-    /* A tet mesh has about 7/6 edges a tet. A refinement, or order 2, puts a node on each edge. Quadratic tets are
-     * refined by refining their vertices' mesh and raising its order. */
-    int quadratic = nodes_per_tet == 10;
-    if (quadratic)
-        *nodes -= 7 * *tets / 6;
-    for (int r = 0; r < c->refinement; r++) {
-        *nodes = bounded((double)*nodes + 7.0 * (double)*tets / 6.0);
-        *tets = bounded(8.0 * (double)*tets);
-    }
-    if (c->order != 0)
-        quadratic = c->order == 2;
-    if (quadratic)
-        *nodes = bounded((double)*nodes + 7.0 * (double)*tets / 6.0);
 }
 
 int ost_plan_acts(const OstCase *c, const OstPlan *plan)

@@ -22,7 +22,7 @@ static void say_why_orthotropic(const char *region, const OstOrthotropic *k, con
         snprintf(reason, 160, "%d different Young's moduli in region '%.60s'", moduli, region);
     else if (ratios > 1)
         snprintf(reason, 160, "%d different Poisson's ratios in region '%.60s'", ratios, region);
-    else if (stated && ost_strain_has_directions(stated->eigenstrain))
+    else if (stated && (stated->eigen_field || ost_strain_has_directions(stated->eigenstrain)))
         snprintf(reason, 160, "the eigenstrain of region '%.60s' has directions", region);
     else
         snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
@@ -61,6 +61,8 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softes
 
 static int is_eigenstrained(const OstCaseMaterial *stated)
 {
+    if (stated->eigen_field)
+        return 1;
     for (int p = 0; p < 6; p++)
         if (stated->eigenstrain[p] != 0.0)
             return 1;

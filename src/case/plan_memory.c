@@ -4,19 +4,36 @@
 
 #include <math.h>
 
-/* Bytes of each structure; the fields are those of mesh.h, block_matrix.h, system.h and result.h. */
-static const double mesh_node_bytes = 24.0 + 8.0 + 8.0;      /* coordinates, number, label */
-static const double mesh_tet_bytes = 8.0 + 8.0 + 4.0;        /* label, index, region; its nodes come on top */
+/* Bytes at the peak of a run, when the solver is made or solves. Where arrays follow from the data structures (of
+ * mesh.h, block_matrix.h, level_matrix.h, prolongator.h) their sizes are stated; the rest, marked as measured, is
+ * fitted to the ledgers of tubes, blocks, beams and octants with 1 to 30 hexes across. */
 static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
 static const double row_bytes = 8.0 + 4.0 + 4.0 + 4.0 + 4.0; /* label, start, diagonal, both maps of nodes and rows */
-static const double pair_bytes = 4.0;                        /* place of the block of a pair of a tet's nodes */
-static const double vectors = 10.0;                          /* of three doubles a node, in the solver and around it */
+static const double node_bytes = 96.0;                       /* displacement, load, supports, free motions */
+static const double vectors = 9.0;                           /* of three doubles a node, in the solver and around it */
 
-/* Multigrid's memory over the matrix', measured on the tube of the paper: level 0 in single precision, the smoother's
- * factors, and the coarse levels. Under quadratic tets the levels are of the linear tets, which are counted apart
- * (OST_EFFECT_LINEAR_SPACE). */
-static const double multigrid_copies = 1.9;
-static const double quadratic_copies = 1.0;
+/* The mesh, its halo and its surface, for each vertex, tet and face on the surface; quadratic tets have their edges'
+ * nodes on top. Measured. */
+static const struct {
+    double vertex, tet, face;
+} mesh_bytes[2] = {{56.0, 25.3, 22.0}, {50.0, 97.0, 77.0}};
+
+/* Multigrid. Of a node of linear tets: half the blocks in single precision with their column; diagonal, smoother's
+ * factors and vectors; more, measured, with each aggregate: a row of the coarse matrix, and columns of the prolongator.
+ */
+static const double half_block_bytes = 40.0, smoother_bytes = 360.0;
+static const double prolongator_bytes = 370.0, column_bytes = 76.0;
+/* An aggregate has as many bytes far from the surface, and as many less at a wall of one hex (see thinness). */
+static const double aggregate_bytes = 8.5e3, aggregate_inside = 32e3, aggregate_decay = 1.4;
+static const double single_coarse = 0.72; /* of that, where there is one coarse level */
+static const double quadratic_node_bytes = 690.0;
+
+/* While it is made: the coarse matrix in double precision and its sums, for each node; smaller aggregates have more of
+ * it. Measured. */
+static const double galerkin_bytes = 80.0, galerkin_inside = 700.0, galerkin_decay = 1.5;
+static const double galerkin_power = 1.7, usual_aggregate = 38.0;
+static const double quadratic_transient = 380.0;
+
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
 /* All nodes and tets that ranks hold, over those they own: each holds a layer of ghost nodes around its part of the
@@ -29,27 +46,60 @@ static double halo_factor(double nodes, int ranks)
     return 1.0 + fmin(3.0 * cbrt((double)ranks / nodes), (double)ranks - 1.0);
 }
 
-/* Number of blocks of K: one for each node, and two for each pair of nodes that share a tet. By Euler's formula a mesh
- * of V vertices, T tets and B surface faces has about E = V + T + B/2 edges; B is about 12 V^(2/3) for a compact body.
- * With quadratic tets an edge's node is paired with the vertices of the tets around it: the edge's two ends and 6 T / E
- * more; and with the nodes of other edges: 12 T / E share a face with it, 6 T / E lie opposite in a tet. */
-static double matrix_blocks(double nodes, double tets, int quadratic)
+/* Surface faces a vertex: 2 for a wall of one hex, 0 for an infinite body. A node on the surface has fewer neighbours,
+ * and so have the aggregates there. */
+static double thinness(const OstMeshCounts *counts)
 {
-    const double vertices = quadratic ? fmax(nodes - 7.0 / 6.0 * tets, 0.0) : nodes;
-    const double edges = quadratic ? nodes - vertices : vertices + tets + 6.0 * pow(vertices, 2.0 / 3.0);
-    return vertices + 2.0 * edges + (quadratic ? 5.0 * edges + 30.0 * tets : 0.0);
+    return counts->vertices > 0.0 ? fmin(counts->surface / counts->vertices, 2.5) : 0.0;
 }
 
-static double solver_bytes(const OstPlan *plan, int quadratic, double matrix_bytes)
+/* Coarsening stops at coarsest_unknowns. Aggregates turn out a little smaller than they are asked for, so a level that
+ * is expected to have just too many may have few enough; taken as the last, it is the dearest there can be. */
+static void foretell_levels(const OstPlan *plan, OstPlanLevels *levels)
 {
-    const double vector_bytes = vectors * 24.0 * (double)plan->nodes;
+    const OstSolverOptions *options = &plan->solver.options;
+    const double most = 1.1 * options->coarsest_unknowns;
+    double unknowns = 3.0 * plan->counts.vertices;
+    levels->aggregate_nodes = options->aggregate_nodes * (0.985 - 0.05 * thinness(&plan->counts));
+    for (levels->count = 1; unknowns > most && levels->count < options->most_levels; levels->count++)
+        unknowns /= levels->count == 1 ? 0.5 * levels->aggregate_nodes : fmax(options->coarse_aggregate_nodes, 2.0);
+    levels->coarsest = unknowns;
+}
+
+/* Of linear tets' multigrid; under quadratic tets their level comes on top. Every rank has the coarsest level's
+ * factors. */
+static void foretell_hierarchy(const OstPlan *plan, int ranks, OstPlanLevels *levels)
+{
+    const OstMeshCounts *counts = &plan->counts;
+    const double thin = thinness(counts);
+    foretell_levels(plan, levels);
+    const double share = levels->count > 2 ? 1.0 : single_coarse;
+    const double of_aggregates =
+        share * (aggregate_bytes + aggregate_inside * exp(-aggregate_decay * thin)) / levels->aggregate_nodes;
+    const double of_product = (galerkin_bytes + galerkin_inside * exp(-galerkin_decay * thin)) *
+                              pow(usual_aggregate / levels->aggregate_nodes, galerkin_power);
+    levels->columns = (prolongator_bytes + of_aggregates) / column_bytes;
+    levels->kept = half_block_bytes * 0.5 * (counts->linear_blocks - counts->vertices) +
+                   counts->vertices * (smoother_bytes + prolongator_bytes + of_aggregates);
+    levels->transient = levels->count > 2 ? counts->vertices * of_product : 0.0;
+    if (levels->coarsest <= 2000.0)
+        levels->kept += 8.0 * levels->coarsest * levels->coarsest * ranks;
+    if (!plan->quadratic)
+        return;
+    levels->kept += half_block_bytes * 0.5 * (counts->blocks - counts->nodes) + quadratic_node_bytes * counts->nodes;
+    levels->transient = fmax(levels->transient, quadratic_transient * counts->nodes);
+}
+
+static double solver_bytes(const OstPlan *plan)
+{
+    const double vector_bytes = vectors * 24.0 * plan->counts.nodes;
     switch (plan->solver.first) {
     case OST_METHOD_DIRECT:
         return vector_bytes + ost_solver_factor_bytes(plan->unknowns);
     case OST_METHOD_PLAIN:
-        return vector_bytes + plain_copies * matrix_bytes;
+        return vector_bytes + plain_copies * plan->counts.blocks * block_bytes;
     default:
-        return vector_bytes + (quadratic ? quadratic_copies : multigrid_copies) * matrix_bytes;
+        return plan->levels.kept + fmax(vector_bytes, plan->levels.transient);
     }
 }
 
@@ -65,8 +115,8 @@ static double output_bytes(const OstCase *c, const OstPlan *plan)
                         48.0 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     const double tet = 32.0 + 8.0 + 1.0 + 48.0 * ost_plan_writes(c, OST_FIELD_STRESS) +
                        48.0 * ost_plan_writes(c, OST_FIELD_STRAIN) + 8.0 * ost_plan_writes(c, OST_FIELD_ENERGY) +
-                       72.0 * ost_plan_writes(c, OST_FIELD_AXES) + 4.0 * ost_plan_writes(c, OST_FIELD_REGION) +
-                       4.0 * ost_plan_writes(c, OST_FIELD_RANK);
+                       8.0 * ost_plan_writes(c, OST_FIELD_ERROR) + 72.0 * ost_plan_writes(c, OST_FIELD_AXES) +
+                       4.0 * ost_plan_writes(c, OST_FIELD_REGION) + 4.0 * ost_plan_writes(c, OST_FIELD_RANK);
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 
@@ -77,19 +127,24 @@ static int least_ranks(double blocks, double tet_nodes)
     return (int)fmin(fmax(ceil(fmax(9.0 * blocks, tet_nodes) / INT32_MAX), 1.0), INT32_MAX);
 }
 
-void ost_plan_memory(const OstCase *c, int quadratic, int ranks, OstPlan *plan)
+void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
 {
-    const double nodes = (double)plan->nodes;
-    const double tets = (double)plan->tets;
-    const double nodes_per_tet = quadratic ? 10.0 : 4.0;
-    const double pairs = nodes_per_tet * (nodes_per_tet + 1.0) / 2.0;
-    const double halo = halo_factor(nodes, ranks);
-    const double blocks = matrix_blocks(nodes, tets, quadratic);
-    plan->least_ranks = least_ranks(blocks, nodes_per_tet * tets);
-    plan->bytes_mesh = halo * (nodes * mesh_node_bytes + tets * (4.0 * nodes_per_tet + mesh_tet_bytes));
-    plan->bytes_matrix = blocks * block_bytes + nodes * row_bytes + halo * tets * pairs * pair_bytes;
-    plan->bytes_solver = solver_bytes(plan, quadratic, blocks * block_bytes);
+    const OstMeshCounts *counts = &plan->counts;
+    const double recovery = ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
+    const double estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE)->bytes;
+    const int q = plan->quadratic;
+    plan->least_ranks = least_ranks(counts->blocks, (q ? 10.0 : 4.0) * counts->tets);
+    plan->bytes_mesh =
+        node_bytes * counts->nodes +
+        halo_factor(counts->nodes, ranks) * (mesh_bytes[q].vertex * counts->vertices +
+                                             mesh_bytes[q].tet * counts->tets + mesh_bytes[q].face * counts->surface);
+    plan->bytes_matrix = counts->blocks * block_bytes + counts->nodes * row_bytes;
+    if (plan->solver.first != OST_METHOD_DIRECT && plan->solver.first != OST_METHOD_PLAIN)
+        foretell_hierarchy(plan, ranks, &plan->levels);
+    plan->bytes_solver = solver_bytes(plan);
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
+    plan->bytes_in_all = plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects - estimate - recovery +
+                         fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery);
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }

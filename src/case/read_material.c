@@ -192,26 +192,88 @@ static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, doubl
     return ost_yaml_numbers(yaml, node, count, strain);
 }
 
-/* A strain, or one for each unit of a change (of temperature, of moisture), and the change. */
-static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+/* All eigenstrains of a case follow the same function of time, and are read from one field at most. */
+static OstStatus agree_with_others(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material,
+                                   int table, OstCase *c)
 {
-    double *strain = material->eigenstrain;
-    double change = 1.0;
-    OstYamlKey keys[] = {{.name = "per_unit", .needed = 1}, {.name = "change", .needed = 1}};
-    if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
-        OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-        OST_TRY(ost_yaml_number(yaml, keys[1].value, &change));
-        OST_TRY(read_strain(yaml, keys[0].value, strain));
-    } else
-        OST_TRY(read_strain(yaml, node, strain));
-    for (int p = 0; p < 6; p++)
-        strain[p] *= change;
-    if (ost_strain_has_directions(strain))
-        material->material.isotropic = 0;
+    for (const OstCaseMaterial *other = c->materials; other < material; other++) {
+        if (other->eigenstrained && c->eigen_table != table)
+            return ost_yaml_raise(yaml, node,
+                                  "this eigenstrain follows another time table than that of region '%.80s' in line %d; "
+                                  "give all eigenstrains the same, or none",
+                                  other->region, other->line);
+        if (other->eigen_field && material->eigen_field && strcmp(other->eigen_field, material->eigen_field) != 0)
+            return ost_yaml_raise(yaml, node, "found the field '%.80s', and '%.80s' in line %d; a case reads one",
+                                  material->eigen_field, other->eigen_field, other->line);
+    }
+    c->eigen_table = table;
+    if (material->eigen_field && !c->eigen_field)
+        c->eigen_field = material;
     return OST_SUCCESS;
 }
 
-static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+static OstStatus take_field(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+{
+    material->eigen_place = ost_yaml_at(node);
+    return ost_read_string(yaml, node, &material->eigen_field);
+}
+
+/* A number, or {field: NAME}. */
+static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+{
+    double change = 1.0;
+    OstYamlKey field = {.name = "field", .needed = 1};
+    if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
+        material->eigen_per_unit = 1;
+        OST_TRY(ost_yaml_mapping(yaml, node, &field, 1));
+        return take_field(yaml, field.value, material);
+    }
+    OST_TRY(ost_yaml_number(yaml, node, &change));
+    for (int p = 0; p < 6; p++)
+        material->eigenstrain[p] *= change;
+    return OST_SUCCESS;
+}
+
+enum { VALUE, PER_UNIT, FIELD, EIGEN_FORMS, CHANGE = EIGEN_FORMS, TIME, EIGEN_KEYS };
+
+static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys,
+                                       OstCaseMaterial *material)
+{
+    int form;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, EIGEN_KEYS));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, EIGEN_FORMS, &form));
+    if (form == PER_UNIT && !keys[CHANGE].value)
+        return ost_yaml_raise(yaml, node, "'per_unit' is a strain for each unit of a change; give the 'change' too");
+    if (form != PER_UNIT && keys[CHANGE].value)
+        return ost_yaml_raise(yaml, keys[CHANGE].value, "'change' belongs to 'per_unit', not to '%s'", keys[form].name);
+    if (form == FIELD)
+        return take_field(yaml, keys[FIELD].value, material);
+    OST_TRY(read_strain(yaml, keys[form].value, material->eigenstrain));
+    return form == PER_UNIT ? read_change(yaml, keys[CHANGE].value, material) : OST_SUCCESS;
+}
+
+/* A strain; or one for each unit of a change (of temperature, of moisture), and the change; or a field of the file. */
+static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
+{
+    int table = 0;
+    OstYamlKey keys[EIGEN_KEYS] = {[VALUE] = {.name = "value"},
+                                   [PER_UNIT] = {.name = "per_unit"},
+                                   [FIELD] = {.name = "field"},
+                                   [CHANGE] = {.name = "change"},
+                                   [TIME] = {.name = "time"}};
+    material->eigenstrained = 1;
+    if (ost_yaml_is(yaml, node, OST_YAML_MAPPING))
+        OST_TRY(read_eigenstrain_keys(yaml, node, keys, material));
+    else
+        OST_TRY(read_strain(yaml, node, material->eigenstrain));
+    if (keys[TIME].value)
+        OST_TRY(ost_read_time(yaml, keys[TIME].value, c, &table));
+    if (ost_strain_has_directions(material->eigenstrain) || (material->eigen_field && !material->eigen_per_unit))
+        material->material.isotropic = 0;
+    return agree_with_others(yaml, node, material, table, c);
+}
+
+static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
     OstYamlKey keys[] = {
@@ -246,7 +308,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         ost_yaml_located(yaml, keys[POISSONS].value,
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
-        OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, material));
+        OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 
@@ -261,6 +323,6 @@ OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCa
             .fixed = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .axis = {0, 0, 1}, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}};
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_material(yaml, item, &c->materials[i]));
+        OST_TRY(read_material(yaml, item, c, &c->materials[i]));
     return OST_SUCCESS;
 }

@@ -43,16 +43,24 @@ OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, Ost
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};
-    enum { RESIDUAL, OUT_OF_REACH, ERROR };
+    enum { RESIDUAL, FRACTION, OUT_OF_REACH, ERROR };
     OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"},
+                         [FRACTION] = {.name = "algebraic_fraction"},
                          [OUT_OF_REACH] = {.name = "out_of_reach"},
                          [ERROR] = {.name = "relative_error"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    if (keys[RESIDUAL].value)
+    if (keys[RESIDUAL].value) {
         c->solver.accept_attainable = 0;
+        c->solver.algebraic_fraction = 0.0;
+    }
+    if (keys[FRACTION].value)
+        OST_TRY(ost_yaml_number(yaml, keys[FRACTION].value, &c->solver.algebraic_fraction));
+    if (keys[FRACTION].value && !(c->solver.algebraic_fraction >= 0.0 && c->solver.algebraic_fraction <= 0.5))
+        return ost_yaml_raise_type(yaml, keys[FRACTION].value, "a number from 0 to 0.5", "");
     if (keys[OUT_OF_REACH].value)
         OST_TRY(ost_yaml_word(yaml, keys[OUT_OF_REACH].value, "answer", words, 2, &c->solver.accept_attainable));
-    if (keys[ERROR].value)
+    c->asks_error = keys[ERROR].value != NULL;
+    if (c->asks_error)
         OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
     if (!(c->relative_error > 0.0 && c->relative_error < 1.0))
         return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0 and below 1", "");

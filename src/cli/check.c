@@ -140,10 +140,13 @@ static void print_findings(const OstScene *scene, const Findings *findings)
 {
     const OstCase *c = scene->c;
     const OstMesh *mesh = scene->mesh;
-    printf("%s is fine: %lld vertices, %lld tet%s, %d region%s, %d constraint%s on %lld %s, %d load%s%s\n", c->path,
+    char springs[32] = "";
+    if (c->spring_count > 0)
+        snprintf(springs, sizeof springs, "%d spring%s, ", c->spring_count, plural(c->spring_count));
+    printf("%s is fine: %lld vertices, %lld tet%s, %d region%s, %d constraint%s on %lld %s, %s%d load%s%s\n", c->path,
            (long long)mesh->global_nodes, (long long)mesh->global_tets, plural(mesh->global_tets), mesh->regions.count,
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
-           (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", c->load_count,
+           (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", springs, c->load_count,
            plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
     if (c->path_steps > 0)
         printf("solve will write the fields of %d step%s beside %s, the first to %s\n", c->path_steps,
@@ -161,11 +164,12 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
         json_array_append_new(regions, json_string(mesh->regions.name[r]));
     for (int b = 0; b < mesh->boundary_count; b++)
         json_array_append_new(boundaries, json_string(mesh->boundaries[b].name));
-    json_t *root = json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:s, s:o}", "case", scene->c->path, "vertices",
-                             (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
-                             "boundaries", boundaries, "constraints", scene->c->constraint_count,
-                             "constrained_vertices", (json_int_t)findings->constrained, "loads", scene->c->load_count,
-                             "output", findings->output, "warnings", ost_json_warnings(scene->ctx));
+    json_t *root =
+        json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:i, s:s, s:o}", "case", scene->c->path, "vertices",
+                  (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
+                  "boundaries", boundaries, "constraints", scene->c->constraint_count, "constrained_vertices",
+                  (json_int_t)findings->constrained, "springs", scene->c->spring_count, "loads", scene->c->load_count,
+                  "output", findings->output, "warnings", ost_json_warnings(scene->ctx));
     if (!root)
         return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/parallel/free_memory.h"
 #include "study/cost.h"
+#include "study/forecast/calibrate.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,9 +15,10 @@
 typedef struct Arguments {
     OstArguments common;
     OstCostVariants variants;
+    int calibrate;
 } Arguments;
 
-enum { ORDERS = 256, REFINEMENTS, TOLERANCES };
+enum { ORDERS = 256, REFINEMENTS, TOLERANCES, CALIBRATE };
 
 static const struct argp_option options[] = {
     {"max-time", 't', "SECONDS", 0, "Skip runs that would take the total beyond this time (default: 600)", 0},
@@ -26,6 +28,9 @@ static const struct argp_option options[] = {
     {"csv", 'c', "FILE", 0, "Write the list as CSV here; - for standard output", 0},
     {"json", 'j', "FILE", 0, "Write everything as JSON here; - for standard output", 0},
     {"picture", 'p', "FILE", 0, "Draw error against seconds here (.png, .svg or .pdf)", 0},
+    {"calibrate", CALIBRATE, 0, 0,
+     "Without a case: measure in less than a minute what this machine can do, for the seconds that `explain` foretells",
+     0},
     {0},
 };
 
@@ -65,8 +70,19 @@ static error_t read_max_time(struct argp_state *state, const char *text, OstCost
 
 static error_t parse_option(int key, char *value, struct argp_state *state)
 {
-    OstCostVariants *v = &((Arguments *)state->input)->variants;
+    Arguments *arguments = state->input;
+    OstCostVariants *v = &arguments->variants;
     switch (key) {
+    case CALIBRATE:
+        arguments->calibrate = 1;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (!arguments->calibrate)
+            return ost_cli_take(key, value, state);
+        argp_error(state, "--calibrate runs bodies of its own, and takes no case: '%s'", value);
+        return EINVAL;
+    case ARGP_KEY_END:
+        return arguments->calibrate ? 0 : ost_cli_take(key, value, state);
     case 't':
         return read_max_time(state, value, v);
     case ORDERS:
@@ -83,7 +99,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 static const struct argp cost_argp = {
     options,
     parse_option,
-    "CASE",
+    "CASE\n--calibrate",
     "Measures what accuracy costs: solves a case with every combination of element order, refinement and solver "
     "tolerance, and lists each run's error (of the strain energy and of the case's quantities of interest), seconds "
     "and memory, and the cheapest run for errors of 10, 3, 1 and 0.3 %.",
@@ -110,6 +126,23 @@ static OstStatus report(const OstCost *cost, const char *csv, const char *json, 
     return ost_agree(cost->ctx, status);
 }
 
+/* Keeps the rates of this machine, and shows how well they foretell the runs that they come from, and others. */
+static OstStatus calibrate(OstContext *ctx, const char *json)
+{
+    char path[4096];
+    OstCalibration calibration;
+    OST_TRY(ost_calibrate(ctx, ORTHOSTAT_VERSION, &calibration));
+    const int quiet = ost_log_level(ctx) == OST_LOG_QUIET || ost_cli_is_stdout(json);
+    if (!quiet)
+        ost_calibration_print(ctx, &calibration);
+    OST_TRY(ost_agree(ctx, ost_rates_save(ctx, &calibration.rates)));
+    if (json)
+        OST_TRY(ost_agree(ctx, ost_calibration_write_json(ctx, &calibration, json)));
+    if (!quiet && ost_rates_path(path, sizeof path))
+        ost_log(ctx, OST_LOG_NORMAL, "the rates are in %s", path);
+    return OST_SUCCESS;
+}
+
 /* Where reports go is checked before anything runs. */
 static OstStatus run_study(OstContext *ctx, void *input)
 {
@@ -119,6 +152,8 @@ static OstStatus run_study(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstCost *cost = NULL;
     OstStatus status = OST_SUCCESS;
+    if (arguments->calibrate)
+        return calibrate(ctx, text['j']);
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
     OST_TRY_DONE(ost_case_read(ctx, arguments->common.case_path, &c));
     if (ost_cli_is_stdout(text['p']))
@@ -135,6 +170,6 @@ done:
 
 int ost_cli_cost(OstContext *ctx, int argc, char **argv)
 {
-    Arguments arguments = {.variants = ost_cost_default_variants()};
+    Arguments arguments = {.variants = ost_cost_default_variants(), .calibrate = 0};
     return ost_cli_run(ctx, &cost_argp, argc, argv, &arguments, run_study);
 }

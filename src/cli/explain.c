@@ -9,6 +9,7 @@
 #include "orthostat/solver.h"
 #include "output/summary.h"
 #include "problem/scene_parts.h"
+#include "study/forecast/forecast.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -36,9 +37,12 @@ static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan
         goto done;
     OST_TRY_DONE(ost_scene_make_mesh(c, &mesh, &from_file, &materials));
     OST_TRY_DONE(ost_load_effects(c, mesh, load));
+    double surface = 0.0;
+    OST_TRY_DONE(ost_mesh_surface_faces(mesh, &surface));
     const OstPlanMesh facts = {.nodes = mesh->global_nodes,
                                .tets = mesh->global_tets,
                                .quadratic = mesh->nodes_per_tet == 10,
+                               .surface = surface,
                                .regions = &mesh->regions,
                                .materials = from_file,
                                .load = load};
@@ -64,7 +68,8 @@ static OstStatus plan_with_file(OstContext *ctx, const OstCase *c, OstPlan *plan
                          .quadratic = c->order == 0 ? chunk->nodes_per_tet == 10 : c->order == 2,
                          .regions = &chunk->regions,
                          .materials = materials};
-    ost_plan_file_size(c, chunk->nodes_per_tet, &facts.nodes, &facts.tets);
+    OST_TRY_DONE(ost_chunk_surface_faces(chunk, &facts.surface));
+    ost_plan_file_size(c, chunk->nodes_per_tet, &facts.nodes, &facts.tets, &facts.surface);
     OST_TRY_DONE(ost_plan_check_size(c, facts.nodes));
     ost_plan_make(c, &facts, ost_size(ctx), plan);
 done:
@@ -94,11 +99,6 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
     OST_TRY(ost_memory_free(ctx, &plan->facts.free_memory));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     return OST_SUCCESS;
-}
-
-static double total_bytes(const OstPlan *plan)
-{
-    return plan->bytes_mesh + plan->bytes_matrix + plan->bytes_solver + plan->bytes_effects;
 }
 
 static void print_bytes(const char *label, double bytes)
@@ -181,7 +181,46 @@ static void print_materials(const OstCase *c)
     }
 }
 
-static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
+/* What is foretold, and from which rates. */
+typedef struct Future {
+    OstForecast forecast;
+    char rates[320];
+} Future;
+
+static OstStatus foretell(OstContext *ctx, const OstCase *c, const OstPlan *plan, Future *future)
+{
+    OstRates rates;
+    OST_TRY(ost_rates_load(ctx, &rates));
+    ost_forecast_make(c, plan, &rates, ost_size(ctx), &future->forecast);
+    ost_rates_words(&rates, ORTHOSTAT_VERSION, future->rates, sizeof future->rates);
+    return OST_SUCCESS;
+}
+
+static void print_seconds(const char *label, double seconds)
+{
+    if (seconds < 600.0)
+        printf("  %-20s %10.*f s\n", label, seconds < 10.0 ? 2 : 1, seconds);
+    else
+        printf("  %-20s %10.1f min\n", label, seconds / 60.0);
+}
+
+static void print_future(const Future *future)
+{
+    const OstForecast *forecast = &future->forecast;
+    printf("\nPredicted seconds, by rates %s\n", future->rates);
+    print_seconds("start", forecast->start);
+    for (int s = OST_STAGE_MESH; s < OST_STAGES; s++)
+        if (forecast->work[s] > 0.0)
+            print_seconds(ost_stage_label[s], forecast->seconds[s]);
+    print_seconds(ost_stage_label[OST_STAGE_REST], forecast->seconds[OST_STAGE_REST]);
+    print_seconds("total", forecast->in_all);
+    printf("  %-20s %10.0f of the linear solver\n", "iterations", forecast->iterations);
+    if (forecast->newton > 0.0)
+        printf("  Each iteration of Newton's method, where rotations are large, comes on top: about %.2g s\n",
+               forecast->newton);
+}
+
+static void print_plan(const OstCase *c, const OstPlan *plan, const Future *future, int ranks)
 {
     printf("%s: %s\n\nEffects\n", c->path, c->title);
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++) {
@@ -201,25 +240,39 @@ static void print_plan(const OstCase *c, const OstPlan *plan, int ranks)
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
     print_bytes("effects", plan->bytes_effects);
-    print_bytes("total", total_bytes(plan));
+    print_bytes("at the peak", plan->bytes_in_all);
+    print_bytes("with libraries", future->forecast.with_libraries);
     print_bytes("free now", plan->facts.free_memory);
-    if (total_bytes(plan) > plan->facts.free_memory)
+    if (future->forecast.with_libraries > plan->facts.free_memory)
         puts("  This does not fit: use a coarser mesh, or more machines.");
     print_bytes("output file", plan->bytes_output);
+    print_future(future);
 }
 
-static int print_json(const OstCase *c, const OstPlan *plan, int ranks)
+static json_t *seconds_json(const OstForecast *forecast)
+{
+    json_t *seconds = json_pack("{s:f}", "start", forecast->start);
+    for (int s = 0; s < OST_STAGES; s++)
+        json_object_set_new(seconds, ost_stage_label[s], json_real(forecast->seconds[s]));
+    json_object_set_new(seconds, "in_all", json_real(forecast->in_all));
+    json_object_set_new(seconds, "newton_iteration", json_real(forecast->newton));
+    return seconds;
+}
+
+static int print_json(const OstCase *c, const OstPlan *plan, const Future *future, int ranks)
 {
     json_t *root = json_pack(
         "{s:s, s:s, s:o, s:o, s:{s:s, s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:o, s:{s:f, s:f, s:f, s:f, s:f, s:f, "
-        "s:f}}",
+        "s:f, s:f}, s:o, s:s, s:f}",
         "case", c->path, "title", c->title, "effects", ost_effects_json(&plan->effects), "materials", materials_json(c),
         "solver", "method", ost_method_name(plan->solver.first), "engine", ost_method_engine(plan->solver.first),
         "reasons", ost_solver_reasons_json(&plan->solver), "relative_residual", c->solver.relative_residual, "vertices",
         (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns,
         "ranks", ranks, "ranks_at_least", plan->least_ranks, "warnings", ost_json_warnings(c->ctx), "bytes", "mesh",
         plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects,
-        "in_all", total_bytes(plan), "free", plan->facts.free_memory, "output_file", plan->bytes_output);
+        "in_all", plan->bytes_in_all, "free", plan->facts.free_memory, "output_file", plan->bytes_output,
+        "with_libraries", future->forecast.with_libraries, "seconds", seconds_json(&future->forecast), "rates",
+        future->rates, "iterations", future->forecast.iterations);
     const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
     putchar('\n');
     json_decref(root);
@@ -231,15 +284,17 @@ static OstStatus explain(OstContext *ctx, void *input)
     const OstArguments *arguments = input;
     OstCase *c = NULL;
     OstPlan plan;
+    Future future;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
     OST_TRY_DONE(make_plan(ctx, c, &plan));
+    OST_TRY_DONE(foretell(ctx, c, &plan, &future));
     if (ost_rank(ctx) == 0 && arguments->text['j']) {
-        if (print_json(c, &plan, ost_size(ctx)))
+        if (print_json(c, &plan, &future, ost_size(ctx)))
             status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
                                c->path);
     } else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET) {
-        print_plan(c, &plan, ost_size(ctx));
+        print_plan(c, &plan, &future, ost_size(ctx));
     }
     status = ost_agree(ctx, status);
 done:

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "adapt/adapt.h"
 #include "cli/command.h"
 #include "cli/destination.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 #include "output/path_files.h"
 #include "output/summary.h"
 #include "problem/scene_data.h"
 #include "study/watch.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct argp_option options[] = {
@@ -17,6 +21,9 @@ static const struct argp_option options[] = {
     {"json", 'j', "FILE", 0, "Write the summary as JSON here; - for standard output", 0},
     {"keep", 'k', 0, 0, "Also write a result that did not converge or that fails a check, marked as such", 0},
     {"resume", 'r', 0, 0, "Go on with a path from its checkpoint, if there is one", 0},
+    {"max-time", 't', "SECONDS", 0, "Where an accuracy is asked for: the longest to refine for", 0},
+    {"max-memory", 'm', "GIB", 0,
+     "Where an accuracy is asked for: the most memory to refine into (default: what is free)", 0},
     {0},
 };
 
@@ -28,7 +35,8 @@ typedef struct Run {
     const OstArguments *arguments;
     OstCase *c;
     OstScene *scene;
-    OstPath *path; /* NULL if the case has none */
+    OstPath *path;         /* NULL if the case has none */
+    OstAdaption *adaption; /* NULL if the case asks for no accuracy; scene and result are its own */
     OstResult *result;
     char output[OST_LONGEST_PATH];
     char file[OST_LONGEST_PATH]; /* of the result: `output`, or beside it that of a path's last step */
@@ -51,10 +59,13 @@ static OstStatus report(const Run *run)
             ost_watch_print(watched, scene->c->watch_count);
         if (run->path)
             ost_path_print(scene, run->path, run->output);
+        if (run->adaption)
+            ost_adaption_print(run->adaption);
         ost_ledger_print(scene, &ledger);
     }
     if (json)
-        status = ost_agree(ctx, ost_summary_write_json(scene, run->result, run->path, &ledger, watched, file, json));
+        status = ost_agree(
+            ctx, ost_summary_write_json(scene, run->result, run->path, &ledger, watched, file, run->adaption, json));
 done:
     OST_FREE(watched);
     return status;
@@ -101,6 +112,50 @@ static OstStatus solve_once(Run *run)
     return report(run);
 }
 
+/* A number above 0 of an option, or what is taken without it. */
+static OstStatus read_limit(const Run *run, char letter, const char *name, double *limit)
+{
+    const char *text = run->arguments->text[(int)letter];
+    char *end = NULL;
+    if (!text)
+        return OST_SUCCESS;
+    *limit = strtod(text, &end);
+    return end != text && *end == 0 && *limit > 0.0
+               ? OST_SUCCESS
+               : OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "--%s takes a number above 0, found '%s'", name, text);
+}
+
+static OstStatus read_limits(const Run *run, OstAdaptLimits *limits)
+{
+    const double gibibyte = 0x1p30;
+    *limits = (OstAdaptLimits){INFINITY, INFINITY};
+    OST_TRY(ost_memory_free(run->c->ctx, &limits->bytes));
+    limits->bytes /= gibibyte;
+    OST_TRY(read_limit(run, 't', "max-time", &limits->seconds));
+    OST_TRY(read_limit(run, 'm', "max-memory", &limits->bytes));
+    limits->bytes *= gibibyte;
+    return OST_SUCCESS;
+}
+
+/* An answer that is not as accurate as it was asked to be is written, and told by the exit status. */
+static OstStatus solve_accurately(Run *run)
+{
+    OstAdaptLimits limits;
+    char words[OST_LONGEST_ADAPT_WORDS];
+    OST_TRY(read_limits(run, &limits));
+    const OstStatus status = ost_adapt(run->c, &limits, &run->adaption);
+    run->scene = run->adaption ? ost_adaption_scene(run->adaption) : NULL;
+    run->result = run->adaption ? ost_adaption_result(run->adaption) : NULL;
+    if (status != OST_SUCCESS)
+        return keep_result(run, status);
+    OST_TRY(write_fields(run));
+    OST_TRY(report(run));
+    if (run->adaption->end == OST_ADAPT_MET)
+        return OST_SUCCESS;
+    ost_adaption_words(run->adaption, words);
+    return OST_RAISE(run->c->ctx, OST_NOT_CONVERGED, "%s: %s", run->c->path, words);
+}
+
 static OstStatus check_files(const Run *run)
 {
     const char *json = run->arguments->text['j'];
@@ -114,6 +169,16 @@ static OstStatus check_files(const Run *run)
     return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
 }
 
+static OstStatus solve_as_given(Run *run)
+{
+    const OstCase *c = run->c;
+    OST_TRY(ost_scene_create(c, &run->scene));
+    OST_TRY(ost_watch_check(run->scene));
+    if (!ost_plan_acts(c, &run->scene->plan))
+        ost_warn(c->ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
+    return c->path_steps > 0 ? solve_path(run) : solve_once(run);
+}
+
 static OstStatus solve(OstContext *ctx, void *input)
 {
     Run run = {.arguments = input};
@@ -122,15 +187,14 @@ static OstStatus solve(OstContext *ctx, void *input)
     OST_TRY_DONE(ost_choose_output(run.c, run.arguments->text['o'], run.output));
     memcpy(run.file, run.output, sizeof run.file);
     OST_TRY_DONE(check_files(&run));
-    OST_TRY_DONE(ost_scene_create(run.c, &run.scene));
-    OST_TRY_DONE(ost_watch_check(run.scene));
-    if (!ost_plan_acts(run.c, &run.scene->plan))
-        ost_warn(ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", run.c->path);
-    status = run.c->path_steps > 0 ? solve_path(&run) : solve_once(&run);
+    status = run.c->asks_error && run.c->path_steps == 0 ? solve_accurately(&run) : solve_as_given(&run);
 done:
-    ost_result_destroy(&run.result);
+    if (!run.adaption) {
+        ost_result_destroy(&run.result);
+        ost_scene_destroy(&run.scene);
+    }
     ost_path_destroy(&run.path);
-    ost_scene_destroy(&run.scene);
+    ost_adaption_destroy(&run.adaption);
     ost_case_destroy(&run.c);
     return status;
 }

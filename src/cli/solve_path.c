@@ -65,7 +65,7 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
 {
     OstContext *ctx = scene->ctx;
     const int count = ost_path_count(path);
-    const unsigned fields = ost_effect_on(&scene->plan.effects, OST_EFFECT_RECOVERY) ? scene->c->output_fields : 0;
+    const unsigned fields = ost_scene_result_fields(scene);
     OstStatus status = OST_SUCCESS;
     while (ost_path_done(path) < count && status == OST_SUCCESS) {
         const int number = ost_path_done(path) + 1;

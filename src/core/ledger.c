@@ -46,6 +46,11 @@ void ost_ledger_leave(OstContext *ctx)
         ctx->depth--;
 }
 
+void ost_ledger_multiplied(OstContext *ctx, double entries)
+{
+    ctx->ledger[ctx->stack[ctx->depth]].multiplied += entries;
+}
+
 OstLedgerEntry ost_ledger_entry(OstContext *ctx, OstAccount account)
 {
     bring_clock_up_to_date(ctx);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "effect/effect.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -35,33 +34,26 @@ static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
         off(state, "every material is isotropic");
 }
 
-/* Nine numbers a tet, and its centroid while they are computed. */
+/* Nine numbers a tet. */
 static void varying_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->varying > 0)
-        on(state, (72.0 + 24.0) * f->tets, "%s", f->varying_reason);
+        on(state, 72.0 * f->tets, "%s", f->varying_reason);
     else
         off(state, f->orthotropic > 0 ? "the axes are uniform in each region" : "an isotropic body needs no axes");
 }
 
-/* A mesh of V vertices and T tets has about V + T + 6 V^(2/3) edges (Euler's formula, for a compact body). K has a
- * block of 76 bytes for each vertex and two for each edge. */
-static double matrix_bytes(double vertices, double tets)
+/* The stiffness of linear tets on the same vertices: a block of 76 bytes for each vertex and two for each edge. */
+static double matrix_bytes(const OstEffectFacts *f)
 {
-    return 76.0 * (3.0 * vertices + 2.0 * tets + 12.0 * pow(vertices, 2.0 / 3.0));
-}
-
-/* Quadratic tets have mid-edge nodes, on about 7/6 edges per tet. */
-static double vertices(const OstEffectFacts *f)
-{
-    return f->quadratic ? fmax(f->nodes - 7.0 / 6.0 * f->tets, 0.0) : f->nodes;
+    return 76.0 * (f->vertices + 2.0 * f->edges);
 }
 
 /* The axes; and mesh, matrix and multigrid hierarchy of the potentials, which are solved for like displacements. */
 static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->gradient_region)
-        on(state, 112.0 * f->tets + 600.0 * vertices(f) + 2.5 * matrix_bytes(vertices(f), f->tets),
+        on(state, 112.0 * f->tets + 600.0 * f->vertices + 2.5 * matrix_bytes(f),
            "axes of region '%.60s' follow potentials between boundaries", f->gradient_region);
     else
         off(state, "no axes are given by gradients");
@@ -100,11 +92,11 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
            f->formulation, 100.0 * f->accuracy);
 }
 
-/* The linear mesh and its matrix, the scatter map while the matrix is filled, and the row of each node. */
+/* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->quadratic && f->multigrid)
-        on(state, matrix_bytes(vertices(f), f->tets) + 300.0 * vertices(f) + 100.0 * f->tets + 24.0 * f->nodes,
+        on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on the linear tets with the same vertices");
     else
         off(state, f->quadratic ? "the planned solver is not Orthostat's multigrid" : "the tets are linear already");
@@ -177,11 +169,12 @@ static void eigenstrain(const OstEffectFacts *f, OstEffectState *state)
         off(state, "no material has an eigenstrain");
 }
 
-/* A stiffness of nine numbers a node, which foundations and springs share. */
+/* A stiffness of nine numbers a node, which foundations and springs share; for the check of free motions a foundation
+ * keeps the normals of its surface at each node too. */
 static void foundation(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->foundations > 0)
-        on(state, 72.0 * f->nodes, "%d of %d springs are spread over an area", f->foundations, f->springs);
+        on(state, 248.0 * f->nodes, "%d of %d springs are spread over an area", f->foundations, f->springs);
     else
         off(state, f->springs > 0 ? "no spring is spread over an area" : "the case has no springs");
 }
@@ -212,6 +205,27 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
            "the output holds %d of their components a tet, and %d a node", f->cell_fields, f->node_fields);
     else
         off(state, "the output holds neither");
+}
+
+/* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers
+ * in the tets. */
+static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
+{
+    const double faces = f->quadratic ? 2.0 * f->tets : 0.0;
+    if (f->error_field || f->asks_error)
+        on(state, 240.0 * (f->edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
+           f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
+    else
+        off(state, "the output does not hold the error of the answer");
+}
+
+/* What it takes depends on the meshes to come. */
+static void adaptivity(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->asks_error)
+        on(state, 0.0, "an error of %.3g %% is asked for", 100.0 * f->accuracy);
+    else
+        off(state, "no accuracy is asked for: the mesh stays as it is");
 }
 
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)

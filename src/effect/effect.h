@@ -28,7 +28,9 @@
     X(OST_EFFECT_FOUNDATION, "elastic foundation", foundation)                                \
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
     X(OST_EFFECT_PATH, "path", path)                                                          \
-    X(OST_EFFECT_RECOVERY, "strain and stress", recovery)
+    X(OST_EFFECT_RECOVERY, "strain and stress", recovery)                                     \
+    X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                           \
+    X(OST_EFFECT_ADAPTIVITY, "adaptive refinement", adaptivity)
 
 #define OST_EFFECT_ENUM(name, label, rule) name,
 typedef enum {
@@ -60,7 +62,10 @@ typedef struct OstEffectFacts {
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
+    int error_field; /* is the error of the answer among them? */
+    int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */
     double nodes, tets, regions; /* of the mesh */
+    double vertices, edges;      /* of its tets */
     unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 

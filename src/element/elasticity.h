@@ -6,7 +6,7 @@
 #include "material/field_data.h"
 
 /* The largest number of points of a tet at which C may differ: quadrature points, or nodes. */
-enum { OST_MAX_POINTS = 10, OST_ELASTICITY_COUNT = 21 };
+enum { OST_MAX_POINTS = 14, OST_ELASTICITY_COUNT = 21 };
 
 /* C in world axes of each tet of a batch, as an upper triangle: 21 numbers row by row (11 12 .. 16 22 .. 66), strains
  * in the order 11 22 33 12 23 31 with engineering shear. It is kept from one batch to the next, because many bodies

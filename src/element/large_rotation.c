@@ -217,14 +217,13 @@ static void consistent_stiffness(const OstElement *element, const OstSimd *x, co
         add_mean_blocks(element, &tets, blocks);
 }
 
-/* The rotation R of the mean F, and d = R'x - X with node 0 in place. */
-static void classical_displacement(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                   const OstSimd *u, OstSimd rotation[9], OstSimd *d)
+/* The mean over the tets of F - I. */
+static void mean_gradient(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                          const OstSimd *u, OstSimd mean[9])
 {
     const OstQuadrature *rule = element->rule(x, elasticity);
-    OstSimd mean[9] = {{0}};
     OstSimd volume = {0};
-    OstPolar polar;
+    memset(mean, 0, 9 * sizeof *mean);
     for (int q = 0; q < rule->count; q++) {
         OstPoint point;
         OstSimd slope[9];
@@ -236,15 +235,32 @@ static void classical_displacement(const OstElement *element, const OstSimd *x, 
     }
     for (int n = 0; n < 9; n++)
         mean[n] /= volume;
+}
+
+/* d = R'x - X loses all digits where rotations are small. As the mean F is R U, it is (U - I) X + R'(u - (F - I) X). */
+void ost_classical_displacement(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd rotation[9], OstSimd *d)
+{
+    OstSimd mean[9], strain[6];
+    OstPolar polar;
+    mean_gradient(element, x, elasticity, u, mean);
     ost_polar(mean, &polar);
     ost_polar_rotation(&polar, rotation);
-    for (int a = 0; a < element->nodes; a++) {
-        OstSimd place[3]; /* from node 0 */
+    ost_biot_strain(&polar, strain);
+    for (int i = 3; i < 6; i++)
+        strain[i] *= 0.5;
+    for (int a = 0; a < element->nodes; a++, d += 3) {
+        OstSimd place[3], rest[3]; /* from node 0; what the mean F leaves of u */
         for (int i = 0; i < 3; i++)
-            place[i] = x[3 * a + i] - x[i] + (u[3 * a + i] - u[i]);
+            place[i] = x[3 * a + i] - x[i];
         for (int i = 0; i < 3; i++)
-            d[3 * a + i] = rotation[i] * place[0] + rotation[3 + i] * place[1] + rotation[6 + i] * place[2] -
-                           (x[3 * a + i] - x[i]);
+            rest[i] = u[3 * a + i] - u[i] -
+                      (mean[3 * i] * place[0] + mean[3 * i + 1] * place[1] + mean[3 * i + 2] * place[2]);
+        d[0] = strain[0] * place[0] + strain[3] * place[1] + strain[5] * place[2];
+        d[1] = strain[3] * place[0] + strain[1] * place[1] + strain[4] * place[2];
+        d[2] = strain[5] * place[0] + strain[4] * place[1] + strain[2] * place[2];
+        for (int i = 0; i < 3; i++)
+            d[i] += rotation[i] * rest[0] + rotation[3 + i] * rest[1] + rotation[6 + i] * rest[2];
     }
 }
 
@@ -254,7 +270,7 @@ static void classical_energy(const OstElement *element, const OstSimd *x, const 
     OstSimd rotation[9];
     OstSimd d[3 * OST_MAX_TET_NODES];
     OstMeans means;
-    classical_displacement(element, x, elasticity, u, rotation, d);
+    ost_classical_displacement(element, x, elasticity, u, rotation, d);
     element->means(x, elasticity, d, &means);
     *energy = means.volume * means.energy;
 }
@@ -265,7 +281,7 @@ static void classical_force(const OstElement *element, const OstSimd *x, const O
     OstSimd rotation[9];
     OstSimd d[3 * OST_MAX_TET_NODES];
     OstSimd local[3 * OST_MAX_TET_NODES];
-    classical_displacement(element, x, elasticity, u, rotation, d);
+    ost_classical_displacement(element, x, elasticity, u, rotation, d);
     element->force(x, elasticity, d, local);
     for (int a = 0; a < element->nodes; a++)
         for (int i = 0; i < 3; i++)
@@ -279,7 +295,7 @@ static void classical_stiffness(const OstElement *element, const OstSimd *x, con
     OstSimd rotation[9];
     OstSimd d[3 * OST_MAX_TET_NODES];
     const int pairs = ost_pair_count(element->nodes);
-    classical_displacement(element, x, elasticity, u, rotation, d);
+    ost_classical_displacement(element, x, elasticity, u, rotation, d);
     element->stiffness(x, elasticity, blocks);
     for (int pair = 0; pair < pairs; pair++, blocks += 9) {
         OstSimd half[9];
@@ -320,8 +336,8 @@ void ost_large_rotation_stiffness(const OstElement *element, OstFormulation form
         consistent_stiffness(element, x, elasticity, u, from, definite, blocks);
 }
 
-void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                              const OstSimd *u, OstMeans *means)
+static void consistent_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                             const OstSimd *u, OstMeans *means)
 {
     DeformedTets tets;
     deform(element, x, elasticity, u, &tets);
@@ -344,6 +360,19 @@ void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const
         }
     }
     means->energy += 0.5 * tets.stiff * tets.stiff;
+}
+
+void ost_large_rotation_means(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                              const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
+{
+    OstSimd rotation[9];
+    OstSimd d[3 * OST_MAX_TET_NODES];
+    if (formulation == OST_FORMULATION_CONSISTENT) {
+        consistent_means(element, x, elasticity, u, means);
+        return;
+    }
+    ost_classical_displacement(element, x, elasticity, u, rotation, d);
+    element->means(x, elasticity, d, means);
 }
 
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,

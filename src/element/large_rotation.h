@@ -43,16 +43,21 @@ static inline void ost_displacement_gradient(int nodes, const OstPoint *point, c
         }
 }
 
-/* Means over the tets of U - I, of its conjugate stress and of the energy density (the same for both formulations). */
-void ost_large_rotation_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                              const OstSimd *u, OstMeans *means);
+/* Classical: R, row-major, and d, with node 0 in place. */
+void ost_classical_displacement(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd rotation[9], OstSimd *d);
 
-/* Cauchy's stress P F' / det F, in world axes: the mean over each deformed tet, and that at its nodes (6 a node), where
- * `at_nodes` has the elasticity. */
-void ost_large_rotation_mean_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                    const OstSimd *u, OstSimd stress[6]);
-void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                     const OstElasticity *at_nodes, const OstSimd *u, OstSimd *stress);
+/* Means over the tets of U - I, or of the strain of d; of its conjugate stress and of the energy density. */
+void ost_large_rotation_means(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                              const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
+
+/* Cauchy's stress, the symmetric part of P F' / det F, in world axes: the mean over each deformed tet, and that at its
+ * nodes (6 a node), where `at_nodes` has the elasticity. Classical: P = R C : strain of d. */
+void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                    const OstElasticity *elasticity, const OstSimd *u, OstSimd stress[6]);
+void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                     const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
+                                     OstSimd *stress);
 
 /* U - I at points of the tets. `at`: count × 4 barycentric coordinates; 6 strains a point. */
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,

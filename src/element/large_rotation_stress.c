@@ -10,20 +10,74 @@
 /* Where a tet is crushed flat, its stress is that of this share of its volume. */
 static const double least_volume = 1e-6;
 
-/* One point: Kirchhoff's stress P F' (its symmetric part, which is all of it), and det F. */
-static void kirchhoff(const OstElement *element, const OstElasticity *elasticity, int place, const OstSimd *stiff,
-                      const OstSimd *u, const OstPoint *point, OstSimd tau[6], OstSimd *jacobian)
+/* A batch of tets at a displacement u. */
+typedef struct Tets {
+    const OstElement *element;
+    OstFormulation formulation;
+    const OstSimd *x, *u;
+    OstMeans means;
+    OstSimd rotation[9]; /* classical: that of the mean F, and the displacement that is left */
+    OstSimd d[3 * OST_MAX_TET_NODES];
+} Tets;
+
+static void prepare(Tets *tets, const OstElasticity *elasticity)
 {
-    OstSimd slope[9], strain[6], elastic[6], stress[6], piola[9];
-    OstPolar polar;
-    ost_displacement_gradient(element->nodes, point, u, slope);
-    ost_polar(slope, &polar);
-    ost_biot_strain(&polar, strain);
+    ost_large_rotation_means(tets->element, tets->formulation, tets->x, elasticity, tets->u, &tets->means);
+    if (tets->formulation == OST_FORMULATION_CLASSICAL)
+        ost_classical_displacement(tets->element, tets->x, elasticity, tets->u, tets->rotation, tets->d);
+}
+
+/* C : (strain - e0), with the stiff mode's part. */
+static void stress_of(const Tets *tets, const OstElasticity *elasticity, int place, const OstSimd strain[6],
+                      OstSimd stress[6])
+{
+    OstSimd elastic[6];
     ost_elastic_strain(elasticity, place, strain, elastic);
     ost_simd_stress(elasticity->c[place], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
-        stress[p] += *stiff * elasticity->m[place][p];
-    ost_biot_piola(&polar, stress, piola);
+        stress[p] += tets->means.stiff * elasticity->m[place][p];
+}
+
+static void consistent_piola(const Tets *tets, const OstElasticity *elasticity, int place, const OstPolar *polar,
+                             OstSimd piola[9])
+{
+    OstSimd strain[6], stress[6];
+    ost_biot_strain(polar, strain);
+    stress_of(tets, elasticity, place, strain, stress);
+    ost_biot_piola(polar, stress, piola);
+}
+
+static void classical_piola(const Tets *tets, const OstElasticity *elasticity, int place, const OstPoint *point,
+                            OstSimd piola[9])
+{
+    OstSimd slope[9], strain[6], stress[6];
+    ost_displacement_gradient(tets->element->nodes, point, tets->d, slope);
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3;
+        const int j = (i + 1) % 3;
+        strain[p] = p < 3 ? slope[4 * i] : slope[3 * i + j] + slope[3 * j + i];
+    }
+    stress_of(tets, elasticity, place, strain, stress);
+    const OstSimd *const row[3][3] = {{&stress[0], &stress[3], &stress[5]},
+                                      {&stress[3], &stress[1], &stress[4]},
+                                      {&stress[5], &stress[4], &stress[2]}};
+    for (int n = 0; n < 9; n++)
+        piola[n] = tets->rotation[n / 3 * 3] * *row[0][n % 3] + tets->rotation[n / 3 * 3 + 1] * *row[1][n % 3] +
+                   tets->rotation[n / 3 * 3 + 2] * *row[2][n % 3];
+}
+
+/* One point: the symmetric part of Kirchhoff's stress P F' (all of it, but for the classical form), and det F. */
+static void kirchhoff(const Tets *tets, const OstElasticity *elasticity, int place, const OstPoint *point,
+                      OstSimd tau[6], OstSimd *jacobian)
+{
+    OstSimd slope[9], piola[9];
+    OstPolar polar;
+    ost_displacement_gradient(tets->element->nodes, point, tets->u, slope);
+    ost_polar(slope, &polar);
+    if (tets->formulation == OST_FORMULATION_CLASSICAL)
+        classical_piola(tets, elasticity, place, point, piola);
+    else
+        consistent_piola(tets, elasticity, place, &polar, piola);
     for (int p = 0; p < 6; p++) {
         const int i = p % 3;
         const int j = p < 3 ? p : (p + 1) % 3;
@@ -43,31 +97,32 @@ static void divide_by_volume(const OstSimd *jacobian, OstSimd stress[6])
         stress[p] /= volume;
 }
 
-void ost_large_rotation_mean_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                    const OstSimd *u, OstSimd stress[6])
+void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                    const OstElasticity *elasticity, const OstSimd *u, OstSimd stress[6])
 {
     const OstQuadrature *rule = element->rule(x, elasticity);
-    OstMeans means;
+    Tets tets = {.element = element, .formulation = formulation, .x = x, .u = u};
     OstSimd now = {0};
-    ost_large_rotation_means(element, x, elasticity, u, &means);
+    prepare(&tets, elasticity);
     memset(stress, 0, 6 * sizeof *stress);
     for (int q = 0; q < rule->count; q++) {
         OstPoint point;
         OstSimd tau[6], jacobian;
         element->evaluate(x, &rule->point[q], &point);
-        kirchhoff(element, elasticity, ost_elasticity_at(elasticity, q), &means.stiff, u, &point, tau, &jacobian);
-        now += point.volume / means.volume * jacobian;
+        kirchhoff(&tets, elasticity, ost_elasticity_at(elasticity, q), &point, tau, &jacobian);
+        now += point.volume / tets.means.volume * jacobian;
         for (int p = 0; p < 6; p++)
-            stress[p] += point.volume / means.volume * tau[p];
+            stress[p] += point.volume / tets.means.volume * tau[p];
     }
     divide_by_volume(&now, stress);
 }
 
-void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                     const OstElasticity *at_nodes, const OstSimd *u, OstSimd *stress)
+void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                     const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
+                                     OstSimd *stress)
 {
-    OstMeans means;
-    ost_large_rotation_means(element, x, elasticity, u, &means);
+    Tets tets = {.element = element, .formulation = formulation, .x = x, .u = u};
+    prepare(&tets, elasticity);
     for (int a = 0; a < element->nodes; a++, stress += 6) {
         OstQuadraturePoint node = {.weight = 1.0};
         OstPoint point;
@@ -75,7 +130,7 @@ void ost_large_rotation_nodal_stress(const OstElement *element, const OstSimd *x
         for (int end = 0; end < 2; end++)
             node.at[ost_tet10_ends[a][end]] += 0.5;
         element->evaluate(x, &node, &point);
-        kirchhoff(element, at_nodes, ost_elasticity_at(at_nodes, a), &means.stiff, u, &point, stress, &jacobian);
+        kirchhoff(&tets, at_nodes, ost_elasticity_at(at_nodes, a), &point, stress, &jacobian);
         divide_by_volume(&jacobian, stress);
     }
 }

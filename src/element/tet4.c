@@ -233,7 +233,6 @@ static void tet4_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoi
     OstSimd scaled[3][3];
     OstSimd factor; /* 1 / (6 |determinant|) */
     OstSimd edge[3] = {x[3] - x[0], x[4] - x[1], x[5] - x[2]};
-    (void)at; /* the gradients are uniform */
     scaled_gradients(x, scaled, &factor);
     const OstSimd inverse = 1.0 / (edge[0] * scaled[0][0] + edge[1] * scaled[0][1] + edge[2] * scaled[0][2]);
     for (int i = 0; i < 3; i++) {
@@ -241,7 +240,7 @@ static void tet4_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoi
             point->gradient[a + 1][i] = scaled[a][i] * inverse;
         point->gradient[0][i] = -(point->gradient[1][i] + point->gradient[2][i] + point->gradient[3][i]);
     }
-    point->volume = 1.0 / (36.0 * factor);
+    point->volume = at->weight / (36.0 * factor);
 }
 
 static double tet4_volume(const double *x)

@@ -131,6 +131,25 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     return status;
 }
 
+/* Rank 0 has all tets. */
+static OstStatus read_msh_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk)
+{
+    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? ost_msh_read_field(ctx, path, name, chunk) : OST_SUCCESS));
+    OST_TRY(broadcast(ctx, &chunk->field_width, sizeof chunk->field_width));
+    return ost_agree(ctx, ost_rank(ctx) == 0 ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
+}
+
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk)
+{
+    const int format = find_format(path);
+    if (format < SERIAL_FORMATS && serial_format[format].read == read_msh)
+        return read_msh_field(ctx, path, name, chunk);
+    if (format == SERIAL_FORMATS)
+        return ost_vtkhdf_read_field(ctx, path, name, chunk);
+    return OST_RAISE(ctx, OST_INVALID_INPUT,
+                     "%s: a .veg file has no fields, and '%s' is asked for; use .msh or .vtkhdf", path, name);
+}
+
 OstStatus ost_chunk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     OstFileMaterials *materials = NULL;

@@ -301,7 +301,8 @@ static void object_to_displacement(OstResult *result, const OstErrors *errors, c
 static int loses_the_forces(const OstResult *result, const OstErrors *errors, const double *sums, double requested)
 {
     const OstChecks *checks = &result->checks;
-    const double chosen = result->solve.rounding_limited ? 0.0 : sqrt((double)result->unknowns) * requested;
+    const int by_residual = !result->solve.rounding_limited && !result->solve.stopped;
+    const double chosen = by_residual ? sqrt((double)result->unknowns) * requested : 0.0;
     double error = fmax(checks->force_imbalance, checks->moment_imbalance);
     if (!(sqrt(sums[SUM_FREE_LOAD]) > rounding_steps * DBL_EPSILON * sums[SUM_FORCE_TERMS]))
         return 0;
@@ -409,7 +410,8 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     double sums[SUM_COUNT] = {0.0};
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.formulation = problem->formulation};
-    if (result->solve.rounding_limited) /* then the user accepts what double precision attained */
+    /* What double precision attained, or the error of the answer made do with. */
+    if (result->solve.rounding_limited || result->solve.stopped)
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);

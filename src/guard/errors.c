@@ -54,25 +54,30 @@ static double square_of(const double vector[3])
     return ost_dot3(vector, vector);
 }
 
-/* `internal` and `of_error` are the internal forces at the node, of the answer and of its error; `straining` is the
- * load with the forces of the eigenstrain. */
+/* `internal` and `of_error` are the internal forces at the node, with those of its springs, of the answer and of its
+ * error, whose displacements are `u` and `error`; `straining` is the load with the forces of the eigenstrain. */
 static void add_node(const OstProblem *problem, OstLocal node, const double *internal, const double *of_error,
-                     const double *load, const double *straining, double *sums)
+                     const double *u, const double *error, const double *load, const double *straining, double *sums)
 {
-    double projector[9], free_force[3], free_error[3], free_load[3], force[3];
+    double projector[9], free_force[3], free_error[3], free_load[3], force[3], reaction[3] = {0.0}, off[3] = {0.0};
+    const double *spring = problem->supports->spring ? problem->supports->spring + 9 * (size_t)node : NULL;
     const int constrained = ost_supports_get(problem->supports, node, projector, NULL);
     for (int i = 0; i < 3; i++)
         force[i] = internal[i] - load[i];
     ost_apply3(projector, straining, free_load);
     sums[LOAD] += square_of(free_load);
-    if (constrained == 0)
-        return;
+    if (spring) {
+        ost_apply3(spring, u, reaction);
+        ost_apply3(spring, error, off);
+    }
     ost_apply3(projector, force, free_force);
     ost_apply3(projector, of_error, free_error);
     for (int i = 0; i < 3; i++) {
-        sums[REACTION] += (force[i] - free_force[i]) * (force[i] - free_force[i]);
-        sums[REACTION_ERROR] += (of_error[i] - free_error[i]) * (of_error[i] - free_error[i]);
+        reaction[i] = (constrained > 0 ? force[i] - free_force[i] : 0.0) - reaction[i];
+        off[i] = (constrained > 0 ? of_error[i] - free_error[i] : 0.0) - off[i];
     }
+    sums[REACTION] += square_of(reaction);
+    sums[REACTION_ERROR] += square_of(off);
 }
 
 /* Relative to the root of `square`; zero is relative to zero. */
@@ -85,13 +90,14 @@ static double relative(double square_of_error, double square)
 static OstStatus add_all_stresses(const OstProblem *problem, const double *displacement, const double *error,
                                   double *sums)
 {
+    const double share = ost_problem_eigen_share(problem, 1.0);
     double *zero = NULL;
-    ost_visit_means(problem->mesh, problem->field, 1.0, displacement, add_stresses, &sums[STRESS]);
+    ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
     ost_visit_means(problem->mesh, problem->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
     if (!ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
-    ost_visit_means(problem->mesh, problem->field, 1.0, zero, add_eigenstrains, sums);
+    ost_visit_means(problem->mesh, problem->field, share, zero, add_eigenstrains, sums);
     OST_FREE(zero);
     return OST_SUCCESS;
 }
@@ -128,7 +134,8 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
         ost_problem_load(problem, 1.0, NULL, load);
         memcpy(straining, load, n * sizeof *load);
         if (ost_field_is_eigenstrained(problem->field))
-            status = ost_eigenstrain_force(problem->mesh, problem->field, 1.0, straining);
+            status =
+                ost_eigenstrain_force(problem->mesh, problem->field, ost_problem_eigen_share(problem, 1.0), straining);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t i = 0; i < n; i++) {
@@ -136,7 +143,8 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
         sums[DISPLACEMENT_ERROR] += error[i] * error[i];
     }
     for (size_t k = 0; k < n; k += 3)
-        add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, load + k, straining + k, sums);
+        add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, displacement + k, error + k, load + k,
+                 straining + k, sums);
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
     OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
     const double least = least_of_eigenstrain * least_of_eigenstrain;

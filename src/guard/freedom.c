@@ -52,10 +52,16 @@ static void advise(const Freedom *freedom, char *text, size_t size)
 {
     size_t used = 0;
     const int several = freedom->components->count > 1;
+    if (freedom->ties.facets_hold > 0)
+        used +=
+            (size_t)snprintf(text, size,
+                             "(a foundation with a normal stiffness alone does not hold what is round, and only the "
+                             "mesh's facets are not: give it a tangential stiffness too; if the body is not round, "
+                             "refine the mesh)\n");
     if (freedom->free_body)
         used += (size_t)snprintf(text, size, "free_body takes one connected body; join its components");
     else
-        used += (size_t)snprintf(text, size,
+        used += (size_t)snprintf(text + used, size - used,
                                  "prevent each of them by constraints (a displacement, or a slide across "
                                  "the motion)%s",
                                  several ? ", or join the components" : "");

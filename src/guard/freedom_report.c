@@ -8,6 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Motions that differ by less than this share of the body's size are the same; the normals of a bed are less exact. */
+static const double same_motion = 1e-6, same_in_bed = 0.03;
+
 enum { NAMES_SHOWN = 6, LINE_SIZE = 700 };
 
 /* "component 2", "components 2, 3 and 5 together", "components 2, 3, 5, 6, 8, 9 and 14 more together" */
@@ -105,7 +108,8 @@ OstStatus ost_freedom_report_line(const OstLinkage *linkage, int members, const 
     name_components(members, member, " together", name, sizeof name);
     describe_place(linkage, members, member, place, sizeof place);
     OST_TRY(describe_joint(linkage, members, member, joint, sizeof joint));
-    OST_TRY(ost_motion_words(linkage->ctx, frame, count, motions, motion, sizeof motion));
+    const double same = linkage->ties->facets_hold > 0 ? same_in_bed : same_motion;
+    OST_TRY(ost_motion_words(linkage->ctx, frame, count, motions, same, motion, sizeof motion));
     snprintf(line, sizeof line, "\n  %s, %s%s: %s", linkage->components->count == 1 ? "the body" : name, place, joint,
              motion);
     add_line(line, report);

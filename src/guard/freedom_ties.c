@@ -127,6 +127,12 @@ typedef struct SupportConditions {
     double triangle[OST_ROWS];
 } SupportConditions;
 
+/* Conditions of one component along surface normals, as OST_TIE_SMOOTH and OST_TIE_FACETS. */
+typedef struct BedConditions {
+    int any;
+    double smooth[OST_ROWS], facets[OST_ROWS];
+} BedConditions;
+
 static OstStatus test_whether_enough(OstContext *ctx, SupportConditions *of_supports)
 {
     double copy[OST_ROWS], basis[OST_ROWS];
@@ -153,9 +159,24 @@ static OstStatus add_support(OstContext *ctx, const OstRigidFrame *frame, const 
     return of_supports->rows >= of_supports->next_look ? test_whether_enough(ctx, of_supports) : OST_SUCCESS;
 }
 
-/* Of a node in the component: its constraints, and the directions of its springs. */
+static OstStatus add_bed(const OstSupports *supports, OstLocal node, const OstRigidFrame *frame, const double *point,
+                         BedConditions *of_bed)
+{
+    double smooth[9], facets[9], row[6];
+    OST_TRY(ost_bed_directions(supports, node, facets, smooth));
+    for (int k = 0; k < 3; k++) {
+        ost_rows_of_point(frame, point, smooth + 3 * k, row);
+        ost_rows_add(of_bed->smooth, row);
+        ost_rows_of_point(frame, point, facets + 3 * k, row);
+        ost_rows_add(of_bed->facets, row);
+        of_bed->any |= ost_norm3(facets + 3 * k) > 0.0;
+    }
+    return OST_SUCCESS;
+}
+
+/* Of a node in the component: its constraints, and the directions of its springs. `of_bed` may be NULL. */
 static OstStatus add_node(const OstMesh *mesh, const OstSupports *supports, OstLocal node, const OstRigidFrame *frame,
-                          SupportConditions *of_supports)
+                          SupportConditions *of_supports, BedConditions *of_bed)
 {
     const double *point = mesh->coordinates + 3 * (size_t)node;
     OstSupport held;
@@ -164,19 +185,22 @@ static OstStatus add_node(const OstMesh *mesh, const OstSupports *supports, OstL
     if (!supports->spring || (of_supports->rows > 0 && of_supports->next_look == 0))
         return OST_SUCCESS;
     OST_TRY(ost_spring_directions(supports, node, &held));
-    return held.constrained > 0 ? add_support(mesh->ctx, frame, &held, point, of_supports) : OST_SUCCESS;
+    if (held.constrained > 0)
+        OST_TRY(add_support(mesh->ctx, frame, &held, point, of_supports));
+    return of_bed ? add_bed(supports, node, frame, point, of_bed) : OST_SUCCESS;
 }
 
 static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *supports, const NodeComponents *of,
-                                  const OstRigidFrame *frames, SupportConditions *of_supports)
+                                  const OstRigidFrame *frames, SupportConditions *of_supports, BedConditions *of_beds)
 {
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstLocal component = of->lowest ? of->lowest[n] : 0;
-        OST_TRY(add_node(mesh, supports, n, &frames[component], &of_supports[component]));
+        const OstLocal p = of->lowest ? of->lowest[n] : 0;
+        OST_TRY(add_node(mesh, supports, n, &frames[p], &of_supports[p], of_beds ? &of_beds[p] : NULL));
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
-        const Meeting *meeting = &of->meeting[m];
-        OST_TRY(add_node(mesh, supports, meeting->node, &frames[meeting->component], &of_supports[meeting->component]));
+        const OstLocal p = of->meeting[m].component;
+        OST_TRY(
+            add_node(mesh, supports, of->meeting[m].node, &frames[p], &of_supports[p], of_beds ? &of_beds[p] : NULL));
     }
     return OST_SUCCESS;
 }
@@ -199,22 +223,31 @@ static void tie_meeting(const OstMesh *mesh, const OstRigidFrame *frames, OstLoc
     }
 }
 
+static void list_tie(OstTies *ties, OstLocal component, OstLocal other, const double triangle[OST_ROWS])
+{
+    OstTie *tie = &ties->tie[ties->count++];
+    tie->body[0] = component;
+    tie->body[1] = other;
+    memcpy(tie->triangle, triangle, sizeof tie->triangle);
+}
+
 static OstStatus list_ties(const OstMesh *mesh, const OstComponents *components, const NodeComponents *of,
-                           const OstRigidFrame *frames, const SupportConditions *of_supports, OstTies *ties)
+                           const OstRigidFrame *frames, const SupportConditions *of_supports,
+                           const BedConditions *of_beds, OstTies *ties)
 {
     OstLocal count = 0;
     for (OstLocal p = 0; p < components->count; p++)
-        count += of_supports[p].rows > 0;
+        count += (of_supports[p].rows > 0) + (of_beds && of_beds[p].any ? 2 : 0);
     for (OstLocal m = 0; m < of->meetings; m++)
         count += starts_pair(of, m);
     OST_TRY(OST_NEW(mesh->ctx, &ties->tie, count));
     for (OstLocal p = 0; p < components->count; p++) {
-        if (of_supports[p].rows == 0)
+        if (of_supports[p].rows > 0)
+            list_tie(ties, p, OST_TIE_SUPPORT, of_supports[p].triangle);
+        if (!of_beds || !of_beds[p].any)
             continue;
-        OstTie *tie = &ties->tie[ties->count++];
-        tie->body[0] = p;
-        tie->body[1] = OST_TIE_SUPPORT;
-        memcpy(tie->triangle, of_supports[p].triangle, sizeof tie->triangle);
+        list_tie(ties, p, OST_TIE_SMOOTH, of_beds[p].smooth);
+        list_tie(ties, p, OST_TIE_FACETS, of_beds[p].facets);
     }
     for (OstLocal m = 0; m < of->meetings; m++) {
         if (starts_pair(of, m)) {
@@ -231,12 +264,16 @@ static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, con
 {
     NodeComponents of = {0};
     SupportConditions *of_supports = NULL;
+    BedConditions *of_beds = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(find_meetings(mesh, components, &of));
     OST_TRY_DONE(OST_NEW(mesh->ctx, &of_supports, components->count));
-    OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, of_supports));
-    OST_TRY_DONE(list_ties(mesh, components, &of, frames, of_supports, ties));
+    if (supports->bed)
+        OST_TRY_DONE(OST_NEW(mesh->ctx, &of_beds, components->count));
+    OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, of_supports, of_beds));
+    OST_TRY_DONE(list_ties(mesh, components, &of, frames, of_supports, of_beds, ties));
 done:
+    OST_FREE(of_beds);
     OST_FREE(of_supports);
     OST_FREE(of.lowest);
     OST_FREE(of.meeting);
@@ -271,7 +308,8 @@ OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, cons
                               &ties->count));
     if (status == OST_SUCCESS)
         unite(ties);
-    else
+    OST_THEN(ost_agree(mesh->ctx, ost_ties_settle_beds(mesh->ctx, ties)));
+    if (status != OST_SUCCESS)
         ost_ties_release(ties);
     ost_ties_release(&mine);
     return status;

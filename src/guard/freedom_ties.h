@@ -14,11 +14,13 @@ typedef struct OstTie {
     double triangle[OST_ROWS];
 } OstTie;
 
-enum { OST_TIE_SUPPORT = -1 };
+/* A component's supports; before ost_ties_settle_beds also how surface normals hold it, see ost_bed_directions. */
+enum { OST_TIE_SUPPORT = -1, OST_TIE_SMOOTH = -2, OST_TIE_FACETS = -3 };
 
 typedef struct OstTies {
     OstLocal count;
-    OstTie *tie; /* by body[0], then body[1] */
+    OstTie *tie;     /* by body[0], then body[1] */
+    int facets_hold; /* number of motions that the facets of round surfaces alone would hold */
 } OstTies;
 
 /* Local. The frame of a component: the middle and half the diagonal of its box. */
@@ -31,5 +33,9 @@ const OstRigidFrame *ost_tie_frame(const OstRigidFrame *frames, const OstTie *ti
 OstStatus ost_ties_create(const OstMesh *mesh, const OstSupports *supports, const OstComponents *components,
                           const OstRigidFrame *frames, OstTies *ties);
 void ost_ties_release(OstTies *ties);
+
+/* Local. Makes conditions of supports of those along surface normals (OST_TIE_SMOOTH, OST_TIE_FACETS), but for the
+ * motions that the mesh's facets resist far more than the smooth surface does: a ball turns in its bed. */
+OstStatus ost_ties_settle_beds(OstContext *ctx, OstTies *ties);
 
 #endif

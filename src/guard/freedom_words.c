@@ -8,26 +8,35 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Motions that differ by less than this share of the body's size are the same. */
-static const double same = 1e-6;
-
 /* A number below this share of its neighbours is a rounding error, and printed as 0. */
 static const double nothing = 1e-9;
 
 enum { POINT_TEXT = 96 };
 
-void ost_point_words(const double point[3], double scale, char text[96])
+/* Components no larger than `least` are 0. */
+static void number_words(const double point[3], double least, int digits, char text[POINT_TEXT])
 {
     double x[3];
     for (int i = 0; i < 3; i++) {
         /* slightly outwards: a number midway between two of six digits is printed alike after any rounding */
-        x[i] = fabs(point[i]) <= nothing * scale ? 0.0 : point[i] * (1.0 + nothing);
+        x[i] = fabs(point[i]) <= least ? 0.0 : point[i] * (1.0 + nothing);
     }
-    snprintf(text, POINT_TEXT, "(%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
+    snprintf(text, POINT_TEXT, "(%.*g, %.*g, %.*g)", digits, x[0], digits, x[1], digits, x[2]);
+}
+
+void ost_point_words(const double point[3], double scale, char text[96])
+{
+    number_words(point, nothing * scale, 6, text);
+}
+
+/* Motions known to 1e-6 are told with six digits, rough ones with three. */
+static int digits_of(double same)
+{
+    return same > 1e-3 ? 3 : 6;
 }
 
 /* A direction's text, with its first component positive. */
-static void direction_words(const double direction[3], char text[POINT_TEXT])
+static void direction_words(const double direction[3], double same, char text[POINT_TEXT])
 {
     double d[3];
     const double length = ost_norm3(direction);
@@ -37,7 +46,7 @@ static void direction_words(const double direction[3], char text[POINT_TEXT])
     const double sign = direction[first] < 0.0 ? -1.0 : 1.0;
     for (int i = 0; i < 3; i++)
         d[i] = fabs(direction[i]) <= same * length ? 0.0 : sign * direction[i] / length;
-    ost_point_words(d, 1.0, text);
+    number_words(d, nothing, digits_of(same), text);
 }
 
 typedef struct Words {
@@ -66,6 +75,7 @@ static void next_clause(Words *words)
 
 /* The motions as pure translations, and rotations each with the translation that goes with it. */
 typedef struct Sorted {
+    double same; /* motions that differ by less than this share of the body's size are the same */
     int moves, turns;
     double move[9]; /* rows: orthonormal translations */
     double turn[9]; /* rows: rotation vectors of length 1 */
@@ -85,7 +95,7 @@ static void subtract_projection(int count, const double *rows, double v[3])
 
 /* Reduced row echelon form of `count` motions with independent rotations, by their rotations: the words then do not
  * depend on the basis that was found. */
-static void reduce_rotations(int count, double *motion)
+static void reduce_rotations(double same, int count, double *motion)
 {
     int row = 0;
     for (int column = 3; column < 6 && row < count; column++) {
@@ -119,7 +129,7 @@ static OstStatus sort_motions(OstContext *ctx, int count, const double *motions,
     for (int j = 0; j < 3; j++)
         for (int m = 0; m < count; m++)
             rotations[j * count + m] = motions[6 * m + 3 + j];
-    OST_TRY(ost_null_space(ctx, 3, count, rotations, same, &sorted->moves, basis));
+    OST_TRY(ost_null_space(ctx, 3, count, rotations, sorted->same, &sorted->moves, basis));
     if (sorted->moves > 3)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "%d rigid motions are not independent", count);
     sorted->turns = count - sorted->moves;
@@ -144,7 +154,7 @@ static OstStatus sort_motions(OstContext *ctx, int count, const double *motions,
         for (int k = 0; k < count; k++)
             for (int i = 0; i < 6; i++)
                 motion[6 * m + i] += complement[m * count + k] * motions[6 * k + i];
-    reduce_rotations(turns, motion);
+    reduce_rotations(sorted->same, turns, motion);
     for (int m = 0; m < turns; m++) {
         const double length = ost_norm3(motion + 6 * m + 3);
         for (int i = 0; i < 3; i++) {
@@ -167,10 +177,10 @@ static void say_moves(Words *words, const Sorted *sorted)
         say(words, "move in any direction");
     } else if (sorted->moves == 2) {
         ost_cross3(sorted->move, sorted->move + 3, normal);
-        direction_words(normal, text);
+        direction_words(normal, sorted->same, text);
         say(words, "move in any direction normal to %s", text);
     } else {
-        direction_words(sorted->move, text);
+        direction_words(sorted->move, sorted->same, text);
         say(words, "move along %s", text);
     }
 }
@@ -190,27 +200,27 @@ static int find_pivot(const Sorted *sorted, double pivot[3])
                 normal[3 * i + j] += (i == j ? 1.0 : 0.0) - w[i] * w[j];
         }
     }
-    if (fabs(ost_invert3(normal, inverse)) < same)
+    if (fabs(ost_invert3(normal, inverse)) < sorted->same)
         return 0;
     ost_apply3(inverse, right, pivot);
     for (int t = 0; t < sorted->turns; t++) {
         double v[3];
         ost_cross3(pivot, sorted->turn + 3 * t, v);
         for (int i = 0; i < 3; i++)
-            if (fabs(v[i] - sorted->with[3 * t + i]) > same * (1.0 + ost_norm3(pivot)))
+            if (fabs(v[i] - sorted->with[3 * t + i]) > sorted->same * (1.0 + ost_norm3(pivot)))
                 return 0;
     }
     return 1;
 }
 
-static void place_words(const OstRigidFrame *frame, const double at[3], char text[POINT_TEXT])
+static void place_words(const OstRigidFrame *frame, const Sorted *sorted, const double at[3], char text[POINT_TEXT])
 {
     double x[3], scale = frame->radius;
     for (int i = 0; i < 3; i++) {
         x[i] = frame->centre[i] + frame->radius * at[i];
         scale = fmax(scale, fabs(x[i]));
     }
-    ost_point_words(x, scale, text);
+    number_words(x, (sorted->same > 1e-3 ? sorted->same : nothing) * scale, digits_of(sorted->same), text);
 }
 
 /* Subtracts translations so that as little motion along the axis remains as possible: a screw becomes a rotation if the
@@ -221,7 +231,7 @@ static void remove_advance(const Sorted *sorted, const double w[3], double v[3])
     subtract_projection(sorted->moves, sorted->move, across);
     double within[3] = {w[0] - across[0], w[1] - across[1], w[2] - across[2]};
     const double component = ost_dot3(within, w);
-    if (component <= same)
+    if (component <= sorted->same)
         return;
     const double factor = ost_dot3(v, w) / component;
     for (int i = 0; i < 3; i++)
@@ -238,7 +248,7 @@ static int slides_across(const Sorted *sorted, const double w[3])
     double normal[3], cross[3];
     ost_cross3(sorted->move, sorted->move + 3, normal);
     ost_cross3(normal, w, cross);
-    return ost_norm3(cross) <= same;
+    return ost_norm3(cross) <= sorted->same;
 }
 
 static void say_turn(Words *words, const OstRigidFrame *frame, const Sorted *sorted, int t)
@@ -250,12 +260,12 @@ static void say_turn(Words *words, const OstRigidFrame *frame, const Sorted *sor
     remove_advance(sorted, w, v);
     const double advance = ost_dot3(v, w);
     ost_cross3(w, v, at);
-    direction_words(w, axis);
-    place_words(frame, at, place);
+    direction_words(w, sorted->same, axis);
+    place_words(frame, sorted, at, place);
     next_clause(words);
     if (slides_across(sorted, w))
         say(words, "turn about any line along %s", axis);
-    else if (fabs(advance) <= same * (1.0 + ost_norm3(v)))
+    else if (fabs(advance) <= sorted->same * (1.0 + ost_norm3(v)))
         say(words, "turn about the line through %s along %s", place, axis);
     else
         say(words, "twist about the line through %s along %s, moving %.6g along it per turn", place, axis,
@@ -270,12 +280,12 @@ static void say_turns(Words *words, const OstRigidFrame *frame, const Sorted *so
         next_clause(words);
         say(words, "turn about any axis");
     } else if (sorted->turns >= 2 && sorted->moves == 0 && find_pivot(sorted, pivot)) {
-        place_words(frame, pivot, place);
+        place_words(frame, sorted, pivot, place);
         next_clause(words);
         say(words, "turn about any line through %s", place);
         if (sorted->turns == 2) {
             ost_cross3(sorted->turn, sorted->turn + 3, normal);
-            direction_words(normal, axis);
+            direction_words(normal, sorted->same, axis);
             say(words, " normal to %s", axis);
         }
     } else {
@@ -284,10 +294,10 @@ static void say_turns(Words *words, const OstRigidFrame *frame, const Sorted *so
     }
 }
 
-OstStatus ost_motion_words(OstContext *ctx, const OstRigidFrame *frame, int count, const double *motions, char *text,
-                           size_t size)
+OstStatus ost_motion_words(OstContext *ctx, const OstRigidFrame *frame, int count, const double *motions, double same,
+                           char *text, size_t size)
 {
-    Sorted sorted = {0};
+    Sorted sorted = {.same = same};
     Words words = {text, size, 0, 0};
     OST_TRY(sort_motions(ctx, count, motions, &sorted));
     text[0] = 0;

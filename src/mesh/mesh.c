@@ -21,6 +21,7 @@ void ost_mesh_destroy(OstMesh **mesh)
     OST_FREE(old->tet_nodes);
     OST_FREE(old->tet_region);
     OST_FREE(old->tet_axes);
+    OST_FREE(old->tet_field);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     ost_halo_destroy(&old->halo);
@@ -176,6 +177,7 @@ void ost_chunk_destroy(OstMeshChunk **chunk)
     OST_FREE(old->tet_label);
     OST_FREE(old->tet_region);
     OST_FREE(old->tet_axes);
+    OST_FREE(old->tet_field);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     OST_FREE(*chunk);

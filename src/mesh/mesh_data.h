@@ -38,8 +38,11 @@ struct OstMeshChunk {
     OstGlobal *node_label; /* numbers as in the file; NULL: 1, 2, 3, ... */
     OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
+    int relabelled;        /* the file's numbers of tets were no use, and were replaced */
     int32_t *tet_region;   /* index into regions */
     double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
+    double *tet_field;     /* NULL, or tet_count × field_width: a field of the file that somebody asked for */
+    int field_width;       /* the same on all ranks; 0 without a field */
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
@@ -64,6 +67,8 @@ struct OstMesh {
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */
     double *tet_axes;       /* NULL, or tet_count × 9 */
+    double *tet_field;      /* NULL, or tet_count × field_width: as in the chunk; children have that of their parent */
+    int field_width;
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
@@ -114,6 +119,11 @@ typedef struct OstSurface {
 } OstSurface;
 OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
 void ost_surface_destroy(OstSurface **surface);
+
+/* Collective. Number of faces on the body's surface: of a mesh, exactly; of a chunk, from a sample of its faces where
+ * it has more than 100,000 tets. */
+OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces);
+OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces);
 
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);

@@ -2,6 +2,7 @@
 #include "output/summary.h"
 
 #include "core/error.h"
+#include "core/parallel/reduce.h"
 
 #include <stdio.h>
 #include <sys/resource.h>
@@ -21,9 +22,11 @@ OstStatus ost_ledger_summarise(OstContext *ctx, OstLedgerSummary *summary)
         seconds[a] = entry.seconds;
         bytes[a] = (double)entry.peak_bytes;
         summary->entries[a] = entry.entries;
+        summary->multiplied[a] = entry.multiplied;
     }
     bytes[OST_EFFECT_END] = (double)ost_ledger_peak_bytes(ctx);
     bytes[OST_EFFECT_END + 1] = peak_process_bytes();
+    OST_TRY(ost_sum(ctx, OST_EFFECT_END, summary->multiplied));
     double total = 0.0;
     for (int a = 0; a < OST_EFFECT_END; a++)
         total += seconds[a];

@@ -56,10 +56,12 @@ typedef struct History {
     OstPath *path;
 } History;
 
-/* Does a load or a prescribed displacement follow this function of time? */
+/* Does a load, a prescribed displacement or an eigenstrain follow this function of time? */
 static int is_followed(const OstCase *c, int function)
 {
     int followed = 0;
+    for (int i = 0; i < c->material_count; i++)
+        followed |= c->materials[i].eigenstrained && c->eigen_table == function;
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)
@@ -155,15 +157,21 @@ static int find_warning(OstPath *path, char text[OST_LONGEST_WARNING])
 void ost_path_print(const OstScene *scene, OstPath *path, const char *output)
 {
     const OstCase *c = scene->c;
+    const int done = ost_path_done(path);
     char first[4096], last[4096], series[4096], history[4096], warning[OST_LONGEST_WARNING];
     if (ost_rank(scene->ctx) != 0)
         return;
-    printf("\npath of %d step%s\n  %4s %10s %14s %14s %7s %7s", ost_path_count(path),
-           ost_path_count(path) == 1 ? "" : "s", "step", "t", "largest |u|", "strain energy", "Newton", "solver");
+    printf("\npath of %d step%s", ost_path_count(path), ost_path_count(path) == 1 ? "" : "s");
+    if (done < ost_path_count(path))
+        printf(", of which %d %s done", done, done == 1 ? "is" : "are");
+    puts("");
+    if (done == 0)
+        return;
+    printf("  %4s %10s %14s %14s %7s %7s", "step", "t", "largest |u|", "strain energy", "Newton", "solver");
     for (int w = 0; w < c->watch_count; w++)
         printf(" %14.14s", c->watches[w].name);
     puts("");
-    for (int i = 0; i < ost_path_done(path); i++) {
+    for (int i = 0; i < done; i++) {
         const OstPathStep *step = ost_path_step(path, i);
         printf("  %4d %10.6g %14.8g %14.8g %7d %7d", i + 1, step->t, step->largest_displacement, step->strain_energy,
                step->newton_iterations, step->iterations);
@@ -172,13 +180,14 @@ void ost_path_print(const OstScene *scene, OstPath *path, const char *output)
         puts("");
     }
     const int warned = find_warning(path, warning);
-    if (warned > 0 && warned != ost_path_done(path)) /* the last one's stands in the summary */
+    if (warned > 0 && warned != done) /* the last one's stands in the summary */
         printf("  %-16s step %d: %s\n", "WARNING", warned, warning);
     ost_path_step_name(output, 1, sizeof first, first);
-    ost_path_step_name(output, ost_path_done(path), sizeof last, last);
+    ost_path_step_name(output, done, sizeof last, last);
     ost_path_file_name(output, OST_PATH_SERIES, sizeof series, series);
     ost_path_file_name(output, OST_PATH_HISTORY, sizeof history, history);
-    printf("  %-16s %s to %s, listed in %s for ParaView; history in %s\n", "written to", first, last, series, history);
+    printf("  %-16s %s%s%s, listed in %s for ParaView; history in %s\n", "written to", first, done > 1 ? " to " : "",
+           done > 1 ? last : "", series, history);
 }
 
 static json_t *step_json(const OstCase *c, const OstPathStep *step)

@@ -87,6 +87,7 @@ OstStatus ost_result_write(const OstResult *result, unsigned fields, const char 
         [OST_FIELD_ENERGY] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 1, result->strain_energy_density},
         [OST_FIELD_AXES] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 9, made.axes},
         [OST_FIELD_REGION] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, mesh->tet_region},
+        [OST_FIELD_ERROR] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 1, result->tet_error},
         [OST_FIELD_RANK] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, made.rank},
     };
     for (int f = 0; f < OST_FIELD_COUNT; f++)

@@ -30,12 +30,34 @@ static void print_strategies(const OstSolveReport *report)
                report->step[s].seconds, report->step[s].outcome);
 }
 
+/* "4 %", to two digits; 1e-8 where it is less than a thousandth of that. */
+static const char *percent(double share, char text[24])
+{
+    snprintf(text, 24, share > 1e-5 ? "%.2g %%" : "%.0e", share > 1e-5 ? 100.0 * share : share);
+    return text;
+}
+
+/* Why so few iterations. */
+static void print_stop(const OstSolveReport *report, const OstAnswerError *answer)
+{
+    char equations[24], mesh[24];
+    if (!report->stopped || !answer->known)
+        return;
+    const double relative = report->algebraic_error * answer->relative / answer->energy_norm;
+    printf("  stopped          where the equations are %s off in energy norm, and the mesh %s",
+           percent(relative, equations), percent(answer->relative, mesh));
+    if (report->iterations_saved > 0)
+        printf("; about %d iteration%s saved", report->iterations_saved, plural(report->iterations_saved));
+    printf("\n");
+}
+
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
     printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
            report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     printf("  engine           %s\n", report->engine);
+    print_stop(report, &result->answer);
     print_strategies(report);
     print_levels(report);
     printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
@@ -46,9 +68,16 @@ static void print_solve(const OstResult *result)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }
 
-/* The discretisation error is not in this: the line says "equations", so that nobody takes it for the whole error. */
-static void print_errors(const OstChecks *checks)
+/* The error of the answer first: that of the equations is not the whole of it. */
+static void print_errors(const OstAnswerError *answer, const OstChecks *checks)
 {
+    char energy[24], displacement[24];
+    if (answer->known)
+        printf("  accuracy         answer about %s off in energy norm, %s in the largest displacement; equations "
+               "solved to "
+               "%.0e\n",
+               percent(answer->relative, energy), percent(answer->displacement, displacement),
+               isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
     if (!isfinite(checks->displacement_error))
         return;
     printf("  equations        solved to a relative error of about %.1e in the displacement",
@@ -119,17 +148,38 @@ static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
     return 1;
 }
 
+/* A larger error of the answer is warned of. */
+static const double coarse = 0.05;
+
+static int warn_of_coarse_mesh(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstAnswerError *answer = &result->answer;
+    const OstMesh *mesh = result->mesh;
+    char off[24], share[24], where[160] = "";
+    if (!answer->known || !(answer->relative > coarse))
+        return 0;
+    if (mesh->regions.count > 1)
+        snprintf(where, sizeof where, " in region '%.60s' (%s of it), most", mesh->regions.name[answer->region],
+                 percent(answer->region_share, share));
+    snprintf(text, OST_LONGEST_WARNING,
+             "the mesh is coarse: the answer is about %s off in energy norm; %s the mesh%s near (%.4g, %.4g, %.4g)",
+             percent(answer->relative, off), mesh->nodes_per_tet == 4 ? "set element: {order: 2}, or refine" : "refine",
+             where, answer->place[0], answer->place[1], answer->place[2]);
+    return 1;
+}
+
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
-    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted,
-                                                                  warn_of_jump};
+    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted, warn_of_jump,
+                                                                  warn_of_coarse_mesh};
     text[0] = '\0';
     return warn[number](result, text);
 }
 
 /* What was found out about large rotations, and what was done about them. */
-static void print_large_rotation(const OstNewtonReport *newton)
+static void print_large_rotation(const OstScene *scene, const OstResult *result)
 {
+    const OstNewtonReport *newton = &result->newton;
     char off[32];
     if (!newton->judged)
         return;
@@ -150,7 +200,9 @@ static void print_large_rotation(const OstNewtonReport *newton)
     if (newton->cut_backs > 0)
         printf("                   %d load step%s given up and cut back\n", newton->cut_backs,
                plural(newton->cut_backs));
-    if (newton->reached < 1.0)
+    if (result->unfinished && scene->c->path_steps > 0)
+        printf("                   the path is followed up to t = %.6g\n", newton->reached);
+    else if (result->unfinished)
         printf("                   %.6g of the load is reached\n", newton->reached);
 }
 
@@ -167,13 +219,13 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
            (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_solve(result);
-    print_large_rotation(&result->newton);
+    print_large_rotation(scene, result);
     printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e",
            checks->relative_residual, checks->force_imbalance, checks->moment_imbalance);
     if (checks->linear)
         printf(", energy %.1e", checks->energy_imbalance);
     printf("\n");
-    print_errors(checks);
+    print_errors(&result->answer, checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
     for (int w = 0; w < OST_WARNINGS; w++)

@@ -2,18 +2,20 @@
 #ifndef ORTHOSTAT_OUTPUT_SUMMARY_H
 #define ORTHOSTAT_OUTPUT_SUMMARY_H
 
+#include "adapt/adapt.h"
 #include "orthostat/path.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
-/* The ledger over all ranks: seconds of the slowest rank, sums of bytes. */
+/* The ledger over all ranks: seconds of the slowest rank, sums of bytes and of multiplied entries. */
 typedef struct OstLedgerSummary {
     double seconds[OST_EFFECT_END];
     double peak_bytes[OST_EFFECT_END];
     long entries[OST_EFFECT_END];
-    double total_seconds;      /* since the context was made */
-    double peak_tracked_bytes; /* of our own arrays, all ranks */
-    double peak_process_bytes; /* as the system saw the processes, all ranks */
+    double multiplied[OST_EFFECT_END]; /* entries of matrices */
+    double total_seconds;              /* since the context was made */
+    double peak_tracked_bytes;         /* of our own arrays, all ranks */
+    double peak_process_bytes;         /* as the system saw the processes, all ranks */
 } OstLedgerSummary;
 
 /* Collective. */
@@ -25,16 +27,17 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.
- * `path` is that which led to the result, or NULL; `watched` holds the case's quantities of interest, in their order.
+ * `path` is that which led to the result, or NULL, as is `adaption`; `watched` holds the case's quantities of interest,
+ * in their order.
  */
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
                                  const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
-                                 const char *to);
+                                 const OstAdaption *adaption, const char *to);
 
 /* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, tets turned
- * inside out, a jump. Returns 0, and leaves the text empty, where the one of this number (below OST_WARNINGS) has no
- * cause. */
-enum { OST_WARNINGS = 3, OST_LONGEST_WARNING = 360 };
+ * inside out, a jump, a coarse mesh. Returns 0, and leaves the text empty, where the one of this number (below
+ * OST_WARNINGS) has no cause. */
+enum { OST_WARNINGS = 4, OST_LONGEST_WARNING = 400 };
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
 
 /* Local. The first of these, of any answer of linear theory. */

@@ -45,16 +45,18 @@ static json_t *solver_json(const OstSolveReport *report)
     json_t *levels = json_array();
     for (int l = 0; l < report->levels; l++)
         json_array_append_new(levels, json_integer(report->level_unknowns[l]));
-    return json_pack("{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o}", "method",
-                     ost_method_name(report->method), "engine", report->engine, "iterations", report->iterations,
-                     "relative_residual", ost_json_number(report->relative_residual), "attainable_residual",
-                     estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited,
-                     "setup_seconds", report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns",
-                     levels, "operator_complexity", report->operator_complexity, "condition_estimate",
-                     ost_json_number(report->condition_estimate), "error_estimate",
-                     ost_json_number(report->error_estimate), "rounding_error", ost_json_number(report->rounding_error),
-                     "rounding_spread", report->rounding_spread, "plan", ost_solver_reasons_json(&report->plan),
-                     "strategies", steps_json(report));
+    return json_pack(
+        "{s:s, s:s, s:i, s:o, s:o, s:b, s:f, s:f, s:o, s:f, s:o, s:o, s:o, s:f, s:o, s:o, s:o, s:o, s:b, s:i}",
+        "method", ost_method_name(report->method), "engine", report->engine, "iterations", report->iterations,
+        "relative_residual", ost_json_number(report->relative_residual), "attainable_residual",
+        estimate_json(report->attainable_residual), "rounding_limited", report->rounding_limited, "setup_seconds",
+        report->setup_seconds, "solve_seconds", report->solve_seconds, "level_unknowns", levels, "operator_complexity",
+        report->operator_complexity, "condition_estimate", ost_json_number(report->condition_estimate),
+        "error_estimate", ost_json_number(report->error_estimate), "rounding_error",
+        ost_json_number(report->rounding_error), "rounding_spread", report->rounding_spread, "plan",
+        ost_solver_reasons_json(&report->plan), "strategies", steps_json(report), "algebraic_error",
+        estimate_json(report->algebraic_error), "algebraic_bound", estimate_json(report->algebraic_bound), "stopped",
+        report->stopped, "iterations_saved", report->iterations_saved);
 }
 
 static json_t *checks_json(const OstChecks *checks)
@@ -69,6 +71,18 @@ static json_t *checks_json(const OstChecks *checks)
         ost_json_number(checks->linear ? checks->work : NAN), "energy_imbalance",
         ost_json_number(checks->linear ? checks->energy_imbalance : NAN), "finite", checks->finite, "largest_strain",
         ost_json_number(checks->largest_strain), "largest_rotation", ost_json_number(checks->largest_rotation));
+}
+
+/* The error that the mesh makes; null: not estimated. */
+static json_t *answer_error_json(const OstResult *result)
+{
+    const OstAnswerError *answer = &result->answer;
+    if (!answer->known)
+        return json_null();
+    return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o}", "energy_norm", ost_json_number(answer->energy_norm), "relative",
+                     ost_json_number(answer->relative), "displacement", ost_json_number(answer->displacement),
+                     "worst_region", result->mesh->regions.name[answer->region], "region_share",
+                     ost_json_number(answer->region_share), "worst_place", vector_json(answer->place));
 }
 
 static json_t *large_rotation_json(const OstNewtonReport *newton)
@@ -106,20 +120,32 @@ static json_t *objections_json(const OstVerdict *objections)
     return reasons;
 }
 
-static json_t *account_json(const OstContext *ctx, const OstLedgerSummary *summary, OstAccount account)
+/* Multiplied entries of matrices as products with the stiffness. */
+static json_t *products_json(const OstResult *result, double multiplied)
 {
-    return json_pack("{s:s, s:b, s:f, s:f, s:I}", "name", ost_ledger_label(ctx, account), "effect",
-                     account >= OST_LEDGER_PHASES, "seconds", summary->seconds[account], "bytes",
-                     summary->peak_bytes[account], "entries", (json_int_t)summary->entries[account]);
+    return result->solve.nonzeros > 0.0 ? json_real(multiplied / result->solve.nonzeros) : json_null();
 }
 
-static json_t *ledger_json(const OstContext *ctx, const OstLedgerSummary *summary)
+static json_t *account_json(const OstContext *ctx, const OstResult *result, const OstLedgerSummary *summary,
+                            OstAccount account)
+{
+    return json_pack("{s:s, s:b, s:f, s:f, s:I, s:o}", "name", ost_ledger_label(ctx, account), "effect",
+                     account >= OST_LEDGER_PHASES, "seconds", summary->seconds[account], "bytes",
+                     summary->peak_bytes[account], "entries", (json_int_t)summary->entries[account], "products",
+                     products_json(result, summary->multiplied[account]));
+}
+
+static json_t *ledger_json(const OstContext *ctx, const OstResult *result, const OstLedgerSummary *summary)
 {
     json_t *accounts = json_array();
-    for (int a = 0; a < OST_EFFECT_END; a++)
-        json_array_append_new(accounts, account_json(ctx, summary, a));
-    return json_pack("{s:o, s:f, s:f, s:f}", "accounts", accounts, "total_seconds", summary->total_seconds,
-                     "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes);
+    double multiplied = 0.0;
+    for (int a = 0; a < OST_EFFECT_END; a++) {
+        json_array_append_new(accounts, account_json(ctx, result, summary, a));
+        multiplied += summary->multiplied[a];
+    }
+    return json_pack("{s:o, s:f, s:f, s:f, s:o}", "accounts", accounts, "total_seconds", summary->total_seconds,
+                     "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes,
+                     "products", products_json(result, multiplied));
 }
 
 json_t *ost_effects_json(const OstEffects *effects)
@@ -148,20 +174,21 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
 {
     const OstMesh *mesh = result->mesh;
     return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}", "case",
-        scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
+        "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
         warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
         "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
         solver_json(&result->solve), "large_rotation", large_rotation_json(&result->newton), "checks",
-        checks_json(&result->checks), "largest_displacement", ost_json_number(result->largest_displacement),
-        "largest_at", vector_json(result->largest_at), "watched", watched_json(watched, scene->c->watch_count),
-        "effects", ost_effects_json(&scene->plan.effects), "ledger", ledger_json(scene->ctx, summary), "output", file);
+        checks_json(&result->checks), "answer_error", answer_error_json(result), "largest_displacement",
+        ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
+        watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
+        ledger_json(scene->ctx, result, summary), "output", file);
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
                                  const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
-                                 const char *to)
+                                 const OstAdaption *adaption, const char *to)
 {
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
@@ -172,5 +199,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
                          "the summary holds a number that is not finite, which JSON cannot hold");
     if (path)
         json_object_set_new(document, "steps", ost_path_json(scene, path));
+    if (adaption)
+        json_object_set_new(document, "adaption", ost_adaption_json(adaption));
     return ost_json_write(ctx, document, to);
 }

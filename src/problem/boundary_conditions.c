@@ -69,6 +69,23 @@ static OstStatus constrain_node(const OstScene *scene, const OstConstraint *cons
     return OST_SUCCESS;
 }
 
+/* Each table's displacements are prescribed alone, with zeros where others act: what differs may be the tables. */
+static OstStatus blame_tables(const OstScene *scene, OstStatus status)
+{
+    const OstCase *c = scene->c;
+    char text[OST_ERROR_TEXT_SIZE];
+    int several = 0;
+    for (int i = 1; i < c->constraint_count; i++)
+        several |= c->constraints[i].table != c->constraints[0].table;
+    if (status != OST_INVALID_INPUT || !several)
+        return status;
+    snprintf(text, sizeof text, "%s", ost_error_text(scene->ctx));
+    return OST_RAISE(scene->ctx, status,
+                     "%s (a displacement counts as 0 beside one that follows another time table: where two meet, give "
+                     "both the same table)",
+                     text);
+}
+
 static OstStatus add_constraint(const OstScene *scene, const OstConstraint *constraint, int table,
                                 OstSupports *supports)
 {
@@ -80,7 +97,7 @@ static OstStatus add_constraint(const OstScene *scene, const OstConstraint *cons
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = constrain_node(scene, constraint, table, nodes[i], supports);
+            status = blame_tables(scene, constrain_node(scene, constraint, table, nodes[i], supports));
     status = ost_agree(scene->ctx, at_line(scene->c, constraint->line, status));
     ost_ledger_leave(scene->ctx);
     OST_FREE(nodes);
@@ -108,7 +125,8 @@ static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, Ost
     memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
     OST_TRY(ost_agree(scene->ctx, ost_supports_allow_springs(supports)));
     if (spring->kind == OST_SPRING_FOUNDATION)
-        ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness);
+        OST_TRY(
+            ost_agree(scene->ctx, ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness)));
     for (OstLocal i = 0; i < count && spring->kind == OST_SPRING_POINT; i++)
         if (selected[i] < scene->mesh->owned_nodes)
             ost_supports_add_spring(supports, selected[i], &stiffness);

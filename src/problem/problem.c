@@ -120,11 +120,16 @@ OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
             ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
+        made->eigen_function = parts->eigenstrain_follows;
         int pressed = parts->pressed_count > 0;
         status = ost_max_ints(made->ctx, 1, &pressed);
         if (status == OST_SUCCESS && pressed)
             status = ost_follower_add(parts->mesh, parts->pressed_count, parts->pressed_faces,
                                       parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, 0, &made->follower);
+        if (made->eigen_function < 0 || made->eigen_function > parts->timed_count)
+            status = OST_RAISE(made->ctx, OST_INVALID_INPUT,
+                               "eigenstrain_follows is %d; expected 0, or the number of one of %d time tables, from 1",
+                               made->eigen_function, parts->timed_count);
         status = ost_agree(made->ctx, status);
         OST_THEN(constrain_nodes(parts, NULL, &made->supports));
         OST_THEN(make_timed(parts, made));
@@ -153,6 +158,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     OstStatus status = create(scene->mesh, scene->field, scene->mesh->node_count, &made);
     if (status != OST_SUCCESS)
         goto done;
+    made->scene = scene;
     made->c = scene->c;
     made->effects = &scene->plan.effects;
     made->free_body = ost_effect_on(made->effects, OST_EFFECT_FREE_BODY);
@@ -162,6 +168,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
         made->beyond_linear = scene->c->formulation;
     made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
     made->accuracy = scene->c->relative_error;
+    made->eigen_function = scene->c->eigen_table;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
@@ -251,7 +258,7 @@ static void add_energy(void *energy, const OstBatch *batch, const OstElement *el
 
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
 {
-    const double grown = ost_problem_factor(problem, 0, t);
+    const double grown = ost_problem_eigen_share(problem, t);
     *energy = problem->supports->spring ? ost_spring_energy(problem->supports, u) : 0.0;
     if (problem->formulation == OST_FORMULATION_LINEAR)
         ost_visit_means(problem->mesh, problem->field, grown, u, add_energy, energy);
@@ -262,7 +269,7 @@ OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *
 
 OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u, double *force)
 {
-    const double grown = ost_problem_factor(problem, 0, t);
+    const double grown = ost_problem_eigen_share(problem, t);
     OST_TRY(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, grown, u, force, NULL));
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, u, force);
@@ -300,7 +307,7 @@ OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double
 static OstStatus fill(const OstProblem *problem, double t, const double *u, const double *from, int definite)
 {
     OstTangent tangent = {.formulation = problem->formulation,
-                          .t = ost_problem_factor(problem, 0, t),
+                          .t = ost_problem_eigen_share(problem, t),
                           .u = u,
                           .from = from,
                           .definite = definite};

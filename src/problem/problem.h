@@ -18,6 +18,7 @@ struct OstProblem {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
+    const OstScene *scene;     /* of which the problem is made, and which outlives it; NULL if there is none */
     const OstCase *c;          /* where supports and loads come from, for messages; may be NULL */
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
@@ -25,6 +26,7 @@ struct OstProblem {
     int timed_count;           /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
     OstFollower *follower;        /* pressures that follow the surface, of all functions; NULL: there are none */
+    int eigen_function;           /* the function of time that eigenstrains follow */
     int conservative;             /* is the load the gradient of a work function? */
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
@@ -70,6 +72,9 @@ OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double
 int ost_problem_functions(const OstProblem *problem);
 double ost_problem_factor(const OstProblem *problem, int function, double t);
 
+/* Local. What of the eigenstrain acts at t. */
+double ost_problem_eigen_share(const OstProblem *problem, double t);
+
 /* Local. Adds factor × the load of one function to `force` (3 × owned_nodes), with pressures on the surface as u has
  * moved it (NULL: undeformed). */
 void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force);
@@ -77,8 +82,8 @@ void ost_problem_add_load(const OstProblem *problem, int function, double factor
 /* Local. factor × this rank's part of the work function of that load (ost_problem_load_work). */
 double ost_problem_work(const OstProblem *problem, int function, double factor, const double *u);
 
-/* Local. Its right-hand side P (f - K g), with the eigenstrain's of function 0, of a linear problem, after
- * ost_problem_stiffness; 3 × rows numbers. */
+/* Local. Its right-hand side P (f - K g), with the eigenstrain's if it follows this function, of a linear problem,
+ * after ost_problem_stiffness; 3 × rows numbers. */
 OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs);
 
 /* Collective. Its displacement P v + g of every local node. */

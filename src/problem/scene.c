@@ -96,21 +96,6 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
     return create_field(mesh, NULL, materials, axes, tet_axes, field);
 }
 
-static OstStatus set_eigenstrain(OstScene *scene)
-{
-    const OstNames *regions = &scene->mesh->regions;
-    double *strain = NULL;
-    OST_TRY(OST_NEW(scene->ctx, &strain, 6 * regions->count));
-    for (int r = 0; r < regions->count; r++) {
-        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
-        if (stated)
-            memcpy(strain + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
-    }
-    const OstStatus status = ost_field_set_eigenstrain(scene->field, strain, 0, NULL);
-    OST_FREE(strain);
-    return status;
-}
-
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
 {
     OstContext *ctx = scene->ctx;
@@ -124,7 +109,7 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
                           gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))
-        status = ost_agree(ctx, set_eigenstrain(scene));
+        status = ost_agree(ctx, ost_scene_set_eigenstrain(scene));
     return status;
 }
 
@@ -172,24 +157,32 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     return OST_SUCCESS;
 }
 
-/* Without a chunk the mesh is the case's. */
-static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
+static OstStatus copy_file_materials(OstContext *ctx, const OstFileMaterials *from, OstFileMaterials **to)
 {
-    OstContext *ctx = c->ctx;
-    OstFileMaterials *from_file = NULL;
+    if (!from)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(ctx, to, 1));
+    OST_TRY(OST_NEW(ctx, &(*to)->material, from->count));
+    OST_TRY(OST_NEW(ctx, &(*to)->axes, 9 * (size_t)from->count));
+    (*to)->count = from->count;
+    for (int r = 0; r < from->count; r++)
+        (*to)->material[r] = from->material[r];
+    for (int i = 0; i < 9 * from->count; i++)
+        (*to)->axes[i] = from->axes[i];
+    return OST_SUCCESS;
+}
+
+static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
+{
+    OstContext *ctx = made->ctx;
+    const OstCase *c = made->c;
     OstSceneMaterials materials = {0};
-    OstScene *made = NULL;
-    *scene = NULL;
-    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &made, 1));
-    if (status != OST_SUCCESS)
-        goto done;
-    made->ctx = ctx;
-    made->c = c;
-    OST_TRY_DONE(chunk ? ost_scene_distribute(c, NULL, chunk, &made->mesh, &materials)
-                       : ost_scene_make_mesh(c, &made->mesh, &from_file, &materials));
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(chunk ? ost_scene_distribute(c, made->from_file, chunk, &made->mesh, &materials)
+                       : ost_scene_make_mesh(c, &made->mesh, &made->from_file, &materials));
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
-    OST_TRY_DONE(make_plan(made, from_file));
+    OST_TRY_DONE(make_plan(made, made->from_file));
     for (int i = 0; i < c->constraint_count; i++)
         OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
     for (int i = 0; i < c->load_count; i++)
@@ -199,8 +192,25 @@ static OstStatus create(const OstCase *c, OstMeshChunk **chunk, OstScene **scene
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
-    ost_file_materials_destroy(&from_file);
     ost_scene_materials_release(&materials);
+    return status;
+}
+
+/* Without a chunk the mesh is the case's. */
+static OstStatus create(const OstCase *c, const OstScene *coarse, OstMeshChunk **chunk, OstScene **scene)
+{
+    OstContext *ctx = c->ctx;
+    OstScene *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS && coarse)
+        status = copy_file_materials(ctx, coarse->from_file, &made->from_file);
+    status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS) {
+        made->ctx = ctx;
+        made->c = c;
+        made->exact = coarse ? coarse->exact : NULL;
+        status = fill(made, chunk);
+    }
     if (status != OST_SUCCESS)
         ost_scene_destroy(&made);
     *scene = made;
@@ -209,12 +219,19 @@ done:
 
 OstStatus ost_scene_create(const OstCase *c, OstScene **scene)
 {
-    return create(c, NULL, scene);
+    return create(c, NULL, NULL, scene);
 }
 
 OstStatus ost_scene_create_on(const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
 {
-    const OstStatus status = create(c, chunk, scene);
+    const OstStatus status = create(c, NULL, chunk, scene);
+    ost_chunk_destroy(chunk);
+    return status;
+}
+
+OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMeshChunk **chunk, OstScene **scene)
+{
+    const OstStatus status = create(c, coarse, chunk, scene);
     ost_chunk_destroy(chunk);
     return status;
 }
@@ -224,6 +241,7 @@ void ost_scene_destroy(OstScene **scene)
     if (!*scene)
         return;
     OST_FREE((*scene)->load_effect);
+    ost_file_materials_destroy(&(*scene)->from_file);
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);
     OST_FREE(*scene);
@@ -237,4 +255,12 @@ const OstMesh *ost_scene_mesh(const OstScene *scene)
 const OstMaterialField *ost_scene_field(const OstScene *scene)
 {
     return scene->field;
+}
+
+unsigned ost_scene_result_fields(const OstScene *scene)
+{
+    const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const OstEffects *effects = &scene->plan.effects;
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
 }

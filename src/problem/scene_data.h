@@ -13,11 +13,20 @@
 struct OstScene {
     OstContext *ctx;
     const OstCase *c;
-    OstPlan plan;           /* its effects decide what is computed */
-    OstEffect *load_effect; /* of each load of the case */
+    OstPlan plan;                /* its effects decide what is computed */
+    OstEffect *load_effect;      /* of each load of the case */
+    OstFileMaterials *from_file; /* that came with the mesh file, or NULL */
     OstMesh *mesh;
     OstMaterialField *field;
     const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
+
+/* Collective. A scene of the same body on a finer mesh: the chunk, which is consumed, in tets of the case's order and
+ * not refined further. `c` may differ from the earlier scene's case in its settings, not in what is modelled, and
+ * outlives the scene. */
+OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMeshChunk **chunk, OstScene **scene);
+
+/* Local. The case's output fields, without those of effects that are off. */
+unsigned ost_scene_result_fields(const OstScene *scene);
 
 #endif

@@ -108,8 +108,7 @@ static OstStatus partition(const OstSceneMaterials *materials, OstMeshChunk **ch
     return ost_mesh_distribute_by((*chunk)->ctx, chunk, any ? &metric : NULL, mesh);
 }
 
-/* The curved surface on which new nodes of the case's shape are placed. */
-static OstShapeSurface true_surface(const OstCase *c)
+OstShapeSurface ost_scene_surface(const OstCase *c)
 {
     const OstShapeSurface straight = {.kind = OST_SURFACE_NONE};
     switch (c->mesh_kind) {
@@ -173,7 +172,7 @@ static OstStatus check_ranks(const OstCase *c, const OstMeshChunk *chunk)
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
                                OstMesh **mesh, OstSceneMaterials *materials)
 {
-    const OstShapeSurface surface = true_surface(c);
+    const OstShapeSurface surface = ost_scene_surface(c);
     *mesh = NULL;
     OstStatus status = check_ranks(c, *chunk);
     OST_THEN(ost_scene_materials(c, &(*chunk)->regions, from_file, materials));
@@ -194,6 +193,7 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
     OST_THEN(ost_scene_read_cell_axes(c, chunk));
+    OST_THEN(ost_scene_read_tet_field(c, chunk));
     OST_THEN(merge_vertices(c, chunk));
     OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);

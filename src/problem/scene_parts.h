@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_SCENE_PARTS_H
 #define ORTHOSTAT_PROBLEM_SCENE_PARTS_H
 
+#include "orthostat/refine.h"
 #include "problem/scene_data.h"
 
 /* One material and one specification of axes for every region of the mesh. The specifications borrow their arrays from
@@ -34,10 +35,19 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
                                OstMesh **mesh, OstSceneMaterials *materials);
 
+/* Local. The curved surface on which new nodes of the case's shape are placed. */
+OstShapeSurface ost_scene_surface(const OstCase *c);
+
 /* Collective. Axes from two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, and has no
  * flux elsewhere. e1 is the gradient of the first; e2 is the part of the second's orthogonal to e1. Both are solved at
  * once, as components of a displacement, by the solver of the elastic problem. Fills `axes` (9 a tet) for the region's
  * tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
+
+/* Collective. Reads the field of the mesh file that the case's eigenstrains name, if any, into the chunk. */
+OstStatus ost_scene_read_tet_field(const OstCase *c, OstMeshChunk *chunk);
+
+/* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */
+OstStatus ost_scene_set_eigenstrain(OstScene *scene);
 
 #endif

@@ -53,6 +53,11 @@ double ost_problem_factor(const OstProblem *problem, int function, double t)
     return ost_time_factor(function == 0 ? &ramp : &problem->timed[function - 1].table, t);
 }
 
+double ost_problem_eigen_share(const OstProblem *problem, double t)
+{
+    return ost_problem_factor(problem, problem->eigen_function, t);
+}
+
 static const double *dead_load(const OstProblem *problem, int function)
 {
     return function == 0 ? problem->force : problem->timed[function - 1].force;
@@ -87,7 +92,7 @@ static OstSystem system_of(const OstProblem *problem, int function)
 OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs)
 {
     const OstSystem system = system_of(problem, function);
-    const double share = function == 0 ? 1.0 : 0.0; /* eigenstrains grow with t */
+    const double share = function == problem->eigen_function ? 1.0 : 0.0;
     double *force = NULL;
     OST_TRY(OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes));
     ost_problem_add_load(problem, function, 1.0, NULL, force);

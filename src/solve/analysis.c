@@ -68,11 +68,13 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
     ost_result_take_outcome(result, solved);
     if (!result->unfinished)
         OST_TRY(solved);
+    const double t = result->newton.used ? result->newton.reached : 1.0;
+    if (fields >> OST_FIELD_ERROR & 1U)
+        OST_TRY(ost_analysis_estimate(analysis, t, result));
     if (is_last) {
         analysis->strategy->release(analysis);
         ost_problem_release_stiffness(analysis->problem);
     }
-    const double t = result->newton.used ? result->newton.reached : 1.0;
     return ost_analysis_conclude(analysis, t, solved, &solved_for, fields, result);
 }
 
@@ -127,8 +129,7 @@ static OstStatus solve_path(const OstScene *scene, unsigned fields, OstResult **
 
 OstStatus ost_scene_solve(const OstScene *scene, OstResult **result)
 {
-    const int recovers = ost_effect_on(&scene->plan.effects, OST_EFFECT_RECOVERY);
-    const unsigned fields = recovers ? scene->c->output_fields : 0;
+    const unsigned fields = ost_scene_result_fields(scene);
     OstProblem *problem = NULL;
     *result = NULL;
     if (ost_effect_on(&scene->plan.effects, OST_EFFECT_PATH))

@@ -1,117 +1,89 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/index_map.h"
 #include "core/memory.h"
-#include "core/parallel/gather.h"
-#include "core/parallel/reduce.h"
 #include "core/write_aside.h"
-#include "problem/problem.h"
+#include "problem/identity.h"
 #include "solve/path_data.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The file: a header, the steps done, what the answers are made of (of arrays, that of each rank in turn), and the hash
- * of all that. In the byte order of the machine: only the program that wrote it, on such a machine, takes the same bits
- * from it. */
+/* The file: a header, the steps done, what the answers are made of, and the hash of all that. The answers stand node by
+ * node with their labels, so that any number of ranks can take them. In the byte order of the machine: only the program
+ * that wrote it, on such a machine, takes the same bits from it. */
 typedef struct Header {
     char magic[16];
-    int32_t version, ranks;
-    uint64_t case_hash;    /* of the text; 0 without a case */
-    uint64_t problem_hash; /* of mesh, partition, materials, loads, supports and times */
-    int32_t count, done;
-    int32_t parts;     /* of linear answers; 0 if the steps are Newton's */
-    int32_t nonlinear; /* then the state's displacement and slope follow */
+    OstProblemIdentity problem;
+    uint64_t options, times; /* hashes of the solver's options and of the path's times */
     double t, step;
+    int64_t nodes;
+    int32_t version, done;
+    int32_t parts;     /* of linear answers; 0 if the steps are Newton's */
+    int32_t nonlinear; /* then a node has the state's displacement and slope */
 } Header;
 
-enum { VERSION = 1, BLOCK = 65536 };
+enum { VERSION = 2, BLOCK = 65536, NODES = 4096 /* in a message */ };
 static const char magic[16] = "orthostat path";
 
-static uint64_t hash_supports(uint64_t hash, const OstSupports *supports)
+/* One number after the other, as a struct has gaps. */
+static uint64_t hash_options(const OstSolverOptions *options)
 {
-    for (OstLocal s = 0; s < supports->count; s++) {
-        const OstSupport *support = &supports->support[s];
-        hash = ost_hash(hash, 3 * (size_t)support->constrained * sizeof(double), support->direction);
-        hash = ost_hash(hash, (size_t)support->constrained * sizeof(double), support->prescribed);
-    }
-    if (supports->spring)
-        hash = ost_hash(hash, 9 * (size_t)supports->mesh->node_count * sizeof(double), supports->spring);
-    return ost_hash(hash, (size_t)supports->mesh->node_count * sizeof(OstLocal), supports->index);
-}
-
-static uint64_t hash_follower(uint64_t hash, const OstFollower *follower)
-{
-    for (; follower; follower = follower->next) {
-        const size_t nodes = (size_t)follower->nodes_per_face * (size_t)follower->count;
-        hash = ost_hash(hash, nodes * sizeof(OstLocal), follower->faces);
-        hash = ost_hash(hash, sizeof follower->pressure, &follower->pressure);
-        hash = ost_hash(hash, sizeof follower->function, &follower->function);
-    }
-    return hash;
-}
-
-static uint64_t hash_table(uint64_t hash, const OstTimeTable *table)
-{
-    hash = ost_hash(hash, (size_t)table->count * sizeof(double), table->time);
-    return ost_hash(hash, (size_t)table->count * sizeof(double), table->factor);
-}
-
-static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLocal tets)
-{
-    for (int r = 0; r < field->region_count; r++)
-        hash = ost_hash(hash, sizeof(OstOrthotropic), &field->material[r].constants);
-    if (field->region_axes)
-        hash = ost_hash(hash, 9 * (size_t)field->region_count * sizeof(double), field->region_axes);
-    if (field->region_eigenstrain)
-        hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
-    if (field->tet_eigenstrain)
-        hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
-    return field->tet_axes ? ost_hash(hash, 9 * (size_t)tets * sizeof(double), field->tet_axes) : hash;
-}
-
-/* What this rank knows of the problem and the path. */
-static uint64_t hash_here(const OstPath *path)
-{
-    const OstProblem *problem = path->problem;
-    const OstMesh *mesh = problem->mesh;
-    const size_t loads = 3 * (size_t)mesh->owned_nodes * sizeof(double);
-    const size_t corners = (size_t)mesh->tet_count * (size_t)mesh->nodes_per_tet;
-    uint64_t hash = ost_hash(OST_HASH_START, (size_t)path->count * sizeof(double), path->times);
-    hash = ost_hash(hash, 3 * (size_t)mesh->node_count * sizeof(double), mesh->coordinates);
-    hash = ost_hash(hash, (size_t)mesh->node_count * sizeof(OstGlobal), mesh->node_label);
-    hash = ost_hash(hash, corners * sizeof(OstLocal), mesh->tet_nodes);
-    hash = ost_hash(hash, (size_t)mesh->tet_count * sizeof(int32_t), mesh->tet_region);
-    hash = hash_field(hash, problem->field, mesh->tet_count);
-    hash = hash_follower(hash, problem->follower);
-    hash = hash_supports(ost_hash(hash, loads, problem->force), problem->supports);
-    for (int k = 0; k < problem->timed_count; k++) {
-        hash = hash_table(hash, &problem->timed[k].table);
-        hash = hash_supports(ost_hash(hash, loads, problem->timed[k].force), problem->timed[k].supports);
-    }
-    return hash;
+    const double numbers[] = {options->method,
+                              options->relative_residual,
+                              options->accept_attainable,
+                              options->max_iterations,
+                              options->patience,
+                              options->aggregate_nodes,
+                              options->coarse_aggregate_nodes,
+                              options->smoother_block_nodes,
+                              options->smoother_degree,
+                              options->smoother_ratio,
+                              options->coarsest_unknowns,
+                              options->most_levels,
+                              options->factor_memory,
+                              options->given};
+    return ost_hash(OST_HASH_START, sizeof numbers, numbers);
 }
 
 static OstStatus describe(const OstPath *path, Header *header)
 {
-    const uint64_t here = hash_here(path);
-    uint64_t *all = NULL;
-    OstLocal total = 0;
-    *header = (Header){.version = VERSION,
-                       .ranks = ost_size(path->ctx),
-                       .case_hash = path->problem->c ? path->problem->c->text_hash : 0,
-                       .count = path->count,
+    *header = (Header){.options = hash_options(&path->analysis->options),
+                       .times = ost_hash(OST_HASH_START, (size_t)path->count * sizeof(double), path->times),
+                       .t = path->state.t,
+                       .step = path->state.step,
+                       .nodes = path->problem->mesh->global_nodes,
+                       .version = VERSION,
                        .done = path->done,
                        .parts = path->nonlinear ? 0 : path->linear.count,
-                       .nonlinear = path->nonlinear,
-                       .t = path->state.t,
-                       .step = path->state.step};
+                       .nonlinear = path->nonlinear};
     memcpy(header->magic, magic, sizeof magic);
-    OST_TRY(ost_gather_items(path->ctx, sizeof here, &here, 1, "there are too many ranks", (void **)&all, &total));
-    header->problem_hash = ost_hash(OST_HASH_START, (size_t)total * sizeof *all, all);
-    OST_FREE(all);
-    return OST_SUCCESS;
+    return ost_problem_identify(path->problem, &header->problem);
+}
+
+/* What the next step is made from: the parts of linear answers, or the state of Newton's method. */
+typedef struct Arrays {
+    int count;
+    double *one[2]; /* 3 × node_count each */
+    double **array; /* `one`, or a superposition's parts */
+} Arrays;
+
+static void list_arrays(const OstPath *path, Arrays *arrays)
+{
+    *arrays = (Arrays){
+        .count = path->linear.count, .array = path->linear.part, .one = {path->state.displacement, path->state.slope}};
+    if (path->nonlinear) {
+        arrays->count = 2;
+        arrays->array = arrays->one;
+    }
+}
+
+/* A node with its three numbers of each array. */
+static size_t record_size(const Arrays *arrays)
+{
+    return sizeof(OstGlobal) + 3 * (size_t)arrays->count * sizeof(double);
 }
 
 /* --- writing: rank 0 writes, and takes the others' arrays in turn --- */
@@ -130,51 +102,63 @@ static void put(Writer *writer, size_t size, const void *bytes)
     writer->hash = ost_hash(writer->hash, size, bytes);
 }
 
-/* The most numbers that a rank has in an array. */
-static OstStatus find_largest(const OstPath *path, OstGlobal *largest)
+/* The records of owned nodes from `first` on. */
+static int pack(const OstMesh *mesh, const Arrays *arrays, OstLocal first, char *records)
 {
-    *largest = 3 * (OstGlobal)path->problem->mesh->node_count;
-    return ost_max_numbers(path->ctx, 1, largest);
+    const size_t size = record_size(arrays);
+    const int count = mesh->owned_nodes - first < NODES ? mesh->owned_nodes - first : NODES;
+    for (int i = 0; i < count; i++) {
+        const size_t node = (size_t)first + (size_t)i;
+        char *record = records + (size_t)i * size;
+        memcpy(record, &mesh->node_label[node], sizeof(OstGlobal));
+        record += sizeof(OstGlobal);
+        for (int k = 0; k < arrays->count; k++, record += 3 * sizeof(double))
+            memcpy(record, arrays->array[k] + 3 * node, 3 * sizeof(double));
+    }
+    return count;
 }
 
-/* An array of all ranks; `room` (rank 0) takes the largest. */
-static OstStatus put_array(OstContext *ctx, Writer *writer, OstGlobal count, const double *values, double *room)
+/* A rank's records, to rank 0 in messages of so many; the last, perhaps empty, has fewer. */
+static OstStatus send_records(OstContext *ctx, const OstMesh *mesh, const Arrays *arrays, char *records)
 {
-    const MPI_Comm comm = ost_comm(ctx);
-    if (ost_rank(ctx) != 0) {
-        OST_TRY(OST_MPI(ctx, MPI_Send(&count, 1, MPI_INT64_T, 0, 0, comm)));
-        return OST_MPI(ctx, MPI_Send(values, (int)count, MPI_DOUBLE, 0, 1, comm));
-    }
-    put(writer, sizeof count, &count);
-    put(writer, (size_t)count * sizeof *values, values);
-    for (int rank = 1; rank < ost_size(ctx); rank++) {
-        OstGlobal theirs = 0;
-        OST_TRY(OST_MPI(ctx, MPI_Recv(&theirs, 1, MPI_INT64_T, rank, 0, comm, MPI_STATUS_IGNORE)));
-        OST_TRY(OST_MPI(ctx, MPI_Recv(room, (int)theirs, MPI_DOUBLE, rank, 1, comm, MPI_STATUS_IGNORE)));
-        put(writer, sizeof theirs, &theirs);
-        put(writer, (size_t)theirs * sizeof *room, room);
+    int count = NODES;
+    for (OstLocal first = 0; count == NODES; first += count) {
+        count = pack(mesh, arrays, first, records);
+        OST_TRY(
+            OST_MPI(ctx, MPI_Send(records, (int)(record_size(arrays) * (size_t)count), MPI_BYTE, 0, 0, ost_comm(ctx))));
     }
     return OST_SUCCESS;
 }
 
-/* What the next step is made from: the parts of linear answers, or the state of Newton's method. */
+static OstStatus receive_records(OstContext *ctx, int rank, const Arrays *arrays, char *records, Writer *writer)
+{
+    const int most = (int)record_size(arrays) * NODES;
+    int bytes = most;
+    while (bytes == most) {
+        MPI_Status received;
+        OST_TRY(OST_MPI(ctx, MPI_Recv(records, most, MPI_BYTE, rank, 0, ost_comm(ctx), &received)));
+        OST_TRY(OST_MPI(ctx, MPI_Get_count(&received, MPI_BYTE, &bytes)));
+        put(writer, (size_t)bytes, records);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus put_arrays(const OstPath *path, Writer *writer)
 {
     OstContext *ctx = path->ctx;
-    const OstSuperposition *linear = &path->linear;
-    const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
-    OstGlobal largest = 0;
-    double *room = NULL;
-    OST_TRY(find_largest(path, &largest));
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
+    const OstMesh *mesh = path->problem->mesh;
+    Arrays arrays;
+    char *records = NULL;
+    list_arrays(path, &arrays);
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &records, NODES * record_size(&arrays))));
     OstStatus status = OST_SUCCESS;
-    for (int k = 0; k < linear->count && !path->nonlinear; k++)
-        OST_THEN(put_array(ctx, writer, count, linear->part[k], room));
-    if (path->nonlinear) {
-        status = put_array(ctx, writer, count, path->state.displacement, room);
-        OST_THEN(put_array(ctx, writer, count, path->state.slope, room));
-    }
-    OST_FREE(room);
+    if (ost_rank(ctx) > 0)
+        status = send_records(ctx, mesh, &arrays, records);
+    for (OstLocal first = 0; ost_rank(ctx) == 0 && first < mesh->owned_nodes; first += NODES)
+        put(writer, record_size(&arrays) * (size_t)pack(mesh, &arrays, first, records), records);
+    for (int rank = 1; ost_rank(ctx) == 0 && rank < ost_size(ctx); rank++)
+        OST_THEN(receive_records(ctx, rank, &arrays, records, writer));
+    OST_FREE(records);
     return status;
 }
 
@@ -274,19 +258,18 @@ static OstStatus check_whole(OstContext *ctx, const char *name, FILE *file)
 static OstStatus check_header(const OstPath *path, const char *name, const Header *found, const Header *expected)
 {
     OstContext *ctx = path->ctx;
-    char what[160];
+    char why[OST_LONGEST_DIFFERENCE];
     if (memcmp(found->magic, magic, sizeof magic) != 0 || found->version != VERSION)
         return raise_damaged(ctx, name, "another version of the program wrote it");
-    snprintf(what, sizeof what, "it was made on %d rank%s and goes on there alone, but this run has %d", found->ranks,
-             found->ranks == 1 ? "" : "s", expected->ranks);
-    if (found->ranks != expected->ranks)
-        return raise_damaged(ctx, name, what);
-    if (found->case_hash != expected->case_hash)
-        return raise_damaged(ctx, name, "it is that of another case, or the case file has changed since");
-    if (found->problem_hash != expected->problem_hash || found->count != expected->count || found->done < 0 ||
-        found->done > found->count)
-        return raise_damaged(ctx, name, "mesh, axes, loads or constraints have changed since, or the partition has");
-    return OST_SUCCESS;
+    if (found->options != expected->options)
+        return raise_damaged(ctx, name, "the solver's options have changed since");
+    if (ost_problem_differs(&found->problem, &expected->problem, why))
+        return raise_damaged(ctx, name, why);
+    if (found->times != expected->times)
+        return raise_damaged(ctx, name, "the path's times have changed since");
+    return found->nodes == expected->nodes && found->done >= 0 && found->done <= path->count
+               ? OST_SUCCESS
+               : raise_damaged(ctx, name, "the mesh has changed since");
 }
 
 static OstStatus get(OstContext *ctx, const char *name, FILE *file, size_t size, void *bytes)
@@ -297,28 +280,6 @@ static OstStatus get(OstContext *ctx, const char *name, FILE *file, size_t size,
 static OstStatus share(OstContext *ctx, size_t size, void *bytes)
 {
     return OST_MPI(ctx, MPI_Bcast(bytes, (int)size, MPI_BYTE, 0, ost_comm(ctx)));
-}
-
-/* An array to all ranks, which each has the room it needs; `room` is rank 0's. */
-static OstStatus get_array(OstContext *ctx, const char *name, FILE *file, OstGlobal count, double *values, double *room)
-{
-    const MPI_Comm comm = ost_comm(ctx);
-    OstStatus status = OST_SUCCESS;
-    for (int rank = 0; rank < ost_size(ctx); rank++) {
-        OstGlobal stated = 0, asked = count;
-        OST_TRY(OST_MPI(ctx, MPI_Bcast(&asked, 1, MPI_INT64_T, rank, comm)));
-        if (ost_rank(ctx) == 0) {
-            OST_THEN(get(ctx, name, file, sizeof stated, &stated));
-            if (status == OST_SUCCESS && stated != asked)
-                status = raise_damaged(ctx, name, "its arrays have another length");
-            OST_THEN(get(ctx, name, file, (size_t)asked * sizeof *room, rank == 0 ? values : room));
-            if (rank > 0)
-                OST_TRY(OST_MPI(ctx, MPI_Send(room, (int)asked, MPI_DOUBLE, rank, 1, comm)));
-        } else if (ost_rank(ctx) == rank) {
-            OST_TRY(OST_MPI(ctx, MPI_Recv(values, (int)asked, MPI_DOUBLE, 0, 1, comm, MPI_STATUS_IGNORE)));
-        }
-    }
-    return ost_agree(ctx, status);
 }
 
 /* Room for what `header` says will come. */
@@ -355,22 +316,63 @@ static OstStatus get_reports(OstPath *path, const char *name, FILE *file)
     return OST_SUCCESS;
 }
 
-static OstStatus get_arrays(OstPath *path, const char *name, FILE *file)
+/* Takes what this rank has of these records, ghosts too. */
+static void unpack(const OstIndex *nodes, const Arrays *arrays, int count, const char *records, OstLocal *taken)
+{
+    for (int i = 0; i < count; i++) {
+        const char *record = records + (size_t)i * record_size(arrays);
+        OstGlobal label;
+        memcpy(&label, record, sizeof label);
+        record += sizeof label;
+        const OstLocal node = ost_index_find(nodes, &label);
+        for (int k = 0; node >= 0 && k < arrays->count; k++, record += 3 * sizeof(double))
+            memcpy(arrays->array[k] + 3 * (size_t)node, record, 3 * sizeof(double));
+        *taken += node >= 0;
+    }
+}
+
+static OstStatus index_nodes(const OstMesh *mesh, OstIndex **nodes)
+{
+    OST_TRY(ost_index_create(mesh->ctx, 1, nodes));
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        OstLocal place;
+        OST_TRY(ost_index_place(*nodes, &mesh->node_label[n], &place));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus get_records(const OstPath *path, const char *name, FILE *file, const OstIndex *nodes,
+                             const Arrays *arrays, char *records)
 {
     OstContext *ctx = path->ctx;
-    const OstGlobal count = 3 * (OstGlobal)path->problem->mesh->node_count;
-    OstGlobal largest = 0;
-    double *room = NULL;
-    OST_TRY(find_largest(path, &largest));
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &room, ost_rank(ctx) == 0 ? largest : 0)));
-    OstStatus status = OST_SUCCESS;
-    for (int k = 0; k < path->linear.count; k++)
-        OST_THEN(get_array(ctx, name, file, count, path->linear.part[k], room));
-    if (path->nonlinear) {
-        status = get_array(ctx, name, file, count, path->state.displacement, room);
-        OST_THEN(get_array(ctx, name, file, count, path->state.slope, room));
+    const OstMesh *mesh = path->problem->mesh;
+    OstLocal taken = 0;
+    for (OstGlobal first = 0; first < mesh->global_nodes; first += NODES) {
+        const int count = mesh->global_nodes - first < NODES ? (int)(mesh->global_nodes - first) : NODES;
+        const size_t bytes = (size_t)count * record_size(arrays);
+        OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, bytes, records) : OST_SUCCESS));
+        OST_TRY(share(ctx, bytes, records));
+        unpack(nodes, arrays, count, records, &taken);
     }
-    OST_FREE(room);
+    return ost_agree(ctx, taken == mesh->node_count ? OST_SUCCESS
+                                                    : raise_damaged(ctx, name, "it has not all of the mesh's nodes"));
+}
+
+static OstStatus get_arrays(const OstPath *path, const char *name, FILE *file)
+{
+    OstContext *ctx = path->ctx;
+    OstIndex *nodes = NULL;
+    Arrays arrays;
+    char *records = NULL;
+    list_arrays(path, &arrays);
+    if (arrays.count == 0) /* before the first step */
+        return OST_SUCCESS;
+    OstStatus status = index_nodes(path->problem->mesh, &nodes);
+    OST_THEN(OST_NEW(ctx, &records, NODES * record_size(&arrays)));
+    status = ost_agree(ctx, status);
+    OST_THEN(get_records(path, name, file, nodes, &arrays, records));
+    ost_index_destroy(&nodes);
+    OST_FREE(records);
     return status;
 }
 

@@ -1,12 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/linear.h"
 
+#include "accuracy/stop.h"
+#include "algebra/krylov/energy_error.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
 #include "solve/error.h"
+
+#include <math.h>
+
+/* An error so many times what is good enough is not waited for, but solved for to the end. */
+static const double most_beyond = 100.0;
 
 static void release(OstAnalysis *analysis)
 {
@@ -59,24 +66,105 @@ static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t u
     return OST_SUCCESS;
 }
 
+/* Takes the unknowns of the displacement to start from, if there is one. */
+static int take_start(const OstAnalysis *analysis)
+{
+    const OstSystem *system = analysis->problem->system;
+    const OstLinear *linear = analysis->work;
+    for (OstLocal row = 0; analysis->start && row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, analysis->start + 3 * (size_t)node, linear->v + 3 * (size_t)row);
+    }
+    return analysis->start != NULL;
+}
+
+/* Solves from 0 or, to go on, from linear->v. */
+static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    OstLinear *linear = analysis->work;
+    const int before = goes_on ? result->solve.iterations : 0;
+    const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
+    ost_solver_aim(linear->stiffness.solver, (OstSolverAim){.stop = stop, .goes_on = goes_on});
+    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
+    ost_solver_aim(linear->stiffness.solver, (OstSolverAim){0});
+    result->solve.iterations += before;
+    result->solve.solve_seconds += seconds;
+    OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
+    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
+    if (result->reached && problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    return solved;
+}
+
+static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
+{
+    const OstLinear *linear = analysis->work;
+    const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
+    return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
+}
+
+/* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
+ * energy, of reactions, of rounding. By how much an error exceeds what is good enough; INFINITY: nobody knows. */
+static double excess(const OstErrors *errors, const OstAnswerError *answer)
+{
+    const double of_displacement = errors->displacement / fmax(answer->displacement, 0.1 * answer->relative);
+    const double of_forces = fmax(errors->reaction, errors->stress) / ost_least_digit;
+    return errors->known ? fmax(of_displacement, of_forces) : INFINITY;
+}
+
+/* Solves until the error of the equations is small beside that of the discretisation. Where that proves too early, goes
+ * on to a smaller one, and in the end to the residual asked for. */
+static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, OstResult *result, OstErrors *errors)
+{
+    enum { ROUNDS = 3 };
+    for (int round = 0; round < ROUNDS; round++) {
+        OST_TRY(run_solver(analysis, &stop->stop, round > 0 || take_start(analysis), result));
+        if (!result->solve.stopped)
+            return OST_SUCCESS;
+        OST_TRY(find_errors(analysis, result, 1, errors));
+        const double beyond = excess(errors, &result->answer);
+        if (beyond <= 1.0)
+            return OST_SUCCESS;
+        if (!(beyond < most_beyond))
+            break;
+        ost_solve_stop_tighten(stop, 0.5 * result->solve.algebraic_error / beyond);
+    }
+    return run_solver(analysis, NULL, 1, result);
+}
+
+static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstErrors *errors)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstLinear *linear = analysis->work;
+    OstSolveStop stop;
+    OST_TRY(ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &result->tet_error, problem->mesh->owned_tets)));
+    OST_TRY(ost_solve_stop_open(problem, linear->stiffness.solver, analysis->options.algebraic_fraction,
+                                result->tet_error, &result->answer, &stop));
+    const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
+    ost_solve_stop_close(&stop);
+    return solved;
+}
+
 static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
+    OstErrors errors = {0};
+    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
-    OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
-    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
+    const OstStatus solved =
+        may_stop ? stop_early(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
     if (!result->reached)
         return solved;
-    const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
-    OST_TRY(describe_rhs(analysis->ctx, linear, unknowns, solved_for));
-    if (problem->free_body)
-        OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
-    if (solved == OST_SUCCESS)
-        OST_TRY(ost_find_errors(problem, linear->stiffness.solver, result->displacement, &solved_for->errors));
+    if (solved == OST_SUCCESS && !result->solve.stopped)
+        OST_TRY(find_errors(analysis, result, 0, &errors));
+    OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
+    solved_for->errors = errors;
     return solved;
 }
 

@@ -30,6 +30,11 @@ double ost_newton_first_step(double rotation);
 OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport *solve, OstNewton **newton);
 void ost_newton_destroy(OstNewton **newton);
 
+/* Local. Ends the search for each state at rest where a correction is no more than this share of the displacement, both
+ * in the norm of the energy: the next one, all that is missing, is then far smaller. 0, as from the start: the residual
+ * alone ends it. */
+void ost_newton_stop_at(OstNewton *newton, double share);
+
 /* Collective. Takes a state on to load factor `to` > state->t, in as many load steps as it needs. What is done depends
  * on the state alone and not on what was done before: away from u = 0 every call begins with a new hierarchy. Returns
  * OST_NOT_CONVERGED with the reason, the place and the load factor reached where the load cannot be followed; the state

@@ -36,14 +36,18 @@ struct OstNewton {
     double *internal, *load;          /* 3 × owned_nodes */
     double energy;                    /* total: of the strain, less that of the load */
     double energy_size;               /* the sum of their sizes, for rounding */
+    double strain_energy;             /* 0 where there is no energy to minimise */
     double norm;                      /* of the residual */
     double driving;                   /* the largest residual with which a load step began, before its prediction */
     double rounding;                  /* about what rounding of the displacement leaves of the residual */
     double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */
-    double change;  /* its 2-norm over that of the displacement */
-    double forcing; /* relative residual of its linear solve */
+    double change;    /* its 2-norm over that of the displacement */
+    double forcing;   /* relative residual of its linear solve */
+    double decrement; /* its norm in the energy; INFINITY if by the definite stiffness, or taken in part */
+    double enough; /* share of the state's size in the norm of the energy; a correction below it is the last. 0: off */
+    int stopped;   /* that has ended the last search */
 
     /* The solver's hierarchy: */
     int rebuild;         /* is a new one needed? */

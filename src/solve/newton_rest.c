@@ -79,6 +79,7 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     work = problem->follower ? work : sums[SUM_WORK];
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
     newton->energy = ost_newton_has_energy(newton) ? strain_energy - work : 0.0;
+    newton->strain_energy = strain_energy;
     newton->energy_size = fabs(strain_energy) + fabs(work);
     /* What rounding of the displacement leaves counts as small: a body that only turns has neither load nor reaction.
      */
@@ -114,6 +115,17 @@ static OstStatus measure_change(OstNewton *newton, double length)
     return OST_SUCCESS;
 }
 
+/* The correction's norm in the energy, sqrt(d·K d) = sqrt(d·r). */
+static OstStatus measure_decrement(OstNewton *newton)
+{
+    double work = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->system->matrix->rows; i++)
+        work += newton->residual[i] * newton->correction[i];
+    OST_TRY(ost_sum(newton->ctx, 1, &work));
+    newton->decrement = work >= 0.0 ? sqrt(work) : INFINITY;
+    return OST_SUCCESS;
+}
+
 static void tell(const OstNewton *newton, int definite, double length)
 {
     ost_log(
@@ -140,7 +152,10 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
     if (!found)
         return OST_SUCCESS;
     newton->forcing = forcing;
+    OST_TRY(measure_decrement(newton));
     OST_TRY(ost_newton_search(newton, length));
+    if (*definite || *length != 1.0)
+        newton->decrement = INFINITY;
     *rest = OST_REST_STALLED;
     newton->step_iterations++;
     newton->report.iterations++;
@@ -148,6 +163,11 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
     OST_TRY(measure_change(newton, *length));
     tell(newton, *definite, *length);
     return OST_SUCCESS;
+}
+
+static int is_enough(const OstNewton *newton)
+{
+    return newton->decrement <= newton->enough * sqrt(2.0 * fmax(newton->strain_energy, 0.0)) && newton->enough > 0.0;
 }
 
 OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest)
@@ -158,11 +178,14 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
     for (int k = 0; k < OST_RECENT; k++)
         newton->recent[k] = newton->energy;
+    newton->decrement = INFINITY;
+    newton->stopped = 0;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         const int is_rounding = newton->norm <= drowned_residual * newton->size;
         const int is_settled = newton->change <= settled || is_rounding;
-        *rest = newton->norm <= target && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
+        newton->stopped = newton->norm > target && is_enough(newton);
+        *rest = (newton->norm <= target || newton->stopped) && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
         if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
             return OST_SUCCESS;
         if (k > 0)

@@ -116,6 +116,11 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE(*newton);
 }
 
+void ost_newton_stop_at(OstNewton *newton, double share)
+{
+    newton->enough = share;
+}
+
 const OstNewtonReport *ost_newton_report(const OstNewton *newton)
 {
     return &newton->report;
@@ -335,6 +340,10 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
     result->solve.iterations = newton->report.linear_iterations;
     result->solve.relative_residual = newton->report.relative_residual;
     result->solve.rounding_limited = newton->report.rounding_limited;
+    result->solve.stopped = newton->stopped;
+    result->solve.iterations_saved = 0;
+    result->solve.algebraic_bound = 0.0;
+    result->solve.algebraic_error = newton->stopped ? newton->decrement * fmax(newton->change, newton->forcing) : 0.0;
     result->solve.error_estimate = newton->change * fmax(newton->change, newton->forcing);
     result->solve.energy_error = result->solve.error_estimate;
     result->solve.rounding_error = result->solve.rounding_spread = 0.0;

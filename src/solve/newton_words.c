@@ -44,6 +44,8 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
 {
     char place[200], reason[400];
     const OstMesh *mesh = newton->problem->mesh;
+    const OstCase *c = newton->problem->c;
+    const int on_path = c && c->path_steps > 0;
     OstWorstTet worst;
     OST_TRY(describe_place(newton, place, sizeof place));
     OST_TRY(ost_problem_worst_tet(newton->problem, newton->displacement, &worst));
@@ -68,6 +70,7 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
                  : rest == OST_REST_STALLED ? "no step along the correction lowers the energy"
                                             : "the linear solver finds no correction");
     return OST_RAISE(newton->ctx, OST_NOT_CONVERGED,
-                     "the load is followed up to %.6g of it and not to %.6g: %s. The last correction is largest in %s",
-                     state->t, t, reason, place);
+                     "%s %.6g%s and not to %.6g: %s. The last correction is largest in %s",
+                     on_path ? "the path is followed up to t =" : "the load is followed up to", state->t,
+                     on_path ? "" : " of it", t, reason, place);
 }

@@ -57,6 +57,9 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(problem, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
+    if (status == OST_SUCCESS && result->answer.known)
+        ost_newton_stop_at(newton, analysis->options.algebraic_fraction * result->answer.relative);
+    result->answer = (OstAnswerError){0}; /* that of the linear answer */
     if (status == OST_SUCCESS) {
         status = ost_newton_advance(newton, 1.0, &state);
         if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {

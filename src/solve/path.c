@@ -189,8 +189,10 @@ OstStatus ost_path_advance(OstPath *path, unsigned fields, OstResult **result)
     ost_result_take_outcome(*result, solved);
     if (!(*result)->unfinished)
         OST_TRY(solved);
-    OST_TRY(ost_analysis_conclude(path->analysis, path->nonlinear ? path->state.t : t, solved, &solved_for, fields,
-                                  *result));
+    const double reached = path->nonlinear ? path->state.t : t;
+    if (fields >> OST_FIELD_ERROR & 1U)
+        OST_TRY(ost_analysis_estimate(path->analysis, reached, *result));
+    OST_TRY(ost_analysis_conclude(path->analysis, reached, solved, &solved_for, fields, *result));
     record(*result, t, &path->steps[path->done++]);
     return OST_SUCCESS;
 }

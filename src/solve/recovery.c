@@ -23,7 +23,7 @@ static void write_means(void *data, const OstBatch *batch, const OstElement *ele
     OstSimd stress[6];
     memcpy(stress, means->stress, sizeof stress);
     if (result->formulation != OST_FORMULATION_LINEAR && result->stress)
-        ost_large_rotation_mean_stress(element, batch->x, &batch->elasticity, u, stress);
+        ost_large_rotation_mean_stress(element, result->formulation, batch->x, &batch->elasticity, u, stress);
     for (int slot = 0; slot < batch->count; slot++) {
         const size_t tet = (size_t)batch->tet[slot];
         for (size_t p = 0; p < 6; p++) {
@@ -87,7 +87,8 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
     ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
     if (result->formulation != OST_FORMULATION_LINEAR) {
-        ost_large_rotation_nodal_stress(element, batch->x, &batch->elasticity, at_nodes, u, stress);
+        ost_large_rotation_nodal_stress(element, result->formulation, batch->x, &batch->elasticity, at_nodes, u,
+                                        stress);
         return;
     }
     element->nodal_strain(batch->x, u, strain);

@@ -39,6 +39,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
     OST_FREE((*result)->node_stress);
+    OST_FREE((*result)->tet_error);
     OST_FREE(*result);
 }
 
@@ -56,7 +57,7 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, ost_problem_is_linear(problem) ? NULL : result->displacement, result->force);
-    result->t = ost_problem_factor(problem, 0, t);
+    result->t = ost_problem_eigen_share(problem, t);
     return ost_agree(ctx, status);
 }
 
@@ -116,6 +117,16 @@ const double *ost_result_strain_energy_density(const OstResult *result)
 const double *ost_result_node_stress(const OstResult *result)
 {
     return result->node_stress;
+}
+
+const double *ost_result_tet_error(const OstResult *result)
+{
+    return result->tet_error;
+}
+
+const OstAnswerError *ost_result_answer_error(const OstResult *result)
+{
+    return &result->answer;
 }
 
 const OstSolveReport *ost_result_solve_report(const OstResult *result)

@@ -51,6 +51,6 @@ OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, 
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
         OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT,
-                                      ost_problem_factor(problem, 0, t), displacement));
+                                      ost_problem_eigen_share(problem, t), displacement));
     return ost_solver_update(stiffness->solver, OST_UPDATE_REBUILD);
 }

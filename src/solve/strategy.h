@@ -24,7 +24,8 @@ struct OstAnalysis {
     OstProblem *problem;
     OstSolverOptions options;
     const OstStrategy *strategy;
-    void *work; /* the strategy's; NULL until prepared */
+    void *work;          /* the strategy's; NULL until prepared */
+    const double *start; /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 
 extern const OstStrategy ost_linear_strategy;    /* linear.c */
@@ -43,6 +44,10 @@ OstStatus ost_analysis_prepare(OstAnalysis *analysis);
  * and the fields asked for. Raises what ost_analysis_solve does. */
 OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus solved, const OstSolvedFor *solved_for,
                                 unsigned fields, OstResult *result);
+
+/* Collective. Estimates the error that the mesh makes in a result whose displacement at t is there, while the solver of
+ * its stiffness lives. OST_EFFECT_ERROR_ESTIMATE. */
+OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result);
 
 /* Local. Marks a result that the solver left unfinished, with its words. */
 void ost_result_take_outcome(OstResult *result, OstStatus solved);

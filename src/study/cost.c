@@ -8,10 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PHASE_LABEL(name, label) [name] = label,
-const char *const ost_cost_phase_label[] = {OST_COST_PHASE_TABLE(PHASE_LABEL)};
-#undef PHASE_LABEL
-
 const char *const ost_cost_state_word[] = {"waiting", "done", "not run", "failed"};
 
 const double ost_cost_target[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003};

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_STUDY_COST_H
 
 #include "study/cost_reference.h"
+#include "study/forecast/stage.h"
 #include "study/watch.h"
 
 /* What accuracy costs: one case, solved with every combination of element order, uniform refinement and solver
@@ -24,17 +25,6 @@ typedef struct OstCostVariants {
     double max_bytes;   /* of our own arrays, over all ranks; 0: no bound */
 } OstCostVariants;
 
-/* Phases of a run, by which its seconds are listed. */
-#define OST_COST_PHASE_TABLE(X)      \
-    X(OST_COST_REST, "rest")         \
-    X(OST_COST_MESH, "mesh")         \
-    X(OST_COST_ASSEMBLY, "assembly") \
-    X(OST_COST_SETUP, "setup")       \
-    X(OST_COST_SOLVE, "solve")
-#define OST_COST_PHASE_ENUM(name, label) name,
-typedef enum { OST_COST_PHASE_TABLE(OST_COST_PHASE_ENUM) OST_COST_PHASES } OstCostPhase;
-#undef OST_COST_PHASE_ENUM
-
 typedef enum { OST_COST_WAITING, OST_COST_DONE, OST_COST_NOT_RUN, OST_COST_FAILED } OstCostState;
 
 typedef struct OstCostRun {
@@ -48,7 +38,7 @@ typedef struct OstCostRun {
     int iterations;
     double residual;
     double seconds; /* of the slowest rank, as are those by phase */
-    double phase[OST_COST_PHASES];
+    double phase[OST_STAGES];
     double bytes; /* our own arrays at their peak, over all ranks */
     OstWatched watched[OST_COST_MOST_QUANTITIES];
     double error[OST_COST_MOST_QUANTITIES];       /* relative; NaN: not known */
@@ -115,8 +105,7 @@ int ost_cost_frontier(const OstCost *cost, int quantity, int *runs);
 enum { OST_COST_TARGETS = 4 };
 extern const double ost_cost_target[OST_COST_TARGETS];
 
-extern const char *const ost_cost_phase_label[]; /* by OstCostPhase */
-extern const char *const ost_cost_state_word[];  /* by OstCostState */
+extern const char *const ost_cost_state_word[]; /* by OstCostState */
 
 /* Local; rank 0 prints. The tables for a person. */
 void ost_cost_print(const OstCost *cost);

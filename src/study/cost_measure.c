@@ -2,46 +2,16 @@
 #include "study/cost.h"
 
 #include "core/error.h"
-#include "study/meter.h"
-
-#include <string.h>
 
 /* Other work on the machine disturbs short runs most: they are repeated, and the fastest counts. */
 enum { MOST_REPEATS = 3 };
 static const double long_enough = 0.5;
 
-/* What an effect calls for is part of the assembly, but for the linear space, which multigrid stands on, and what comes
- * after the solve. */
-static OstCostPhase phase_of(OstAccount account)
-{
-    switch (account) {
-    case OST_LEDGER_MESH:
-    case OST_LEDGER_PARTITION:
-        return OST_COST_MESH;
-    case OST_LEDGER_SELECTION:
-    case OST_LEDGER_PATTERN:
-    case OST_LEDGER_STIFFNESS:
-    case OST_LEDGER_SUPPORTS:
-        return OST_COST_ASSEMBLY;
-    case OST_LEDGER_HIERARCHY:
-    case OST_EFFECT_LINEAR_SPACE:
-        return OST_COST_SETUP;
-    case OST_LEDGER_SOLVE:
-        return OST_COST_SOLVE;
-    case OST_EFFECT_RECOVERY:
-        return OST_COST_REST;
-    default:
-        return account < OST_LEDGER_PHASES ? OST_COST_REST : OST_COST_ASSEMBLY;
-    }
-}
-
 static void note(const OstMeter *meter, OstCostRun *run)
 {
     run->seconds = meter->seconds;
     run->bytes = meter->bytes;
-    memset(run->phase, 0, sizeof run->phase);
-    for (int a = 0; a < OST_EFFECT_END; a++)
-        run->phase[phase_of(a)] += meter->account[a];
+    ost_stage_sum(meter, run->phase);
 }
 
 static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)

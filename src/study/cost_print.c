@@ -50,9 +50,9 @@ static void print_heading(const OstCost *cost)
     printf("  order  refine  tolerance     unknowns");
     for (int q = 0; q < cost->quantity_count; q++)
         printf(" %*.*s", ERROR_WIDTH, ERROR_WIDTH, cost->quantity[q].name);
-    for (int p = OST_COST_MESH; p < OST_COST_PHASES; p++)
-        printf(" %9s", ost_cost_phase_label[p]);
-    printf(" %9s %9s %12s\n", ost_cost_phase_label[OST_COST_REST], "total", "memory");
+    for (int p = OST_STAGE_MESH; p < OST_STAGE_OUTPUT; p++)
+        printf(" %9s", ost_stage_label[p]);
+    printf(" %9s %9s %12s\n", ost_stage_label[OST_STAGE_REST], "total", "memory");
 }
 
 static void print_seconds(double seconds)
@@ -78,9 +78,9 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
         error_cell(cost, run, q, cell, sizeof cell);
         printf(" %*s", ERROR_WIDTH, cell);
     }
-    for (int p = OST_COST_MESH; p < OST_COST_PHASES; p++)
+    for (int p = OST_STAGE_MESH; p < OST_STAGE_OUTPUT; p++)
         print_seconds(run->phase[p]);
-    print_seconds(run->phase[OST_COST_REST]);
+    print_seconds(run->phase[OST_STAGE_REST]);
     print_seconds(run->seconds);
     printf(" %8.1f MiB\n", run->bytes / mebibyte);
 }

@@ -127,6 +127,7 @@ OstStatus ost_cost_run(OstCost *cost)
         variant.refinement = run->refinement;
         variant.solver.relative_residual = run->tolerance;
         variant.output_fields = 0;
+        variant.asks_error = 0;
         const OstStatus status = cost->measure(cost, &variant, run);
         run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
         done += status == OST_SUCCESS;

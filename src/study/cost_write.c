@@ -45,8 +45,8 @@ static void write_heading(FILE *file, const OstCost *cost)
 #define HEADING(name, make_json) "," #name
     fputs("order,refinement,tolerance,state,reason,predicted_seconds" RUN_NUMBER_TABLE(HEADING), file);
 #undef HEADING
-    for (int p = 0; p < OST_COST_PHASES; p++)
-        fprintf(file, ",%s_seconds", ost_cost_phase_label[p]);
+    for (int p = 0; p < OST_STAGES; p++)
+        fprintf(file, ",%s_seconds", ost_stage_label[p]);
     fputs(",bytes", file);
     for (int q = 0; q < cost->quantity_count; q++) {
         static const char *const columns[] = {"",       " reference", " reference uncertainty", " reference kind",
@@ -70,7 +70,7 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
 #define CELL(name, make_json) write_number(file, done, (double)run->name);
     RUN_NUMBER_TABLE(CELL)
 #undef CELL
-    for (int p = 0; p < OST_COST_PHASES; p++)
+    for (int p = 0; p < OST_STAGES; p++)
         write_number(file, done, run->phase[p]);
     write_number(file, done, run->bytes);
     for (int q = 0; q < cost->quantity_count; q++) {
@@ -170,8 +170,8 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
-    for (int p = 0; p < OST_COST_PHASES; p++)
-        json_object_set_new(phases, ost_cost_phase_label[p], json_real(run->phase[p]));
+    for (int p = 0; p < OST_STAGES; p++)
+        json_object_set_new(phases, ost_stage_label[p], json_real(run->phase[p]));
 #define KEY(name, make_json) json_object_set_new(item, #name, make_json(run->name));
     RUN_NUMBER_TABLE(KEY)
 #undef KEY

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_EFFECTS_H
 #define ORTHOSTAT_STUDY_EFFECTS_H
 
-#include "study/meter.h"
+#include "study/forecast/meter.h"
 #include "study/watch.h"
 
 /* Which effects does a scene call for? The case is solved as it is, and once more for each effect that can be left out
@@ -43,6 +43,7 @@ typedef struct OstEffectRun {
     int large_rotation; /* was it solved for? */
     double pose;        /* largest |u - u0| of a node over the largest |u0| */
     double energy;      /* of the strain energy */
+    double energy_scale;
     OstWatched watched[OST_MOST_WATCHES];
     double watch[OST_MOST_WATCHES]; /* change over the size of the quantity, or of its kind where that is larger */
 } OstEffectRun;

@@ -84,6 +84,7 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, OstEff
     run->iterations = result->solve.iterations;
     run->large_rotation = result->newton.used;
     run->energy = result->checks.strain_energy;
+    OST_TRY(ost_energy_scale(result, &run->energy_scale));
     for (int w = 0; w < scene->c->watch_count; w++)
         OST_TRY(ost_watch_evaluate(scene, result, &scene->c->watches[w], &run->watched[w]));
     return OST_SUCCESS;
@@ -123,11 +124,13 @@ static double relative(double value, double base, double scale)
 static void compare(const OstEffectStudy *study, OstEffectRun *run)
 {
     static const double negligible = 1e-6; /* of the size of its kind: a zero by symmetry */
-    run->energy = relative(run->energy, study->base.energy, 0.0);
+    const OstEffectRun *base = &study->base;
+    const int no_energy = fabs(base->energy) <= negligible * base->energy_scale;
+    run->energy = relative(run->energy, base->energy, no_energy ? base->energy_scale : 0.0);
     for (int w = 0; w < study->c->watch_count; w++) {
-        const OstWatched *base = &study->base.watched[w];
-        const int is_zero = fabs(base->value) <= negligible * base->scale;
-        run->watch[w] = relative(run->watched[w].value, base->value, is_zero ? base->scale : 0.0);
+        const OstWatched *watched = &base->watched[w];
+        const int is_zero = fabs(watched->value) <= negligible * watched->scale;
+        run->watch[w] = relative(run->watched[w].value, watched->value, is_zero ? watched->scale : 0.0);
     }
 }
 

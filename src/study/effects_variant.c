@@ -97,6 +97,18 @@ static OstStatus isotropic_mean(OstContext *ctx, const OstMaterial *material, Os
     return ost_material_create(ctx, material->name, &constants, material->density, mean);
 }
 
+/* `stated` is NULL for a material of the mesh file, which has none. */
+static void take_eigenstrain(const OstCaseMaterial *stated, OstCaseMaterial *made)
+{
+    static const OstCaseMaterial none = {0};
+    const OstCaseMaterial *from = stated ? stated : &none;
+    memcpy(made->eigenstrain, from->eigenstrain, sizeof made->eigenstrain);
+    made->eigenstrained = from->eigenstrained;
+    made->eigen_field = from->eigen_field;
+    made->eigen_place = from->eigen_place;
+    made->eigen_per_unit = from->eigen_per_unit;
+}
+
 /* One entry of `materials` for each region of the mesh, whatever the case and the mesh file say. */
 static OstStatus state_materials(const OstScene *scene, OstVariant variant, const RegionMean *mean,
                                  OstCaseMaterial *materials)
@@ -120,6 +132,8 @@ static OstStatus state_materials(const OstScene *scene, OstVariant variant, cons
             made->axes.kind = OST_AXES_NONE;
         made->region = regions->name[r];
         made->material = scene->field->material[from];
+        if (from != r)
+            take_eigenstrain(ost_case_material_of(scene->c, regions->name[from]), made);
         if (variant == OST_VARIANT_ISOTROPIC) {
             /* the axes stay: an eigenstrain lies along them */
             OST_TRY(isotropic_mean(scene->ctx, &scene->field->material[r], &made->material));

@@ -25,6 +25,9 @@ typedef struct OstVerifyRun {
     int iterations;
     int warned_of_locking;
     OstChecks checks;
+    double energy_error; /* relative, in the norm of the energy: of the answer, and as it is estimated */
+    double estimate;
+    double effectivity;        /* the latter over the former; NAN: the elements hold the solution */
     OstVerifyReading *reading; /* quantity_count */
 } OstVerifyRun;
 
@@ -45,6 +48,8 @@ typedef struct OstVerifyReport {
     OstVerifyRun *run;
     OstVerifyVerdict *verdict;                                  /* quantity_count × step_count */
     double force_imbalance, moment_imbalance, energy_imbalance; /* the worst of all runs */
+    double effectivity[2]; /* least and most, from the second mesh of each order on; NAN: none */
+    int estimated;         /* are all of these within the range? */
     double seconds;
     char *failure; /* why a run gave no answer, or NULL */
     int passed;

@@ -47,6 +47,19 @@ static void print_quantity(const OstVerifyReport *report, int q, int all)
     }
 }
 
+/* Of each order, coarse to fine. */
+static void print_effectivities(const OstVerifyReport *report)
+{
+    printf("  estimated over true error in energy norm:");
+    for (int r = 0; r < report->run_count; r++) {
+        const OstVerifyRun *run = &report->run[r];
+        if (r == 0 || run->step != report->run[r - 1].step)
+            printf("%s P%d", r > 0 ? "," : "", report->c->verify->step[run->step].order);
+        print_number(" %.2f", 1, run->effectivity);
+    }
+    printf("; %s\n", report->estimated ? "pass" : "FAIL");
+}
+
 void ost_verify_print(const OstVerifyReport *report, int all)
 {
     if (ost_rank(report->ctx) != 0)
@@ -60,6 +73,8 @@ void ost_verify_print(const OstVerifyReport *report, int all)
                "limit", "order", "theory");
     for (int q = 0; q < verify->quantity_count && !report->failure; q++)
         print_quantity(report, q, all);
+    if (!report->failure)
+        print_effectivities(report);
     printf("  balance: force %.1e, moment %.1e, energy %.1e; %.1f s; %s\n\n", report->force_imbalance,
            report->moment_imbalance, report->energy_imbalance, report->seconds, report->passed ? "pass" : "FAIL");
     fflush(stdout);
@@ -68,7 +83,7 @@ void ost_verify_print(const OstVerifyReport *report, int all)
 void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
 {
     int passed = 0;
-    double force = 0.0, moment = 0.0, energy = 0.0, seconds = 0.0;
+    double force = 0.0, moment = 0.0, energy = 0.0, seconds = 0.0, least = NAN, most = NAN;
     if (count == 0 || ost_rank(reports[0]->ctx) != 0)
         return;
     for (int i = 0; i < count; i++) {
@@ -77,9 +92,13 @@ void ost_verify_print_summary(int count, OstVerifyReport *const *reports)
         moment = fmax(moment, reports[i]->moment_imbalance);
         energy = fmax(energy, reports[i]->energy_imbalance);
         seconds += reports[i]->seconds;
+        least = fmin(least, reports[i]->effectivity[0]);
+        most = fmax(most, reports[i]->effectivity[1]);
     }
     printf("%d of %d cases pass. Worst balance: force %.1e, moment %.1e, energy %.1e. %.*f s\n", passed, count, force,
            moment, energy, seconds < 10.0, seconds);
+    if (!isnan(least))
+        printf("Estimated over true error in energy norm, from the second mesh on: %.2f to %.2f\n", least, most);
     for (int i = 0; i < count; i++)
         if (!reports[i]->passed)
             printf("  failed: %s\n", reports[i]->name);
@@ -128,14 +147,17 @@ static json_t *runs_json(const OstVerifyReport *report)
     json_t *runs = json_array();
     for (int r = 0; r < report->run_count; r++) {
         const OstVerifyRun *run = &report->run[r];
-        json_array_append_new(runs, json_pack("{s:i, s:i, s:I, s:I, s:f, s:f, s:i, s:o, s:o, s:o, s:o}", "order",
-                                              report->c->verify->step[run->step].order, "refinement", run->refinement,
-                                              "tets", (json_int_t)run->tets, "unknowns", (json_int_t)run->unknowns, "h",
-                                              run->h, "seconds", run->seconds, "iterations", run->iterations,
-                                              "relative_residual", ost_json_number(run->checks.relative_residual),
-                                              "force_imbalance", ost_json_number(run->checks.force_imbalance),
-                                              "moment_imbalance", ost_json_number(run->checks.moment_imbalance),
-                                              "energy_imbalance", ost_json_number(run->checks.energy_imbalance)));
+        json_array_append_new(
+            runs,
+            json_pack("{s:i, s:i, s:I, s:I, s:f, s:f, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "order",
+                      report->c->verify->step[run->step].order, "refinement", run->refinement, "tets",
+                      (json_int_t)run->tets, "unknowns", (json_int_t)run->unknowns, "h", run->h, "seconds",
+                      run->seconds, "iterations", run->iterations, "relative_residual",
+                      ost_json_number(run->checks.relative_residual), "force_imbalance",
+                      ost_json_number(run->checks.force_imbalance), "moment_imbalance",
+                      ost_json_number(run->checks.moment_imbalance), "energy_imbalance",
+                      ost_json_number(run->checks.energy_imbalance), "energy_error", ost_json_number(run->energy_error),
+                      "estimate", ost_json_number(run->estimate), "effectivity", ost_json_number(run->effectivity)));
     }
     return runs;
 }
@@ -143,10 +165,10 @@ static json_t *runs_json(const OstVerifyReport *report)
 static json_t *case_json(const OstVerifyReport *report)
 {
     const OstVerify *verify = report->c->verify;
-    return json_pack("{s:s, s:s, s:s, s:s, s:b, s:f, s:s?, s:o, s:o}", "name", report->name, "title", report->c->title,
-                     "formula", verify->formula, "source", verify->source, "passed", report->passed, "seconds",
-                     report->seconds, "failure", report->failure, "quantities", quantities_json(report), "runs",
-                     runs_json(report));
+    return json_pack("{s:s, s:s, s:s, s:s, s:b, s:b, s:f, s:s?, s:o, s:o}", "name", report->name, "title",
+                     report->c->title, "formula", verify->formula, "source", verify->source, "passed", report->passed,
+                     "estimated", report->estimated, "seconds", report->seconds, "failure", report->failure,
+                     "quantities", quantities_json(report), "runs", runs_json(report));
 }
 
 OstStatus ost_verify_write_json(OstContext *ctx, int count, OstVerifyReport *const *reports, int quick,

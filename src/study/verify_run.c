@@ -24,8 +24,26 @@ static const double share_of_order = 0.9, quick_share_of_order = 0.6;
 /* Errors below this are rounding errors, and have no rate of convergence. */
 static const double rounding = 1e-10;
 
+/* The estimated error of the answer over the true one, from the second mesh on; and what counts as rounding of both
+ * where the elements hold the solution. */
+static const double least_effectivity = 0.7, most_effectivity = 1.5;
+static const double energy_rounding = 1e-8;
+
 /* Where linear tets are expected to lock, the error must be at least this share of its limit. */
 static const double locked_share = 0.5;
+
+/* The estimated error of the answer over the true one, in the norm of the energy. */
+static OstStatus measure_estimate(const OstScene *scene, const OstResult *result, const OstExact *exact,
+                                  OstVerifyRun *run)
+{
+    const OstVerifyQuantity norm = {.name = "energy norm", .kind = OST_MEASURE_FIELD, .norm = OST_NORM_ENERGY};
+    OstVerifyReading truth;
+    OST_TRY(ost_verify_measure(scene, result, exact, &norm, &truth));
+    run->energy_error = truth.error;
+    run->estimate = result->answer.known ? result->answer.energy_norm / truth.expected : NAN;
+    run->effectivity = truth.error >= energy_rounding ? run->estimate / truth.error : NAN;
+    return OST_SUCCESS;
+}
 
 static OstStatus measure_all(const OstScene *scene, const OstResult *result, const OstExact *exact, OstVerifyRun *run)
 {
@@ -40,6 +58,7 @@ static OstStatus measure_all(const OstScene *scene, const OstResult *result, con
     run->h = cbrt(6.0 * volume / (double)run->tets);
     run->iterations = result->solve.iterations;
     run->checks = result->checks;
+    OST_TRY(measure_estimate(scene, result, exact, run));
     for (int q = 0; q < verify->quantity_count; q++)
         OST_TRY(ost_verify_measure(scene, result, exact, &verify->quantity[q], &run->reading[q]));
     return OST_SUCCESS;
@@ -85,7 +104,8 @@ static OstStatus run_level(OstVerifyReport *report, const OstExact *exact, int s
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &run->reading, c->verify->quantity_count)));
     c->order = steps->order;
     c->refinement = run->refinement;
-    c->output_fields = 0;
+    c->output_fields = 1U << OST_FIELD_ERROR;
+    c->asks_error = 0;
     return solve_and_measure(c, exact, run);
 }
 
@@ -163,6 +183,29 @@ static void judge(const OstVerifyReport *report, int quantity, int step, OstVeri
     }
 }
 
+/* An answer without error is estimated to have none. */
+static int is_estimated(const OstVerifyRun *run)
+{
+    if (isnan(run->effectivity))
+        return run->estimate <= energy_rounding;
+    return run->effectivity >= least_effectivity && run->effectivity <= most_effectivity;
+}
+
+/* From the second mesh of each order on. */
+static void judge_estimates(OstVerifyReport *report)
+{
+    report->estimated = 1;
+    report->effectivity[0] = report->effectivity[1] = NAN;
+    for (int r = 1; r < report->run_count; r++) {
+        const OstVerifyRun *run = &report->run[r];
+        if (run->step != report->run[r - 1].step)
+            continue;
+        report->estimated &= is_estimated(run);
+        report->effectivity[0] = fmin(report->effectivity[0], run->effectivity); /* of NAN and a number, the number */
+        report->effectivity[1] = fmax(report->effectivity[1], run->effectivity);
+    }
+}
+
 static OstStatus conclude(OstVerifyReport *report)
 {
     const OstVerify *verify = report->c->verify;
@@ -173,7 +216,9 @@ static OstStatus conclude(OstVerifyReport *report)
         report->moment_imbalance = fmax(report->moment_imbalance, checks->moment_imbalance);
         report->energy_imbalance = fmax(report->energy_imbalance, checks->energy_imbalance);
     }
-    report->passed = report->failure == NULL && report->force_imbalance <= balance &&
+    if (!report->failure)
+        judge_estimates(report);
+    report->passed = report->failure == NULL && report->estimated && report->force_imbalance <= balance &&
                      report->moment_imbalance <= balance && report->energy_imbalance <= energy_balance;
     for (int q = 0; q < verify->quantity_count && !report->failure; q++)
         for (int s = 0; s < verify->step_count; s++) {

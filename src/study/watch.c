@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/watch.h"
 
+#include "assembly/batch.h"
 #include "case/verify.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -69,6 +70,27 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     return OST_SUCCESS;
 }
 
+static void add_energy(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                       const OstMeans *means)
+{
+    (void)element;
+    (void)u;
+    for (int slot = 0; slot < batch->count; slot++)
+        *(double *)sum += means->energy[slot] * means->volume[slot];
+}
+
+OstStatus ost_energy_scale(const OstResult *result, double *scale)
+{
+    *scale = 0.0;
+    if (ost_field_is_eigenstrained(result->field)) {
+        ost_visit_means_of(result->mesh, result->field, result->formulation, 0.0, result->displacement, add_energy,
+                           scale);
+        OST_TRY(ost_sum(result->ctx, 1, scale));
+    }
+    *scale = fmax(*scale, fabs(result->checks.strain_energy));
+    return OST_SUCCESS;
+}
+
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     switch (watch->kind) {
@@ -77,8 +99,8 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     case OST_WATCH_REACTION:
         return reaction(scene, result, watch, watched);
     case OST_WATCH_STRAIN_ENERGY:
-        watched->value = watched->scale = result->checks.strain_energy;
-        return OST_SUCCESS;
+        watched->value = result->checks.strain_energy;
+        return ost_energy_scale(result, &watched->scale);
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
                      watch->line);

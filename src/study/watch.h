@@ -31,4 +31,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
 /* Local. A line each: value, and the expected one where it is known. */
 void ost_watch_print(const OstWatchedValue *values, int count);
 
+/* Collective. The size of energies in this answer: that of its strains if no eigenstrain relieved them. Where a body
+ * swells freely, what is left of its energy is rounding. */
+OstStatus ost_energy_scale(const OstResult *result, double *scale);
+
 #endif

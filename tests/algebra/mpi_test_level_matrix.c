@@ -53,7 +53,8 @@ static void half_a_matrix_multiplies_as_the_whole_does(void **state)
     elastic_destroy(&problem);
 }
 
-/* direction = 1/2 direction + 3 B^-1 r, x += direction, with r = B v for a v of noise. */
+/* direction = 1/2 direction + 3 B^-1 r, x += direction, with r = B v for a v of noise. From zero, what stood in
+ * direction and x does not count. */
 static void check_step(const OstLevelMatrix *level, const OstSmootherBlocks *blocks, const double *r, const double *v)
 {
     double *direction = level_vector(level), *x = level_vector(level);
@@ -65,6 +66,11 @@ static void check_step(const OstLevelMatrix *level, const OstSmootherBlocks *blo
     for (size_t i = 0; i < ost_level_unknowns(level); i++) {
         assert_close(direction[i], 4.0 + 3.0 * v[i], 1e-3); /* single precision */
         assert_close(x[i], direction[i] + (double)i, 1e-9);
+    }
+    ost_smoother_blocks_step(blocks, &(OstBlockStep){.add = 3.0, .direction = direction, .x = x, .from_zero = 1}, r);
+    for (size_t i = 0; i < ost_level_unknowns(level); i++) {
+        assert_close(direction[i], 3.0 * v[i], 1e-3); /* single precision */
+        assert_close(x[i], direction[i], 0.0);
     }
     OST_FREE(direction);
     OST_FREE(x);

@@ -9,7 +9,6 @@ static double condition_after(int n, const double *values, int steps)
     double r[64];
     double p[64];
     double rr = 0.0;
-    double beta = 0.0;
     OstLanczos lanczos;
     assert_success(ost_lanczos_create(ctx, steps, &lanczos));
     for (int i = 0; i < n; i++) {
@@ -25,8 +24,8 @@ static double condition_after(int n, const double *values, int steps)
             r[i] -= rr / energy * values[i] * p[i];
             next += r[i] * r[i];
         }
-        ost_lanczos_add(&lanczos, rr / energy, beta);
-        beta = next / rr;
+        ost_lanczos_add(&lanczos, rr / energy, rr);
+        const double beta = next / rr;
         rr = next;
         for (int i = 0; i < n; i++)
             p[i] = r[i] + beta * p[i];

@@ -32,7 +32,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "formulation, verify");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
-                   "relative_residual, out_of_reach, relative_error");
+                   "relative_residual, algebraic_fraction, out_of_reach, relative_error");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
@@ -65,7 +65,16 @@ static void eigenstrains_say_what_is_wrong(void **state)
         "3:72: materials[0].eigenstrain: found a list of 2, expected a strain: one number, three along e1, e2, "
         "e3, or six with the shears 12, 23, 31");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {per_unit: 1}"),
-                   "3:72: key 'change' is missing in materials[0].eigenstrain");
+                   "3:72: 'per_unit' is a strain for each unit of a change; give the 'change' too");
+    assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {value: 1, change: 2}"),
+                   "3:91: 'change' belongs to 'per_unit', not to 'value'");
+    assert_refused(CUBE
+                   "materials:\n"
+                   "  - {region: all, youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: {value: 1, time: [[0, "
+                   "1]]}}\n"
+                   "  - {region: block, youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: 2}\npath: {steps: 2}\n",
+                   "4:74: this eigenstrain follows another time table than that of region 'all' in line 3; give all "
+                   "eigenstrains the same, or none");
 }
 
 static void only_a_pressure_follows(void **state)
@@ -249,10 +258,10 @@ static void what_no_version_does_is_refused_in_words(void **state)
     assert_refused(CUBE STEEL "effects: {large_rotation: auto}\n",
                    "3:1: unknown key 'effects' in the case. Known keys: ...");
     assert_refused(
-        CUBE STEEL "output: {fields: [displacement, error]}\n",
-        "3:33: unknown field 'error'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
+        CUBE STEEL "output: {fields: [displacement, temperature]}\n",
+        "3:33: unknown field 'temperature'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
         "strain_energy_density, "
-        "axes, region, rank");
+        "axes, region, rank, error");
 }
 
 static void bad_settings_are_refused(void **state)

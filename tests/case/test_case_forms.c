@@ -140,7 +140,7 @@ static void plane_and_axis_are_transversely_isotropic(void **state)
     assert_constants((double[9]){2, 2, 8, 0.25, 0.125, 0.5, 0.8, 3.2, 3.2});
 }
 
-static void an_eigenstrain_has_four_forms(void **state)
+static void an_eigenstrain_has_five_forms(void **state)
 {
     (void)state;
     static const struct {
@@ -150,8 +150,9 @@ static void an_eigenstrain_has_four_forms(void **state)
     } forms[] = {{"0.5", {0.5, 0.5, 0.5}, 1},
                  {"[1, 2, 3]", {1, 2, 3}, 0},
                  {"[1, 1, 1, 0, 0, 4]", {1, 1, 1, 0, 0, 4}, 0},
+                 {"{value: [1, 2, 3]}", {1, 2, 3}, 0},
                  {"{per_unit: [1, 2, 3], change: -2}", {-2, -4, -6}, 0}};
-    for (int f = 0; f < 4; f++) {
+    for (int f = 0; f < 5; f++) {
         char text[256];
         snprintf(text, sizeof text, "youngs_modulus: 2, poissons_ratio: 0.3, eigenstrain: %s", forms[f].text);
         read_material(text);
@@ -433,7 +434,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(three_moduli_and_one_ratio_are_the_stable_family),
     cmocka_unit_test(nine_constants_go_by_name),
     cmocka_unit_test(plane_and_axis_are_transversely_isotropic),
-    cmocka_unit_test(an_eigenstrain_has_four_forms),
+    cmocka_unit_test(an_eigenstrain_has_five_forms),
     cmocka_unit_test(springs_are_read),
     cmocka_unit_test(axes_of_one_frame_are_read),
     cmocka_unit_test(axes_along_a_line_are_read),

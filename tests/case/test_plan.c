@@ -46,7 +46,7 @@ static void a_bare_isotropic_body_calls_for_nothing(void **state)
                   "auto: a linear solve, then Newton's method (consistent) where that is off by more than 2 %");
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         assert_int_equal(ost_effect_on(&plan.effects, (OstEffect)e),
-                         e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION);
+                         e == OST_EFFECT_RECOVERY || e == OST_EFFECT_LARGE_ROTATION || e == OST_EFFECT_ERROR_ESTIMATE);
 }
 
 static void large_rotations_are_explained(void **state)
@@ -228,15 +228,37 @@ static void the_papers_tube_is_foreseen(void **state)
     assert_int_equal(plan.nodes, 25620);
     assert_int_equal(plan.tets, 129600);
     assert_int_equal(plan.unknowns, 76860);
-    const double scatter = 129600.0 * 40.0;
-    const double blocks = (plan.bytes_matrix - scatter - 25620.0 * 16.0) / 76.0;
-    const double boundary_faces = 2.0 * 2.0 * 60.0 * 60.0 + 2.0 * 2.0 * 60.0 * 6.0;
-    const double exact = 3.0 * 25620.0 + 2.0 * 129600.0 + boundary_faces; /* Euler: V + 2E, a torus has chi = 0 */
-    assert_close(blocks / exact, 1.0, 0.02);
-    assert_close(plan.bytes_mesh, 25620.0 * 40.0 + 129600.0 * 36.0, 1.0);
+    const double faces = 2.0 * 2.0 * 60.0 * 60.0 + 2.0 * 2.0 * 60.0 * 6.0;
+    assert_close(plan.counts.surface, faces, 0.0);
+    assert_close(plan.counts.edges, 25620.0 + 129600.0 + 0.5 * faces, 0.0); /* Euler: a tube has chi = 0 */
+    assert_close(plan.counts.blocks, 25620.0 + 2.0 * plan.counts.edges, 0.0);
+    assert_close(plan.bytes_matrix, 76.0 * plan.counts.blocks + 24.0 * 25620.0, 1.0);
     assert_true(plan.bytes_solver > plan.bytes_matrix);
     assert_true(plan.bytes_effects >= 72.0 * 129600.0);
-    assert_close(plan.bytes_output, 25620.0 * 144.0 + 129600.0 * (41.0 + 48 + 48 + 8 + 72 + 4 + 4), 1.0);
+    assert_close(plan.bytes_output, 25620.0 * 144.0 + 129600.0 * (41.0 + 48 + 48 + 8 + 8 + 72 + 4 + 4), 1.0);
+}
+
+/* A cube of 10 × 10 × 10 hexes of six tets: 21 nodes to each side. */
+static void quadratic_tets_are_counted(void **state)
+{
+    (void)state;
+    const OstMeshCounts block = ost_mesh_counts(9261.0, 6000.0, 1, 1200.0);
+    assert_close(block.vertices, 1331.0, 0.51);
+    assert_close(block.edges, 7930.0, 1.51);
+    assert_close(block.blocks, 9261.0 + 2.0 * (3.0 * 7930.0 + 15.0 * 6000.0 + 3.0 * 1200.0), 12.0);
+}
+
+static void a_file_is_refined_and_raised(void **state)
+{
+    (void)state;
+    OstGlobal nodes = 1331, tets = 6000;
+    double surface = 1200.0;
+    assert_success(read_text("mesh: {file: a.msh, refine: 1}\nelement: {order: 2}\n" STEEL, &c));
+    ost_plan_file_size(c, 4, &nodes, &tets, &surface);
+    assert_int_equal(tets, 48000);
+    assert_close((double)nodes, 68921.0, 20.0); /* 41 to each side; Euler's 1 in two steps */
+    assert_close(surface, 4800.0, 0.0);
+    ost_case_destroy(&c);
 }
 
 static void more_ranks_hold_more_halo(void **state)
@@ -290,6 +312,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_method_follows_the_size_unless_the_case_says),
     cmocka_unit_test(nearly_incompressible_begins_above_its_limit),
     cmocka_unit_test(the_papers_tube_is_foreseen),
+    cmocka_unit_test(quadratic_tets_are_counted),
+    cmocka_unit_test(a_file_is_refined_and_raised),
     cmocka_unit_test(more_ranks_hold_more_halo),
     cmocka_unit_test(the_scenes_of_the_house_are_read),
 };

@@ -7,7 +7,8 @@ from program import SOURCE, check, new_folder, run, solve
 
 COUNTER = os.environ["ORTHOSTAT_COUNTER"]
 
-TUBE = open(os.path.join(SOURCE, "cases", "tube", "radial.yaml")).read()
+# Fields without the error, whose estimate has cycles of its own.
+TUBE = open(os.path.join(SOURCE, "cases", "tube", "radial.yaml")).read().replace("output: {", "output: {fields: [displacement], ")
 BENT = """
 title: a cantilever of quadratic tets
 mesh: {block: {size: [4, 1, 1], divisions: [16, 4, 4]}}
@@ -15,6 +16,7 @@ element: {order: 2}
 materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]
 constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
 loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
+output: {fields: [displacement]}
 """
 
 

@@ -123,7 +123,8 @@ for ranks in (1, 2):
         check(found[name] == expected[name], f"{name} has other bytes after {killed} kills on {ranks} ranks")
 
 # --- what is refused ---
-for text, ranks, words in ((CASE, 2, "it was made on 1 rank and goes on there alone"),
+for text, ranks, words in ((CASE.replace("large_rotation: on", "large_rotation: on\nformulation: classical"), 2,
+                            "it was made with formulation: consistent, and this run has formulation: classical"),
                            (CASE + "# changed\n", 1, "the case file has changed since")):
     with open(os.path.join(whole, "bar.yaml"), "w") as stream:
         stream.write(text)

@@ -29,7 +29,7 @@ constraints:
 loads:
   - {on: {vertices: [4]}, point_force: [0, 0, 1e-9]}
 watch: {top: {displacement: {nearest: [0, 0.3, 0.9]}, component: z}}
-output: {file: result.vtkhdf}
+output: {file: result.vtkhdf, fields: [displacement]}
 """
 KINDS = ["tet.msh: 1 vertex is used by no tet", "linear tets lock", "'top' is taken at (0, 0, 1)"]
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
 
+#include "adapt/adapt.h"
 #include "core/memory.h"
 #include "problem/scene_data.h"
 
@@ -38,6 +39,8 @@
 #define ALONG "path: {times: [0.5, 1]}\n"
 #define TIMED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0], time: [[0, 0], [1, 2]]}]\n"
 #define ALL_FIELDS "output: {fields: [displacement, strain_tensor, stress, node_stress, strain_energy_density]}\n"
+#define ACCURATE "accuracy: {relative_error: 0.1}\n"
+#define ERROR_FIELD "output: {fields: [displacement, error]}\n"
 #define NO_FIELDS "output: {fields: [displacement]}\n"
 
 static const struct {
@@ -68,6 +71,8 @@ static const struct {
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_RECOVERY) = {BLOCK SOFT HELD PULLED ALL_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_ADAPTIVITY) = {BLOCK SOFT HELD PULLED NO_FIELDS ACCURATE, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_ERROR_ESTIMATE) = {BLOCK SOFT HELD PULLED ERROR_FIELD, BLOCK SOFT HELD PULLED ALL_FIELDS},
 #undef ROW
 };
 
@@ -105,17 +110,24 @@ static void check_ledger(const OstEffects *effects, OstEffect effect, const char
                  counted[1], text);
 }
 
-/* In a context of its own, whose ledger begins with nothing. */
-static void check_case(const char *text, OstEffect effect, int on)
+/* Refined as far as the case asks. */
+static void check_accurate(const OstCase *c, OstEffect effect, const char *text)
 {
-    OstContext *const kept = ctx;
-    OstCase *c = NULL;
+    const OstAdaptLimits limits = {INFINITY, INFINITY};
+    OstAdaption *adaption = NULL;
+    assert_success(ost_adapt(c, &limits, &adaption));
+    const OstEffects *effects = &ost_adaption_scene(adaption)->plan.effects;
+    assert_int_equal(ost_effect_on(effects, effect), 1);
+    for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
+        check_ledger(effects, (OstEffect)e, text);
+    ost_adaption_destroy(&adaption);
+}
+
+static void check_as_given(const OstCase *c, OstEffect effect, int on, const char *text)
+{
     OstMeshChunk *chunk = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;
-    assert_int_equal(ost_context_create(MPI_COMM_WORLD, &ctx), OST_SUCCESS);
-    ost_log_set_level(ctx, OST_LOG_QUIET);
-    assert_success(read_text(text, &c));
     assert_success(ost_chunk_create_block(ctx, &c->block, &chunk));
     add_core(c, chunk);
     assert_success(ost_scene_create_on(c, &chunk, &scene));
@@ -125,6 +137,20 @@ static void check_case(const char *text, OstEffect effect, int on)
         check_ledger(&scene->plan.effects, (OstEffect)e, text);
     ost_result_destroy(&result);
     ost_scene_destroy(&scene);
+}
+
+/* In a context of its own, whose ledger begins with nothing. */
+static void check_case(const char *text, OstEffect effect, int on)
+{
+    OstContext *const kept = ctx;
+    OstCase *c = NULL;
+    assert_int_equal(ost_context_create(MPI_COMM_WORLD, &ctx), OST_SUCCESS);
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    assert_success(read_text(text, &c));
+    if (c->asks_error)
+        check_accurate(c, effect, text);
+    else
+        check_as_given(c, effect, on, text);
     ost_case_destroy(&c);
     assert_int_equal(ost_ledger_bytes(ctx), 0);
     ost_context_destroy(&ctx);

@@ -562,7 +562,7 @@ static void means_are_of_the_strain_u_minus_i(void **state)
         OstMeans means;
         OstSimd strain[6], energy;
         make_case(&kinds[kind], moderate, 0.0, &test);
-        ost_large_rotation_means(test.element, test.x, &test.elasticity, test.u, &means);
+        ost_large_rotation_means(test.element, OST_FORMULATION_CONSISTENT, test.x, &test.elasticity, test.u, &means);
         ost_large_rotation_strains(test.element, test.x, test.u, 1, &corner, strain);
         energy_of(&test, OST_FORMULATION_CONSISTENT, &energy);
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -612,7 +612,7 @@ static void free_swelling_costs_nothing(void **state)
             rotate_case(1.2, &test);
             energy_of(&test, (OstFormulation)f, &energy);
             force_of(&test, (OstFormulation)f, force);
-            ost_large_rotation_means(test.element, test.x, &test.elasticity, test.u, &means);
+            ost_large_rotation_means(test.element, (OstFormulation)f, test.x, &test.elasticity, test.u, &means);
             for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
                 assert_true(energy[slot] < 1e-24 * test.c[0]);
                 assert_true(largest_in(test.width, force, slot) < 1e-12 * test.c[0]);

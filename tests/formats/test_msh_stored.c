@@ -4,8 +4,9 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/mesh_file.h"
 
-/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8 and meshio 5.0 write it; the counts are those of libgmsh. In two
- * of the files the volumes are also in a third group, 'all'. */
+/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8, meshio 5.0 and FreeFEM 4.11 write it, and by hand as ElmerGrid
+ * does (groups of tag 0 alone, and the material as elementary tag); the counts are those of libgmsh. In two of the files
+ * the volumes are also in a third group, 'all'. */
 static const struct {
     const char *name;
     int nodes, named, boundaries, warnings;
@@ -23,6 +24,8 @@ static const struct {
     {"gmsh41-views", 23, 1, 1, 0},
     {"meshio22-binary", 23, 1, 1, 0},
     {"meshio41-binary", 23, 0, 0, 0},
+    {"freefem", 30, 0, 1, 0},
+    {"elmer", 30, 0, 0, 0},
 };
 enum { FILES = sizeof files / sizeof *files };
 

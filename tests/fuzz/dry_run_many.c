@@ -29,7 +29,7 @@ static void give_up(const char *what)
     exit(1);
 }
 
-static void dry_run_on_request(OstContext *ctx, const char *path, OstReading *read_file)
+static void dry_run_on_request(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
 {
     char word = 0;
     const int silence = open("/dev/null", O_WRONLY);
@@ -38,14 +38,14 @@ static void dry_run_on_request(OstContext *ctx, const char *path, OstReading *re
     if (__sanitizer_set_death_callback)
         __sanitizer_set_death_callback(NULL);
     while (read(wire, &word, 1) == 1) {
-        ost_hdf5_dry_run_here(ctx, path, read_file);
+        ost_hdf5_dry_run_here(ctx, path, read_file, name);
         if (write(wire, &word, 1) != 1)
             break;
     }
     _exit(0);
 }
 
-static void start(OstContext *ctx, const char *path, OstReading *read_file)
+static void start(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
 {
     int ends[2];
     H5set_free_list_limits(-1, -1, 4 << 20, 256 << 10, 16 << 20,
@@ -58,7 +58,7 @@ static void start(OstContext *ctx, const char *path, OstReading *read_file)
     wire = ends[process == 0];
     close(ends[process != 0]);
     if (process == 0)
-        dry_run_on_request(ctx, path, read_file);
+        dry_run_on_request(ctx, path, read_file, name);
     files = 0;
 }
 
@@ -74,11 +74,11 @@ static int finish(void)
     return how;
 }
 
-OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file)
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
 {
     char word = 0;
     if (process == NO_PROCESS)
-        start(ctx, path, read_file);
+        start(ctx, path, read_file, name);
     if (write(wire, &word, 1) != 1)
         give_up("dry run: write");
     if (read(wire, &word, 1) != 1)

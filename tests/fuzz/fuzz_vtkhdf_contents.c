@@ -5,11 +5,12 @@
 #include "read_mesh.h"
 
 /* Sound HDF5 files with any contents: what is fuzzed is our reader rather than HDF5, so there is no dry run. */
-OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file)
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
 {
     (void)ctx;
     (void)path;
     (void)read_file;
+    (void)name;
     return OST_SUCCESS;
 }
 

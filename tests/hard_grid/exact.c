@@ -19,10 +19,14 @@ typedef struct Exact {
     const OstScene *scene;
     HardDirect *direct;
     const OstMesh *mesh;
-    Twofold *u;     /* of all local nodes */
-    Long *internal; /* of owned nodes */
-    double *step;   /* of all local nodes */
-    double *rows;   /* of the rows */
+    Twofold *u;      /* of all local nodes */
+    Twofold *turned; /* the step, likewise */
+    Long *internal;  /* of owned nodes */
+    double *step;    /* of all local nodes */
+    double *rows;    /* the residual, of the rows */
+    double *before;  /* that of the step before */
+    double *turn;    /* the step, of the rows */
+    double weight;   /* K^-1 residual · residual, of the step before */
 } Exact;
 
 static Twofold sum_of(Twofold a, double b)
@@ -43,7 +47,7 @@ static void gather(const OstBatch *batch, int slot, int nodes, const Twofold *u,
         }
 }
 
-static void find_internal(Exact *exact)
+static void find_internal(Exact *exact, const Twofold *displacement)
 {
     const OstMesh *mesh = exact->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -54,7 +58,7 @@ static void find_internal(Exact *exact)
         ost_batch_gather_from(&batch, element, mesh, exact->scene->field, first, mesh->tet_count);
         for (int slot = 0; slot < batch.count; slot++) {
             Long u[3 * OST_MAX_TET_NODES], force[3 * OST_MAX_TET_NODES];
-            gather(&batch, slot, element->nodes, exact->u, u);
+            gather(&batch, slot, element->nodes, displacement, u);
             hard_exact_tet(&batch, slot, element->nodes, u, force, NULL);
             for (int n = 0; n < 3 * element->nodes; n++)
                 if (batch.node[slot][n / 3] < mesh->owned_nodes)
@@ -67,7 +71,7 @@ static void find_internal(Exact *exact)
 static void find_residual(Exact *exact)
 {
     const OstSystem *system = exact->direct->system;
-    find_internal(exact);
+    find_internal(exact, exact->u);
     for (OstLocal row = 0; row < system->matrix->rows; row++) {
         const size_t node = (size_t)system->node_of_row[row];
         double projector[9];
@@ -82,24 +86,51 @@ static void find_residual(Exact *exact)
     }
 }
 
-static OstStatus take_step(Exact *exact, double *change)
+/* turn = K^-1 residual + beta turn, by the rounded K; and the same of all nodes. */
+static OstStatus turn(Exact *exact, int is_first, int *known)
 {
     HardDirect *direct = exact->direct;
     double sums[2] = {0.0};
-    int known;
-    find_residual(exact);
-    OST_TRY(hard_direct_solve(direct, exact->rows, 1e-4, NULL, &known));
-    for (size_t i = 0; i < direct->n; i++)
-        exact->rows[i] = direct->u[i].high;
-    OST_TRY(ost_system_displacement(direct->system, 0.0, exact->rows, exact->step));
-    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
-        exact->u[i] = sum_of(exact->u[i], exact->step[i]);
-    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++) {
-        sums[0] += exact->step[i] * exact->step[i];
-        sums[1] += exact->u[i].high * exact->u[i].high;
+    OST_TRY(hard_direct_solve(direct, exact->rows, 1e-4, NULL, known));
+    for (size_t i = 0; i < direct->n; i++) {
+        sums[0] += direct->u[i].high * exact->rows[i];
+        sums[1] += direct->u[i].high * exact->before[i];
     }
     OST_TRY(ost_sum(direct->ctx, 2, sums));
-    *change = known ? sqrt(sums[0] / sums[1]) : NAN;
+    const double beta = is_first ? 0.0 : (sums[0] - sums[1]) / exact->weight;
+    exact->weight = sums[0];
+    for (size_t i = 0; i < direct->n; i++) {
+        exact->turn[i] = direct->u[i].high + beta * exact->turn[i];
+        exact->before[i] = exact->rows[i];
+    }
+    OST_TRY(ost_system_displacement(direct->system, 0.0, exact->turn, exact->step));
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+        exact->turned[i] = (Twofold){exact->step[i], 0.0};
+    return OST_SUCCESS;
+}
+
+/* A step of conjugate gradients, preconditioned by the rounded stiffness. */
+static OstStatus take_step(Exact *exact, int is_first, double *change)
+{
+    HardDirect *direct = exact->direct;
+    enum { ENERGY, WORK, SQUARE, SIZE, SUMS };
+    double sums[SUMS] = {0.0};
+    int known;
+    find_residual(exact);
+    OST_TRY(turn(exact, is_first, &known));
+    find_internal(exact, exact->turned);
+    for (size_t i = 0; i < direct->n; i++)
+        sums[WORK] += exact->turn[i] * exact->rows[i];
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++) {
+        sums[ENERGY] += exact->step[i] * (double)exact->internal[i];
+        sums[SQUARE] += exact->step[i] * exact->step[i];
+        sums[SIZE] += exact->u[i].high * exact->u[i].high;
+    }
+    OST_TRY(ost_sum(direct->ctx, SUMS, sums));
+    const double length = sums[ENERGY] > 0.0 ? sums[WORK] / sums[ENERGY] : 0.0;
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+        exact->u[i] = sum_of(exact->u[i], length * exact->step[i]);
+    *change = known ? fabs(length) * sqrt(sums[SQUARE] / sums[SIZE]) : NAN;
     return OST_SUCCESS;
 }
 
@@ -108,7 +139,7 @@ static OstStatus solve(Exact *exact, int *known)
     double change = INFINITY, least = INFINITY;
     int stalls = 0;
     for (int k = 0; k < MOST_STEPS && stalls < 4 && change > last_digit; k++) {
-        OST_TRY(take_step(exact, &change));
+        OST_TRY(take_step(exact, k == 0, &change));
         stalls = change < 0.9 * least ? 0 : stalls + 1;
         least = fmin(least, change);
         if (isnan(change))
@@ -173,7 +204,7 @@ static OstStatus compare(Exact *exact, const OstResult *result, HardErrors *erro
         sums[DISPLACEMENT] += exact->u[i].high * exact->u[i].high;
         sums[DISPLACEMENT_ERROR] += off[i].high * off[i].high;
     }
-    find_internal(exact);
+    find_internal(exact, exact->u);
     add_reactions(exact, result, sums);
     add_stresses(exact, off, sums);
     OST_TRY_DONE(ost_sum(exact->direct->ctx, SUMS, sums));
@@ -194,7 +225,10 @@ OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstRe
     OstStatus status = OST_NEW(ctx, &exact.u, 3 * (size_t)mesh->node_count);
     OST_THEN(OST_NEW(ctx, &exact.internal, 3 * (size_t)mesh->owned_nodes));
     OST_THEN(OST_NEW(ctx, &exact.step, 3 * (size_t)mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &exact.turned, 3 * (size_t)mesh->node_count));
     OST_THEN(OST_NEW(ctx, &exact.rows, direct->n));
+    OST_THEN(OST_NEW(ctx, &exact.before, direct->n));
+    OST_THEN(OST_NEW(ctx, &exact.turn, direct->n));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
         exact.u[i] = (Twofold){result->displacement[i], 0.0};
@@ -206,5 +240,8 @@ done:
     OST_FREE(exact.internal);
     OST_FREE(exact.step);
     OST_FREE(exact.rows);
+    OST_FREE(exact.turned);
+    OST_FREE(exact.before);
+    OST_FREE(exact.turn);
     return status;
 }

@@ -10,8 +10,8 @@
  * bits on x86), from the same coordinates and elastic constants as the program's. The program's own errors are relative
  * to their solution. */
 
-/* Collective. Solves the tets' equations from the result's displacement on, by refinement with the rounded stiffness,
- * and compares. */
+/* Collective. Solves the tets' equations from the result's displacement on, by conjugate gradients preconditioned by
+ * the rounded stiffness, and compares. */
 OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors);
 
 #endif

@@ -81,7 +81,8 @@ typedef struct HardReading {
     int rounding_limited;  /* did rounding keep the residual above 1e-8? */
     double stated_error;   /* relative error of the displacement as the program states it; NAN if it does not */
     double stated_forces;  /* the same of reactions and stresses */
-    double digits;         /* correct digits of the displacement, by the direct solution; NAN if there is none */
+    double digits; /* correct digits of the displacement: by the tets' equations, or where those could not be solved by
+                      the direct solution; NAN if there is none */
     HardTruth truth;
     double seconds; /* of the solve, without the direct one */
 } HardReading;

@@ -93,7 +93,8 @@ static void judge(HardReading *reading)
 {
     const HardTruth *truth = &reading->truth;
     const int hopeless_case = truth->indefinite || truth->rounded > hard_hopeless;
-    reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
+    const double error = truth->off.known ? truth->off.displacement : truth->error;
+    reading->digits = truth->known ? fmin(-log10(error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
         reading->outcome = hopeless_case ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)

@@ -6,6 +6,7 @@
 #include "orthostat/orthostat.h"
 #include "problem/problem.h"
 #include "problem/scene_data.h"
+#include "solve/path_data.h"
 
 /* Paths: every step is the static answer to the loads at its time, by linear theory or by Newton's method; a checkpoint
  * goes on with the same bits; one that does not fit is refused. */
@@ -372,32 +373,131 @@ static void checkpoints_that_do_not_fit_are_refused(void **state)
     free(bytes);
 }
 
-/* A checkpoint of rank 0 alone is offered to all. */
-static void another_number_of_ranks_is_refused(void **state)
+/* The next step from a checkpoint, and the one after it. */
+static void take_two_steps(const char *text, const char *name, OstPathStep steps[2])
+{
+    Made made = make(text);
+    OstPath *path = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    assert_success(ost_path_resume(path, name));
+    assert_int_equal(ost_path_done(path), 2);
+    for (int i = 2; i < 4; i++) {
+        OstResult *result = NULL;
+        assert_success(ost_path_advance(path, 0, &result));
+        steps[i - 2] = *ost_path_step(path, i);
+        ost_result_destroy(&result);
+    }
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+static void save_two_steps(const char *text, const char *name)
+{
+    Made made = make(text);
+    OstPath *path = NULL;
+    assert_success(ost_scene_path(made.scene, &path));
+    for (int i = 0; i < 2; i++) {
+        OstResult *result = NULL;
+        assert_success(ost_path_advance(path, 0, &result));
+        ost_result_destroy(&result);
+    }
+    assert_success(ost_path_save(path, name));
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
+/* The same on rank 0 alone, while the others wait. */
+static OstContext *all_ranks;
+static void begin_alone(void)
+{
+    all_ranks = ctx;
+    if (ost_rank(all_ranks) == 0)
+        assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
+}
+static void end_alone(void)
+{
+    if (ost_rank(all_ranks) == 0)
+        ost_context_destroy(&ctx);
+    ctx = all_ranks;
+    MPI_Barrier(ost_comm(ctx));
+}
+
+/* One rank's checkpoint serves all, and theirs serves one: within rounding the path is the same. */
+static void another_number_of_ranks_goes_on(void **state)
 {
     (void)state;
-    static const char text[] = BODY HELD MOVED LOADS TIMES;
-    OstContext *const all = ctx;
+    static const char *const texts[] = {BODY HELD MOVED LOADS TIMES,
+                                        BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n"};
     char name[300];
     checkpoint_name(name);
-    if (ost_size(ctx) == 1)
-        return;
-    if (ost_rank(all) == 0) {
-        OstPath *path = NULL;
-        OstResult *result = NULL;
-        assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
+    for (int s = 0; s < 2; s++) {
+        OstPathStep alone[2], together[2];
+        for (int from_all = 0; from_all < 2; from_all++) {
+            if (from_all)
+                save_two_steps(texts[s], name);
+            begin_alone();
+            if (ost_rank(all_ranks) == 0) {
+                if (!from_all)
+                    save_two_steps(texts[s], name);
+                take_two_steps(texts[s], name, alone);
+            }
+            end_alone();
+            take_two_steps(texts[s], name, together);
+            for (int i = 0; i < 2 && ost_rank(ctx) == 0; i++) {
+                assert_close(together[i].largest_displacement / alone[i].largest_displacement, 1.0, 1e-7);
+                assert_close(together[i].strain_energy / alone[i].strain_energy, 1.0, 1e-7);
+            }
+            MPI_Barrier(ost_comm(ctx));
+        }
+    }
+    if (ost_rank(ctx) == 0)
+        remove(name);
+}
+
+/* What differs is named, on any number of ranks. */
+static void another_problem_is_refused_by_name(void **state)
+{
+    (void)state;
+    static const char text[] = BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n";
+    char name[300], changed[2048];
+    checkpoint_name(name);
+    begin_alone();
+    if (ost_rank(all_ranks) == 0)
+        save_two_steps(text, name);
+    end_alone();
+    static const struct {
+        const char *from, *to, *words;
+    } changes[] = {
+        {"large_rotation: on\n", "large_rotation: on\nformulation: classical\n",
+         "it was made with formulation: consistent, and this run has formulation: classical"},
+        {"large_rotation: on\n", "large_rotation: off\n", "and this run has large_rotation: off"},
+        {"coarsest_unknowns: 30", "coarsest_unknowns: 40", "the solver's options have changed since"},
+        {"relative_residual: 1e-10", "relative_residual: 1e-10, relative_error: 0.03", "the accuracy asked for have"},
+        {"times: [0.1, 0.4, 0.7, 1]", "times: [0.1, 0.4, 0.8, 1]", "the case file has changed since"},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        const char *at = strstr(text, changes[i].from);
+        snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, changes[i].to,
+                 at + strlen(changes[i].from));
+        refuses(changed, name, changes[i].words);
+    }
+    for (int what = 0; what < 3; what++) {
         Made made = make(text);
+        OstPath *path = NULL;
         assert_success(ost_scene_path(made.scene, &path));
-        assert_success(ost_path_advance(path, 0, &result));
-        assert_success(ost_path_save(path, name));
-        ost_result_destroy(&result);
+        for (OstLocal n = 0; n < 3 * made.scene->mesh->owned_nodes; n++)
+            path->problem->force[n] *= what == 0 ? 1.0 + 1e-6 : 1.0;
+        for (OstLocal i = 0; i < path->problem->supports->count; i++)
+            path->problem->supports->support[i].prescribed[0] += what == 1 ? 0.01 : 0.0;
+        for (OstLocal n = 0; n < 3 * made.scene->mesh->node_count && what == 2; n++)
+            ((double *)made.scene->mesh->coordinates)[n] *= 1.0 + 1e-6;
+        assert_failure(ost_path_resume(path, name), OST_INVALID_INPUT,
+                       what == 0   ? "loads have changed since"
+                       : what == 1 ? "constraints have changed since"
+                                   : "the mesh has changed since");
         ost_path_destroy(&path);
         destroy(&made);
-        ost_context_destroy(&ctx);
-        ctx = all;
     }
-    MPI_Barrier(ost_comm(ctx));
-    refuses(text, name, "it was made on 1 rank and goes on there alone, but this run has");
     MPI_Barrier(ost_comm(ctx));
     if (ost_rank(ctx) == 0)
         remove(name);
@@ -413,7 +513,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_step_too_far_makes_all_newtons),
     cmocka_unit_test(a_resumed_path_has_the_same_bits),
     cmocka_unit_test(checkpoints_that_do_not_fit_are_refused),
-    cmocka_unit_test(another_number_of_ranks_is_refused),
+    cmocka_unit_test(another_number_of_ranks_goes_on),
+    cmocka_unit_test(another_problem_is_refused_by_name),
 };
 
 OST_TEST_MAIN(tests)

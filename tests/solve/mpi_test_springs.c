@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
 #include "core/error.h"
+#include "guard/guard.h"
 #include "problem/scene_data.h"
 
 #include "orthostat/orthostat.h"
@@ -153,6 +154,82 @@ static void springs_hold_the_directions_they_have(void **state)
     }
 }
 
+/* A round body turns in a bed of springs along its normals, and slides where it is a cylinder: its mesh has facets, the
+ * body has none. Edges count. */
+static void a_round_body_turns_in_its_bed(void **state)
+{
+    (void)state;
+    static const char eight[] =
+        "tube: {axis: y, length: 2, radii: [0.5, 1], divisions: {around: 8, radial: 1, axial: 3}}";
+    static const char six[] =
+        "tube: {axis: y, length: 2, radii: [0.5, 1], divisions: {around: 6, radial: 1, axial: 3}}";
+    static const char ball[] = "octant: {radii: [1, 2], divisions: {around: 4, radial: 1}}";
+    static const char block[] = "block: {size: [1, 1, 1], divisions: [1, 1, 1]}";
+    static const char slides[] =
+        "about the line through (0, 1, 0) along (0, 1, 0)\n(a foundation with a normal stiffness alone";
+    static const struct {
+        const char *mesh, *on, *foundation, *says;
+    } cases[] = {
+        {eight, "boundary: outer", "{normal: 5}", slides},
+        {eight, "boundary: [outer, ends]", "{normal: 5}", "  the body, 144 tets around (0, 1, 0): can turn"},
+        {eight, "boundary: outer", "{normal: 5, tangential: 0.01}", NULL},
+        {six, "boundary: [outer, ends]", "{normal: 5}", NULL},
+        {ball, "boundary: outer", "{normal: 5}", "can turn about any line through"},
+        {ball, "all: true", "{normal: 5}", NULL},
+        {block, "all: true", "{normal: 5}", NULL},
+    };
+    for (int order = 1; order <= 2; order++)
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+            char text[1024];
+            OstCase *c;
+            OstScene *scene;
+            OstResult *result;
+            if (order == 2 && cases[i].mesh == six) /* its curved sides are round */
+                continue;
+            snprintf(text, sizeof text,
+                     "large_rotation: off\nmesh: {%s}\nelement: {order: %d}\n"
+                     "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
+                     "loads: [{on: {nearest: [1, 0, 0]}, total_force: [1, 0, 0]}]\n"
+                     "springs: [{on: {%s}, foundation: %s}]\n",
+                     cases[i].mesh, order, cases[i].on, cases[i].foundation);
+            const OstStatus status = solve(text, &c, &scene, &result);
+            if ((status == OST_SUCCESS) != !cases[i].says ||
+                (cases[i].says && !strstr(ost_error_text(ctx), cases[i].says)))
+                fail_msg("order %d, %s: %s", order, text, status == OST_SUCCESS ? "solved" : ost_error_text(ctx));
+            destroy(c, scene, result);
+        }
+}
+
+/* Springs alone carry the body: what is wrong with their forces is the error of the reactions. */
+static void forces_of_springs_have_the_error_of_reactions(void **state)
+{
+    (void)state;
+    OstCase *c;
+    OstScene *scene;
+    OstProblem *problem;
+    OstErrors errors;
+    assert_success(read_text("large_rotation: off\nmesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+                             "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
+                             "springs: [{on: {boundary: zmin}, foundation: 5}]\n"
+                             "loads: [{on: {boundary: zmax}, total_force: [0, 0, -1]}]\n",
+                             &c));
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_scene_problem(scene, &problem));
+    double *u = calloc(3 * (size_t)scene->mesh->node_count, sizeof *u);
+    double *error = calloc(3 * (size_t)scene->mesh->node_count, sizeof *error);
+    for (OstLocal n = 0; n < scene->mesh->node_count; n++) {
+        u[3 * n + 2] = -0.2;
+        error[3 * n + 2] = 3e-3;
+    }
+    assert_success(ost_guard_errors(problem, u, error, &errors));
+    assert_close(errors.reaction, 3e-3 / 0.2, 1e-12);
+    free(u);
+    free(error);
+    ost_problem_destroy(&problem);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
 /* Multigrid, whose coarse space of linear tets is held by springs alone. */
 static void multigrid_solves_a_body_on_springs(void **state)
 {
@@ -182,6 +259,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(springs_at_a_vertex_add_up),
     cmocka_unit_test(a_beam_on_a_foundation_bends_as_hetenyi_says),
     cmocka_unit_test(springs_hold_the_directions_they_have),
+    cmocka_unit_test(a_round_body_turns_in_its_bed),
+    cmocka_unit_test(forces_of_springs_have_the_error_of_reactions),
     cmocka_unit_test(multigrid_solves_a_body_on_springs),
 };
 

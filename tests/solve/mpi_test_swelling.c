@@ -101,10 +101,53 @@ static void stresses_of_large_swelling_leave_out_what_is_free(void **state)
         }
 }
 
+/* A block that swells and shrinks freely along a path is at each time as large as its table says, without stress;
+ * beside a load of its own table, which pulls it by F / (E A). */
+static void swelling_follows_its_own_table(void **state)
+{
+    (void)state;
+    static const double factors[3] = {0.5, 1.0, 0.25}, pulled[3] = {0.01, 0.02, 0.04};
+    for (int large = 0; large <= 1; large++) {
+        char text[1024];
+        OstCase *c = NULL;
+        OstScene *scene = NULL;
+        OstPath *path = NULL;
+        snprintf(text, sizeof text,
+                 "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\nmaterials:\n"
+                 "  - {region: all, youngs_modulus: 100, poissons_ratio: 0,\n"
+                 "     eigenstrain: {value: [0.1, 0.2, -0.05], time: [[0, 0], [0.5, 1], [1, 0.25]]}}\n"
+                 "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]},\n"
+                 "  {on: {boundary: zmin}, slide: [0, 0, 1]}]\n"
+                 "loads: [{on: {boundary: zmax}, total_force: [0, 0, 4]}]\n"
+                 "large_rotation: %s\npath: {times: [0.25, 0.5, 1]}\naccuracy: {relative_residual: 1e-11}\n",
+                 large ? "on" : "off");
+        assert_success(read_text(text, &c));
+        assert_success(ost_scene_create(c, &scene));
+        assert_success(ost_scene_path(scene, &path));
+        for (int i = 0; i < 3; i++) {
+            const double grown[3] = {0.1 * factors[i], 0.2 * factors[i], -0.05 * factors[i] + pulled[i]};
+            OstResult *result = NULL;
+            assert_success(ost_path_advance(path, 1U << OST_FIELD_STRESS | 1U << OST_FIELD_ERROR, &result));
+            for (OstLocal n = 0; n < scene->mesh->owned_nodes; n++)
+                for (int k = 0; k < 3; k++)
+                    assert_close(result->displacement[3 * n + k], grown[k] * scene->mesh->coordinates[3 * n + k], 1e-8);
+            assert_true(result->answer.known && result->answer.relative < 1e-5); /* tets have such a displacement */
+            for (OstLocal t = 0; t < scene->mesh->owned_tets && !large; t++)
+                for (int p = 0; p < 6; p++)
+                    assert_close(result->stress[6 * t + p], p == 2 ? 100.0 * pulled[i] : 0.0, 1e-6);
+            ost_result_destroy(&result);
+        }
+        ost_path_destroy(&path);
+        ost_scene_destroy(&scene);
+        ost_case_destroy(&c);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(stresses_of_large_swelling_leave_out_what_is_free),
     cmocka_unit_test(a_strip_of_two_layers_bends_as_timoshenko_says),
     cmocka_unit_test(nearly_incompressible_rubber_presses),
+    cmocka_unit_test(swelling_follows_its_own_table),
 };
 
 OST_TEST_MAIN(tests)

@@ -322,9 +322,9 @@ static void a_cantilever_has_its_price_list(void **state)
         if (run->state != OST_COST_DONE)
             fail_msg("order %d, refinement %d: %s", run->order, run->refinement, run->reason);
         double phases = 0.0;
-        for (int p = 0; p < OST_COST_PHASES; p++)
+        for (int p = 0; p < OST_STAGES; p++)
             phases += run->phase[p];
-        assert_true(run->phase[OST_COST_MESH] > 0.0 && run->phase[OST_COST_SETUP] > 0.0);
+        assert_true(run->phase[OST_STAGE_MESH] > 0.0 && run->phase[OST_STAGE_SETUP] > 0.0);
         assert_true(run->seconds > 0.0 && phases > 0.99 * run->seconds - 1e-4);
         assert_true(run->bytes > 72.0 * (double)run->unknowns && run->residual <= run->tolerance);
         assert_close(run->watched[HELD].value, 1.0, 1e-3);

@@ -79,6 +79,41 @@ linear = next(variant for variant in bent["variants"] if variant["variant"] == "
 check(linear["state"] == "solved" and not linear["large_rotation"] and linear["needed"] and
       linear["change"]["pose"] > 0.02, f"a bar bent far, by linear theory: {linear}")
 
+# A block that swells freely has no energy but rounding: changes of that are no changes.
+with open(os.path.join(folder, "swollen.yaml"), "w", encoding="utf-8") as stream:
+    stream.write("""mesh: {block: {size: [1, 1, 1], divisions: [3, 3, 3]}}
+materials: [{region: all, youngs_modulus: [1e3, 2e3, 3e3], poissons_ratio: 0.3, eigenstrain: [0.01, 0.02, 0.03]}]
+constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]},
+              {on: {boundary: zmin}, slide: [0, 0, 1]}]
+watch: {energy: strain_energy}
+large_rotation: off
+""")
+swollen = run("effects", "swollen.yaml", "-q", "--json", "-", folder=folder)
+check(swollen.exit_code == 0, swollen.errors)
+swollen = {variant["variant"]: variant for variant in json.loads(swollen.output)["variants"]}
+for name in ("isotropic mean for orthotropy", "without eigenstrain"):
+    change = swollen[name]["change"]
+    check(change["energy"] < 1e-6 and change["watch"]["energy"] < 1e-6, f"{name} of a block that swells freely: {change}")
+
+# Two tets, one of which swells: of one material, both do, and nothing is in the way.
+with open(os.path.join(folder, "two.veg"), "w", encoding="utf-8") as stream:
+    stream.write("*VERTICES\n5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n*ELEMENTS\nTET\n2 4 0\n1 1 2 3 4\n"
+                 "2 2 3 4 5\n*SET SMALL\n1\n*SET LARGE\n2\n*MATERIAL STEEL\nENU, 1, 1e3, 0.3\n*REGION\nSMALL, STEEL\n"
+                 "*REGION\nLARGE, STEEL\n")
+with open(os.path.join(folder, "two.yaml"), "w", encoding="utf-8") as stream:
+    stream.write("""mesh: {file: two.veg}
+materials:
+  - {region: SMALL, youngs_modulus: 2e3, poissons_ratio: 0.3}
+  - {region: LARGE, youngs_modulus: 1e3, poissons_ratio: 0.3, eigenstrain: 0.01}
+constraints: [{on: {vertices: [1]}, displacement: [0, 0, 0]}, {on: {vertices: [2]}, displacement: [free, 0, 0]},
+              {on: {vertices: [3]}, displacement: [free, free, 0]}]
+large_rotation: off
+""")
+two = run("effects", "two.yaml", "-q", "--json", "-", folder=folder)
+check(two.exit_code == 0, two.errors)
+two = {variant["variant"]: variant for variant in json.loads(two.output)["variants"]}["one material for several"]
+close(two["change"]["energy"], 1.0, 1e-6, "energy of two tets that swell alike")
+
 spoken = run("effects", "bar.yaml", "--picture", "bar.png", folder=folder)
 check(spoken.exit_code == 0, spoken.errors)
 lines = {line.split(":")[0]: line for line in spoken.output.splitlines()}

@@ -68,6 +68,37 @@ OstStatus ost_cg_judge_energy(const OstCgRun *run, double energy, OstGoal *goal)
     return OST_SUCCESS;
 }
 
+/* The error after the first run's steps so far. */
+static void find_error(const OstCgRun *run, OstGoal *goal)
+{
+    OstAlgebraicError *error = &goal->error;
+    ost_algebraic_error(&run->lanczos, error);
+    goal->rate = ost_algebraic_error_rate(&run->lanczos, error);
+    error->size *= run->size;
+    error->estimate *= run->size;
+    error->bound *= run->size;
+}
+
+OstStatus ost_cg_judge_error(OstCgRun *run, const double *u, OstGoal *goal)
+{
+    const OstErrorStop *stop = goal->stop;
+    double *reached = run->unscaled;
+    if (!stop || run->runs > 0)
+        return OST_SUCCESS;
+    find_error(run, goal);
+    if (!(goal->error.estimate <= ost_goal_next(goal)))
+        return OST_SUCCESS;
+    if (run->system->scaling)
+        ost_scaling_from_scaled(run->system->scaling, u, reached);
+    for (size_t i = 0; i < run->n; i++)
+        reached[i] = run->base[i] + run->size * (run->system->scaling ? reached[i] : u[i]);
+    OST_TRY(stop->ask(stop->data, reached, goal->error.estimate, &goal->next));
+    goal->enough = goal->error.estimate <= goal->next;
+    if (!(goal->next > 0.0))
+        goal->stop = NULL;
+    return OST_SUCCESS;
+}
+
 /* OstInnerSolve: solves A' u' = S r; u = S^T u'. */
 static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *goal)
 {
@@ -99,13 +130,19 @@ static OstStatus report_error(Cg *cg, const double *f, const double *u, OstGoal 
     cg->smallest = cg->smallest > 0.0 && smallest > 0.0 ? fmin(cg->smallest, smallest) : fmax(cg->smallest, smallest);
     cg->largest = fmax(cg->largest, largest);
     goal->smallest = cg->smallest;
+    goal->error = (OstAlgebraicError){0};
+    if (cg->run.runs == 1 && cg->run.lanczos.count > 1 && !cg->run.preconditioner->factors)
+        find_error(&cg->run, goal);
     cg->run.lanczos.count = 0;
     cg->run.runs = 0;
-    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER && !goal->crude)
+    if (cg->smallest > 0.0 && goal->end != OST_END_PRECONDITIONER && !goal->crude && !goal->enough)
         OST_TRY(
             ost_energy_error(cg->run.system, cg->run.preconditioner, cg->smallest, f, u, goal->compensated, &error));
-    const int known = !isnan(error.whole) && !isnan(error.rounding);
+    if (goal->enough) /* rounding is far below that, or ost_solver_error will tell */
+        error = (OstEnergyError){.whole = goal->error.estimate / goal->error.size,
+                                 .energy = goal->error.estimate / goal->error.size};
     report->condition_estimate = cg->smallest > 0.0 ? cg->largest / cg->smallest : 0.0;
+    const int known = !isnan(error.whole) && !isnan(error.rounding);
     /* If corrections by factors do not settle, rounding of the factors is the cause: the drift is its error. */
     report->error_estimate = known ? fmax(error.whole, goal->drift) : 0.0;
     report->energy_error = known ? fmax(error.energy, goal->drift) : 0.0;
@@ -158,8 +195,11 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
                        OstGoal *goal, OstSolveReport *report)
 {
     OstContext *ctx = system->matrix->ctx;
-    Cg cg = {
-        .run = {.ctx = ctx, .system = system, .preconditioner = preconditioner, .n = 3 * (size_t)system->matrix->rows}};
+    Cg cg = {.run = {.ctx = ctx,
+                     .system = system,
+                     .preconditioner = preconditioner,
+                     .n = 3 * (size_t)system->matrix->rows,
+                     .base = u}};
     OstStatus status = OST_NEW(ctx, &cg.run.residual, cg.run.n + 3 * (size_t)system->matrix->columns);
     if (status == OST_SUCCESS)
         status = ost_lanczos_create(ctx, goal->most_iterations, &cg.run.lanczos);

@@ -15,6 +15,7 @@ typedef struct OstCgRun {
     double *residual;   /* r', of order 1: preconditioners work in single precision too */
     double size;        /* the power of two that r' was divided by for that */
     double *unscaled;   /* S^T p, with room for ghosts */
+    const double *base; /* what the runs improve */
     OstLanczos lanczos; /* coefficients of the first run since it was last emptied */
     int runs;           /* runs since then */
 } OstCgRun;
@@ -29,6 +30,10 @@ OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal);
 
 /* Collective over neighbours. y = A' p = S (A (S^T p)); leaves S^T p in run->unscaled. */
 OstStatus ost_cg_multiply(OstCgRun *run, const double *p, double *y);
+
+/* Collective, after each step of the first run. Estimates the error of base + u, if goal->stop wants it, and ends the
+ * goal (goal->enough) if that says so. Overwrites run->unscaled. */
+OstStatus ost_cg_judge_error(OstCgRun *run, const double *u, OstGoal *goal);
 
 /* Local. This rank's part of ||r||² / run->size², r being the unscaled residual. */
 double ost_cg_square(const OstCgRun *run, const double *residual);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/krylov/error_of_residual.h"
 
+#include "algebra/krylov/precondition.h"
 #include "algebra/matrix/compensated_step.h"
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { MOST_STEPS = 200 };
 
@@ -27,22 +27,10 @@ typedef struct Search {
 
 static OstStatus precondition(Search *search)
 {
-    OstContext *ctx = search->system->matrix->ctx;
-    const OstScaling *scaling = search->system->scaling;
-    double size;
-    if (scaling)
-        ost_scaling_to_scaled(scaling, search->remaining, search->scaled);
-    else if (search->n > 0)
-        memcpy(search->scaled, search->remaining, search->n * sizeof(double));
-    OST_TRY(ost_vector_size(ctx, search->n, search->scaled, &size));
-    for (size_t i = 0; i < search->n; i++)
-        search->scaled[i] /= size;
-    OST_TRY(search->preconditioner->apply(search->preconditioner->data, search->scaled, search->correction));
-    if (scaling)
-        ost_scaling_from_scaled(scaling, search->correction, search->correction);
-    for (size_t i = 0; i < search->n; i++)
-        search->correction[i] *= size;
-    return ost_vector_dot(ctx, search->n, search->remaining, search->correction, &search->weight);
+    OST_TRY(ost_precondition(search->system, search->preconditioner, search->remaining, search->scaled,
+                             search->correction));
+    return ost_vector_dot(search->system->matrix->ctx, search->n, search->remaining, search->correction,
+                          &search->weight);
 }
 
 static void take_step(Search *search, double *error)

@@ -21,7 +21,7 @@ typedef struct FactorRun {
 } FactorRun;
 
 /* z = M^-1 r, and the next direction p = z + beta p. */
-static OstStatus next_direction(FactorRun *work, int first, double *beta)
+static OstStatus next_direction(FactorRun *work, int first)
 {
     const OstCgRun *run = work->run;
     double weight;
@@ -29,10 +29,10 @@ static OstStatus next_direction(FactorRun *work, int first, double *beta)
     OST_TRY(ost_vector_dot(run->ctx, run->n, run->residual, work->corrected, &weight));
     if (!ost_goal_accepts(work->goal, weight))
         return OST_SUCCESS;
-    *beta = first ? 0.0 : weight / work->weight;
+    const double beta = first ? 0.0 : weight / work->weight;
     work->weight = weight;
     for (size_t i = 0; i < run->n; i++)
-        work->direction[i] = work->corrected[i] + (first ? 0.0 : *beta * work->direction[i]);
+        work->direction[i] = work->corrected[i] + (first ? 0.0 : beta * work->direction[i]);
     return OST_SUCCESS;
 }
 
@@ -82,14 +82,14 @@ static OstStatus iterate(FactorRun *work, double *u)
     OST_TRY(find_norm(run, &norm));
     int on = (norm > goal->target || goal->settled > 0.0) && goal->iterations < goal->most_iterations;
     for (int first = 1; on; first = 0) {
-        double alpha = 0.0, beta = 0.0;
-        OST_TRY(next_direction(work, first, &beta));
+        double alpha = 0.0;
+        OST_TRY(next_direction(work, first));
         if (goal->end == OST_END_REACHED)
             OST_TRY(step(work, u, &alpha));
         if (goal->end != OST_END_REACHED)
             return OST_SUCCESS;
         if (run->runs == 0)
-            ost_lanczos_add(&run->lanczos, alpha, beta);
+            ost_lanczos_add(&run->lanczos, alpha, work->weight);
         OST_TRY(find_norm(run, &norm));
         on = ost_goal_count(goal, norm, run->size * run->size * work->weight) && !work->blind;
     }

@@ -31,6 +31,29 @@ void ost_goal_end_by_iterations(OstGoal *goal)
     snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
 }
 
+double ost_goal_next(const OstGoal *goal)
+{
+    const OstErrorStop *stop = goal->stop;
+    return goal->next > 0.0 ? goal->next : stop->first * (stop->relative ? goal->error.size : 1.0);
+}
+
+/* Iterations still needed, by the residual or by the error, whichever takes fewer; 0 before that can be said. */
+static double remaining(const OstGoal *goal)
+{
+    const double of_residual = ost_convergence_remaining(&goal->convergence, goal->target);
+    if (!goal->stop || !(goal->error.estimate > 0.0 && isfinite(goal->error.estimate)))
+        return of_residual;
+    const double next = ost_goal_next(goal);
+    return fmin(of_residual, log(next / goal->error.estimate) / log(ost_convergence_factor(&goal->convergence)));
+}
+
+int ost_goal_saved(const OstGoal *goal)
+{
+    if (!goal->enough || !(goal->norm > goal->target && goal->rate > 0.0 && goal->rate < 1.0))
+        return 0;
+    return (int)fmin(ceil(log(goal->target / goal->norm) / log(goal->rate)), goal->most_iterations - goal->iterations);
+}
+
 int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
@@ -39,10 +62,10 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
     if (norm <= goal->target)
         return 0;
-    const double remaining = ost_convergence_remaining(&goal->convergence, goal->target);
+    const double more = remaining(goal);
     if (goal->iterations >= goal->most_iterations) {
         ost_goal_end_by_iterations(goal);
-    } else if (goal->patience > 0 && remaining > goal->patience) {
+    } else if (goal->patience > 0 && more > goal->patience) {
         goal->end = OST_END_SLOW;
         snprintf(goal->words, sizeof goal->words,
                  "after %d iterations each still multiplies the residual by %.4f: too slow", goal->convergence.count,

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_KRYLOV_GOAL_H
 #define ORTHOSTAT_ALGEBRA_KRYLOV_GOAL_H
 
+#include "algebra/krylov/algebraic_error.h"
 #include "algebra/krylov/convergence_rate.h"
 #include "algebra/matrix/block_matrix.h"
 #include "orthostat/solver.h"
@@ -15,6 +16,17 @@ typedef enum {
     OST_END_ROUNDING,       /* double precision allows no smaller residual */
     OST_END_ITERATIONS      /* the maximum number of iterations is reached */
 } OstEnd;
+
+/* Ends an iteration by the error of u in the norm of the energy, |u - u*|_A, which is estimated on the way. */
+typedef struct OstErrorStop {
+    /* Collective. Asked once the error has come down to `first`, and then again each time it has to *next.
+     * u is that reached, and `error` its error. Sets *next: one that is no smaller than `error` ends the iteration, 0
+     * leaves its end to the residual. */
+    OstStatus (*ask)(void *data, const double *u, double error, double *next);
+    void *data;
+    double first;
+    int relative; /* `first` is a share of |u|_A, of a solve from u = 0 */
+} OstErrorStop;
 
 /* What a solver works towards and how close it is. Norms are 2-norms of the unscaled residual. */
 typedef struct OstGoal {
@@ -33,7 +45,12 @@ typedef struct OstGoal {
     double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
     double smallest; /* eigenvalue of M^-1 A, about, as the last strategy's iterations show it; 0 if not known */
     OstConvergence convergence;
-    int indefinite; /* p·Ap < 0 was found */
+    const OstErrorStop *stop; /* ends the iteration before the target is reached; NULL: none */
+    double next;              /* the error at which it is asked next; 0: not asked yet */
+    int enough;               /* it has ended the iteration */
+    OstAlgebraicError error;  /* of u in the norm of the energy; 0 where it is not known */
+    double rate;              /* by which an iteration multiplies it */
+    int indefinite;           /* p·Ap < 0 was found */
     OstEnd end;
     char words[200]; /* why it ended, unless OST_END_REACHED */
 } OstGoal;
@@ -53,6 +70,12 @@ int ost_goal_accepts(OstGoal *goal, double weight);
 
 /* Local. Raises OST_NOT_CONVERGED: p·Ap = `energy` shows that the stiffness is not positive definite. */
 OstStatus ost_goal_refuse_indefinite(OstGoal *goal, double energy);
+
+/* Local. The iterations that the stop saves: as many more would reach the target, at the present rate. */
+int ost_goal_saved(const OstGoal *goal);
+
+/* Local. The error at which the stop is asked next. */
+double ost_goal_next(const OstGoal *goal);
 
 /* Local. Estimate of the smallest relative residual that double precision allows: the limit, or the residual reached
  * where that is smaller. 0 if the limit was not computed. */

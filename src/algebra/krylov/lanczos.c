@@ -15,35 +15,40 @@ OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos)
     lanczos->room = steps < MOST_STEPS ? steps : MOST_STEPS;
     lanczos->count = 0;
     lanczos->alpha = NULL;
-    lanczos->beta = NULL;
+    lanczos->weight = NULL;
     OST_TRY(OST_NEW(ctx, &lanczos->alpha, lanczos->room));
-    return OST_NEW(ctx, &lanczos->beta, lanczos->room);
+    return OST_NEW(ctx, &lanczos->weight, lanczos->room);
 }
 
 void ost_lanczos_destroy(OstLanczos *lanczos)
 {
     OST_FREE(lanczos->alpha);
-    OST_FREE(lanczos->beta);
+    OST_FREE(lanczos->weight);
 }
 
-void ost_lanczos_add(OstLanczos *lanczos, double alpha, double beta)
+void ost_lanczos_add(OstLanczos *lanczos, double alpha, double weight)
 {
     if (lanczos->count >= lanczos->room)
         return;
     lanczos->alpha[lanczos->count] = alpha;
-    lanczos->beta[lanczos->count++] = fmax(beta, 0.0);
+    lanczos->weight[lanczos->count++] = weight;
+}
+
+static double beta(const OstLanczos *lanczos, int k)
+{
+    return lanczos->weight[k] / lanczos->weight[k - 1];
 }
 
 /* Row k of the Lanczos matrix: its diagonal entry, and the square of the entry below the diagonal. */
 static double diagonal(const OstLanczos *lanczos, int k)
 {
-    const double coupling = k > 0 ? lanczos->beta[k] / lanczos->alpha[k - 1] : 0.0;
+    const double coupling = k > 0 ? beta(lanczos, k) / lanczos->alpha[k - 1] : 0.0;
     return 1.0 / lanczos->alpha[k] + coupling;
 }
 
 static double off_diagonal_square(const OstLanczos *lanczos, int k)
 {
-    return lanczos->beta[k + 1] / (lanczos->alpha[k] * lanczos->alpha[k]);
+    return beta(lanczos, k + 1) / (lanczos->alpha[k] * lanczos->alpha[k]);
 }
 
 /* The number of eigenvalues below x (Sturm sequence). */

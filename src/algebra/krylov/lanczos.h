@@ -8,14 +8,14 @@
 typedef struct OstLanczos {
     int room;
     int count;
-    double *alpha; /* step lengths */
-    double *beta;  /* beta[k] made the direction of step k; beta[0] is not used */
+    double *alpha;  /* step lengths */
+    double *weight; /* r·z before each step; weight[k] / weight[k - 1] made the direction of step k */
 } OstLanczos;
 
 /* Local. Room for at most `steps` steps; later ones are not kept. */
 OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos);
 void ost_lanczos_destroy(OstLanczos *lanczos);
-void ost_lanczos_add(OstLanczos *lanczos, double alpha, double beta);
+void ost_lanczos_add(OstLanczos *lanczos, double alpha, double weight);
 
 /* Local. The smallest and the largest eigenvalue of the Lanczos matrix, which approach those of the preconditioned
  * matrix from above and from below; 0 if there were no steps. */

@@ -134,7 +134,7 @@ static OstStatus find_limit(Refinement *work)
 static int is_done(const Refinement *work)
 {
     const OstGoal *goal = work->goal;
-    return goal->norm <= goal->target && !(goal->settled > 0.0 && work->change > goal->settled);
+    return goal->enough || (goal->norm <= goal->target && !(goal->settled > 0.0 && work->change > goal->settled));
 }
 
 /* Switches to compensated residuals where the goal is missed, or u not settled after two corrections, because of
@@ -143,7 +143,7 @@ static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
     const int missed = goal->norm > goal->target || (work->contraction > 0.0 && !is_done(work));
-    if (goal->compensated || !missed)
+    if (goal->compensated || goal->enough || !missed)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
     goal->compensated =
@@ -212,7 +212,7 @@ static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
         least_norm = fmin(least_norm, goal->norm);
         stalls = gained ? 0 : stalls + 1;
     } while (goal->end == OST_END_REACHED && !is_done(work) && stalls < most_stalls(work));
-    if (goal->norm > goal->target)
+    if (goal->norm > goal->target && !goal->enough)
         return explain_end(work);
     goal->end = OST_END_REACHED;
     return OST_SUCCESS;

@@ -161,6 +161,7 @@ static void add6(const OstLevelMatrix *matrix, double scale, const double *restr
 void ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
 {
     ost_exchange_import(matrix->exchange, x);
+    ost_ledger_multiplied(matrix->ctx, (double)matrix->nonzeros);
     if (matrix->size == 3)
         add3(matrix, scale, x, y);
     else

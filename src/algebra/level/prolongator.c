@@ -47,9 +47,16 @@ OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const doubl
     }
 }
 
+static void book(const OstProlongator *prolongator)
+{
+    const double entries = (double)prolongator->row_start[prolongator->rows];
+    ost_ledger_multiplied(prolongator->ctx, entries * prolongator->height * OST_MODES);
+}
+
 void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
 {
     ost_exchange_import(prolongator->exchange, c);
+    book(prolongator);
     if (prolongator->height == 3)
         add_rows(prolongator, 3, c, x);
     else
@@ -64,4 +71,5 @@ void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x
     else
         restrict_rows(prolongator, 6, x, c);
     ost_exchange_add_to_owners(prolongator->exchange, c);
+    book(prolongator);
 }

@@ -211,7 +211,8 @@ static void multiply_dense(int side, const float *value, const float *in, float 
     }
 }
 
-OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const OstBlockStep *step, const double *r)
+OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, int from_zero, const OstBlockStep *step,
+                               const double *r)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal *node = blocks->node + blocks->node_start[b];
@@ -225,8 +226,9 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const 
             double *restrict direction = step->direction + (size_t)size * (size_t)node[k];
             double *restrict x = step->x + (size_t)size * (size_t)node[k];
             for (int c = 0; c < size; c++) {
-                direction[c] = step->keep * direction[c] + step->add * (double)out[k * size + c];
-                x[c] += direction[c];
+                const double added = step->add * (double)out[k * size + c];
+                direction[c] = from_zero ? added : step->keep * direction[c] + added;
+                x[c] = from_zero ? direction[c] : x[c] + direction[c];
             }
         }
     }
@@ -234,8 +236,13 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const 
 
 void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
 {
-    if (blocks->size == 3)
-        apply_blocks(blocks, 3, step, r);
+    ost_ledger_multiplied(blocks->ctx, (double)blocks->value_start[blocks->count]);
+    if (blocks->size == 3 && step->from_zero)
+        apply_blocks(blocks, 3, 1, step, r);
+    else if (blocks->size == 3)
+        apply_blocks(blocks, 3, 0, step, r);
+    else if (step->from_zero)
+        apply_blocks(blocks, 6, 1, step, r);
     else
-        apply_blocks(blocks, 6, step, r);
+        apply_blocks(blocks, 6, 0, step, r);
 }

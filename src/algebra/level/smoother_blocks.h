@@ -22,10 +22,12 @@ OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetr
                                      OstSmootherBlocks **blocks);
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 
-/* One step of an iteration: direction = keep × direction + add × B^-1 r, then x += direction. */
+/* One step of an iteration: direction = keep × direction + add × B^-1 r, then x += direction. `from_zero`: both are 0
+ * before it, and need not be set to 0. */
 typedef struct OstBlockStep {
     double keep, add;
     double *direction, *x;
+    int from_zero;
 } OstBlockStep;
 
 void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r);

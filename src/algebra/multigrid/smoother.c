@@ -22,7 +22,7 @@ void ost_smoother_destroy(OstSmoother **smoother)
 static void apply_blocks(const void *data, const double *r, double *z)
 {
     const OstSmoother *smoother = data;
-    const OstBlockStep step = {.keep = 0.0, .add = 1.0, .direction = z, .x = smoother->direction};
+    const OstBlockStep step = {.keep = 0.0, .add = 1.0, .direction = z, .x = smoother->direction, .from_zero = 1};
     ost_smoother_blocks_step(smoother->blocks, &step, r);
 }
 
@@ -63,15 +63,15 @@ void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int f
     double rho = 1.0 / sigma;
     if (n > 0)
         memcpy(smoother->residual, b, n * sizeof(double));
-    if (from_zero && n > 0)
-        memset(x, 0, n * sizeof(double));
     if (!from_zero) {
         if (n > 0)
             memcpy(smoother->direction, x, n * sizeof(double));
         ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
     }
-    OstBlockStep step = {.keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x};
+    OstBlockStep step = {
+        .keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x, .from_zero = from_zero};
     ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
+    step.from_zero = 0;
     for (int k = 1; k < smoother->degree; k++) {
         ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
         const double next = 1.0 / (2.0 * sigma - rho);

@@ -14,14 +14,14 @@
 typedef struct Aztec {
     OstCgRun *run;
     OstGoal *goal;
-    double *residual; /* copy of r, as AztecOO passes r in the array that receives z */
+    double *residual;       /* copy of r, as AztecOO passes r in the array that receives z */
+    const double *solution; /* x, which AztecOO improves in place */
     int steps, products;
-    int stopped;          /* by the goal or by a failure */
-    int multiplied;       /* has A p been computed since the last residual? */
-    double energy;        /* this rank's part of p·Ap */
-    double weight;        /* r·z of this step */
-    double weight_before; /* r·z of the step before */
-    OstStatus status;     /* the first failure inside a callback: AztecOO cannot pass it on */
+    int stopped;      /* by the goal or by a failure */
+    int multiplied;   /* has A p been computed since the last residual? */
+    double energy;    /* this rank's part of p·Ap */
+    double weight;    /* r·z of this step */
+    OstStatus status; /* the first failure inside a callback: AztecOO cannot pass it on */
 } Aztec;
 
 static void note(Aztec *aztec, OstStatus status)
@@ -56,8 +56,7 @@ static OstStatus count_step(Aztec *aztec, double *norm)
     if (aztec->steps == 0)
         return OST_SUCCESS;
     if (run->runs == 0)
-        ost_lanczos_add(&run->lanczos, aztec->weight / sums[1],
-                        aztec->steps > 1 ? aztec->weight / aztec->weight_before : 0.0);
+        ost_lanczos_add(&run->lanczos, aztec->weight / sums[1], aztec->weight);
     ost_goal_count(aztec->goal, *norm, run->size * run->size * aztec->weight);
     return OST_SUCCESS;
 }
@@ -69,11 +68,13 @@ static OstStatus next_step(Aztec *aztec, double *z)
     OstGoal *goal = aztec->goal;
     double norm;
     OST_TRY(count_step(aztec, &norm));
-    aztec->stopped = norm <= goal->target || goal->end != OST_END_REACHED || goal->iterations >= goal->most_iterations;
+    if (aztec->steps > 0)
+        OST_TRY(ost_cg_judge_error(run, aztec->solution, goal));
+    aztec->stopped = norm <= goal->target || goal->enough || goal->end != OST_END_REACHED ||
+                     goal->iterations >= goal->most_iterations;
     if (aztec->stopped)
         return OST_SUCCESS;
     OST_TRY(run->preconditioner->apply(run->preconditioner->data, aztec->residual, z));
-    aztec->weight_before = aztec->weight;
     aztec->weight = ost_dot(run->n, aztec->residual, z);
     OST_TRY(ost_sum(run->ctx, 1, &aztec->weight));
     aztec->stopped = !ost_goal_accepts(goal, aztec->weight);
@@ -144,7 +145,7 @@ OstStatus ost_cg_run_by_aztec(OstCgRun *run, double *u, OstGoal *goal)
     enum { VECTORS = 4 }; /* r, z, p and A p */
     const size_t n = run->n;
     OstContext *ctx = run->ctx;
-    Aztec aztec = {.run = run, .goal = goal};
+    Aztec aztec = {.run = run, .goal = goal, .solution = u};
     double outcome[AZ_STATUS_SIZE] = {0};
     OST_TRY(ost_memory_foresee(ctx, (double)(VECTORS * n * sizeof(double)), "AztecOO's conjugate gradients"));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &aztec.residual, 2 * n)));

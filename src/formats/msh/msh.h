@@ -48,7 +48,7 @@ typedef struct OstMshBytes {
     const char *start; /* NULL: not read yet */
     ptrdiff_t length;
 } OstMshBytes;
-enum { OST_MSH_SECTIONS = 8 };
+enum { OST_MSH_SECTIONS = 8, OST_MSH_LONGEST_NAME = 64 };
 
 /* A .msh file while it is read. tet_region then holds physical tags, 0 for none. */
 typedef struct OstMsh {
@@ -116,5 +116,12 @@ OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group
 /* Local. Turns what was read into the chunk: names regions and boundaries, sorts tets by tag, reorders them if all are
  * inverted, leaves out unused nodes; or refuses the mesh. */
 OstStatus ost_msh_finish(OstMsh *msh);
+
+/* Local. The section $MeshFormat; the first word of a section's line, without the $; goes to the $End line of a
+ * section.
+ */
+OstStatus ost_msh_format(OstMsh *msh);
+void ost_msh_section_name(OstMshText line, char name[OST_MSH_LONGEST_NAME]);
+OstStatus ost_msh_skip_section(OstMshCursor *cursor, const char *name);
 
 #endif

@@ -12,7 +12,7 @@
 /* Gmsh's format, by its manual (sections "MSH file format" and "legacy formats"): sections between $Name and $EndName,
  * in version 1 $NAM and $ENDNAM. Other sections, and text between sections, are skipped. */
 
-enum { NAME_SIZE = 64, SMALLEST_NAME = 4 };
+enum { NAME_SIZE = OST_MSH_LONGEST_NAME, SMALLEST_NAME = 4 };
 
 /* Length of a line that messages quote. */
 static int shown(OstMshText line)
@@ -21,7 +21,7 @@ static int shown(OstMshText line)
 }
 
 /* The version, from a number such as 2.2. */
-static OstStatus read_format(OstMsh *msh)
+OstStatus ost_msh_format(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
     double number = 0.0;
@@ -105,7 +105,7 @@ static const struct {
 };
 
 /* Goes to the $End line of a section, which follows a line end or, in a binary file, any byte. */
-static OstStatus skip_section(OstMshCursor *cursor, const char *name)
+OstStatus ost_msh_skip_section(OstMshCursor *cursor, const char *name)
 {
     char mark[NAME_SIZE + 8];
     const int start = cursor->binary ? 1 : 0;
@@ -136,7 +136,7 @@ static OstStatus read_section(OstMsh *msh, const char *name)
     while (i < OST_MSH_SECTIONS && (strcmp(name, section[i].name) != 0 || !section[i].read[msh->version / 10]))
         i++;
     if (i == OST_MSH_SECTIONS)
-        return skip_section(&msh->cursor, name);
+        return ost_msh_skip_section(&msh->cursor, name);
     if (repeats(msh, msh->text[i]))
         return OST_SUCCESS;
     const int stage = section[i].stage;
@@ -154,7 +154,7 @@ static OstStatus read_section(OstMsh *msh, const char *name)
 }
 
 /* The first word of a line, without the $. */
-static void copy_name(OstMshText line, char name[NAME_SIZE])
+void ost_msh_section_name(OstMshText line, char name[OST_MSH_LONGEST_NAME])
 {
     int length = 0;
     while (length < line.length - 1 && length < NAME_SIZE - 1 && line.start[length + 1] > ' ')
@@ -169,7 +169,7 @@ static OstStatus expect_end(OstMshCursor *cursor, const char *name)
     char found[NAME_SIZE] = "";
     while (line.length == 0 && cursor->next < cursor->end)
         line = ost_msh_rest_of_line(cursor);
-    copy_name(line, found);
+    ost_msh_section_name(line, found);
     if (line.length == 0)
         return OST_RAISE_MSH(cursor, "the file ends where $End%s is expected; it is incomplete, write it again", name);
     if (line.start[0] != '$' || strncasecmp(found, "End", 3) != 0 || strcmp(found + 3, name) != 0)
@@ -181,7 +181,7 @@ static OstStatus expect_end(OstMshCursor *cursor, const char *name)
 static OstStatus read_format_or_section(OstMsh *msh, const char *name)
 {
     if (strcmp(name, "MeshFormat") == 0)
-        return read_format(msh);
+        return ost_msh_format(msh);
     if (strcmp(name, "NOD") == 0 || strcmp(name, "ELM") == 0)
         msh->version = 10;
     else if (strcmp(name, "Comments") != 0)
@@ -200,7 +200,7 @@ static OstStatus read_sections(OstMsh *msh)
                                  line.start);
         if (line.length == 0 || line.start[0] != '$')
             continue;
-        copy_name(line, name);
+        ost_msh_section_name(line, name);
         OST_TRY(msh->version == 0 ? read_format_or_section(msh, name) : read_section(msh, name));
         OST_TRY(expect_end(cursor, name));
     }

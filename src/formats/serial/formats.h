@@ -17,6 +17,13 @@ typedef struct OstFileMaterials {
 /* Collective. As ost_chunk_read, with the materials of the file. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
+/* Collective. Adds to the chunk that was read from the file a field on its tets, by its name: chunk->tet_field, of 1,
+ * 3, 6 or 9 numbers a tet; NAN where a .msh file states none. From .msh its $ElementData, from .vtkhdf its CellData. */
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk);
+
+/* Local. Refuses a field of another number of numbers a tet. */
+OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width);
+
 /* Local. Is the file at `sought` part of a mesh file: the file itself, or one that it includes? */
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought);
 void ost_file_materials_destroy(OstFileMaterials **materials);
@@ -32,6 +39,7 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
 
 /* Readers of the serial formats: local, called on one rank. They read the whole mesh. */
 OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
+OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk);
 OstStatus ost_veg_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
 /* Local. Is the file at `sought` this .veg file, or one that it includes? Errors in it are left to the reader. */

@@ -8,12 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read)
+OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read, const char *name)
 {
     int how = 0;
     const pid_t child = fork();
     if (child == 0) {
-        ost_hdf5_dry_run_here(ctx, path, read);
+        ost_hdf5_dry_run_here(ctx, path, read, name);
         _exit(0);
     }
     if (child < 0)

@@ -57,7 +57,7 @@ static herr_t exit_without_memory(hid_t stack, void *ctx)
     return 0;
 }
 
-void ost_hdf5_dry_run_here(OstContext *ctx, const char *path, OstReading *read)
+void ost_hdf5_dry_run_here(OstContext *ctx, const char *path, OstReading *read, const char *name)
 {
     static const int fatal[] = {SIGPROF, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
     for (size_t i = 0; i < sizeof fatal / sizeof *fatal; i++)
@@ -65,7 +65,7 @@ void ost_hdf5_dry_run_here(OstContext *ctx, const char *path, OstReading *read)
     if (set_limits(path) != 0)
         return;
     H5Eset_auto2(H5E_DEFAULT, exit_without_memory, ctx);
-    if (read(ctx, path) == OST_OUT_OF_MEMORY)
+    if (read(ctx, path, name) == OST_OUT_OF_MEMORY)
         _exit(OUT_OF_MEMORY);
 }
 

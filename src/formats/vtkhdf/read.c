@@ -284,7 +284,7 @@ static OstStatus open_and_read(OstContext *ctx, const char *path, Reader *reader
 
 /* Local. Makes HDF5 do all that reading will ask of it, but with few of the numbers. It goes on after an array that
  * HDF5 refuses, because the real reading has another order. */
-static OstStatus dry_run(OstContext *ctx, const char *path)
+static OstStatus dry_run(OstContext *ctx, const char *path, const char *name)
 {
     const struct {
         const char *name;
@@ -295,6 +295,7 @@ static OstStatus dry_run(OstContext *ctx, const char *path)
                   {"/VTKHDF/PointData/vertex", H5T_NATIVE_INT64}, {"/VTKHDF/CellData/tet", H5T_NATIVE_INT64},
                   {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
     Reader reader = {.h5.file = H5I_INVALID_HID};
+    (void)name;
     OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
     OST_THEN(check_kind(&reader));
     const int can_be_read = status == OST_SUCCESS;
@@ -313,7 +314,7 @@ OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chun
     Reader reader = {.h5.file = H5I_INVALID_HID};
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
-    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, dry_run)));
+    OST_TRY_DONE(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, dry_run, NULL)));
     OST_TRY_DONE(ost_agree(ctx, open_and_read(ctx, path, &reader)));
     OST_TRY_DONE(agree_on_kind(&reader));
     OST_TRY_DONE(ost_agree(ctx, read_tets(&reader)));
@@ -332,4 +333,45 @@ done:
     if (reader.chunk)
         ost_chunk_destroy(&reader.chunk);
     return status;
+}
+
+/* --- a field on the tets --- */
+
+static const char cell_data[] = "/VTKHDF/CellData/";
+enum { LONGEST_NAME = 256 };
+
+static OstStatus try_field(OstContext *ctx, const char *path, const char *name)
+{
+    OstHdf5 h5 = {.file = H5I_INVALID_HID};
+    OstStatus status = ost_hdf5_open(ctx, path, &h5);
+    OST_THEN(ost_hdf5_try_rows(&h5, name, H5T_NATIVE_DOUBLE));
+    ost_hdf5_close(&h5);
+    return status;
+}
+
+static OstStatus read_field(const OstHdf5 *h5, const char *name, OstMeshChunk *chunk)
+{
+    OstGlobal rows = 0;
+    int width = 0;
+    if (!ost_hdf5_has(h5, name))
+        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the cells", h5->path,
+                         name + strlen(cell_data));
+    OST_TRY(ost_hdf5_shape(h5, name, &rows, &width));
+    OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, name + strlen(cell_data), width));
+    chunk->field_width = width;
+    OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_field, (size_t)chunk->tet_count * (size_t)width));
+    return ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, width, chunk->global_tets, chunk->first_tet,
+                              chunk->tet_count, chunk->tet_field);
+}
+
+OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstMeshChunk *chunk)
+{
+    OstHdf5 h5 = {.file = H5I_INVALID_HID};
+    char name[LONGEST_NAME];
+    snprintf(name, sizeof name, "%s%s", cell_data, field);
+    OST_TRY(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, try_field, name)));
+    OstStatus status = ost_hdf5_open(ctx, path, &h5);
+    OST_THEN(read_field(&h5, name, chunk));
+    ost_hdf5_close(&h5);
+    return ost_agree(ctx, status);
 }

@@ -19,6 +19,7 @@ static OstStatus label_all(OstMeshChunk *chunk)
 static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
 {
     mesh->nodes_per_tet = chunk->nodes_per_tet;
+    mesh->field_width = chunk->field_width;
     mesh->global_nodes = chunk->global_nodes;
     mesh->global_tets = chunk->global_tets;
     mesh->regions = chunk->regions;
@@ -48,6 +49,7 @@ static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
     TAKE(mesh, chunk, tet_label);
     TAKE(mesh, chunk, tet_region);
     TAKE(mesh, chunk, tet_axes);
+    TAKE(mesh, chunk, tet_field);
     OST_TRY(OST_NEW(ctx, &mesh->node_number, mesh->node_count));
     for (OstLocal i = 0; i < mesh->node_count; i++)
         mesh->node_number[i] = i;

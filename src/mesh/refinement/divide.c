@@ -242,6 +242,10 @@ static OstStatus fill_tets(Making *making)
     OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_region, mesh->tet_count));
     if (parent->tet_axes)
         OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_axes, 9 * (size_t)mesh->tet_count));
+    const size_t field = (size_t)parent->field_width;
+    mesh->field_width = parent->field_width;
+    if (field > 0)
+        OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_field, field * (size_t)mesh->tet_count));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         OstLocal nodes[10];
         const OstLocal from = child_nodes(making, t, nodes);
@@ -251,6 +255,9 @@ static OstStatus fill_tets(Making *making)
         mesh->tet_region[t] = parent->tet_region[from];
         if (parent->tet_axes)
             memcpy(mesh->tet_axes + 9 * (size_t)t, parent->tet_axes + 9 * (size_t)from, 9 * sizeof(double));
+        if (field > 0)
+            memcpy(mesh->tet_field + field * (size_t)t, parent->tet_field + field * (size_t)from,
+                   field * sizeof(double));
     }
     return OST_SUCCESS;
 }

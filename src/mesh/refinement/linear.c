@@ -58,6 +58,12 @@ static OstStatus fill_tets(const OstMesh *quadratic, const OstLocal *vertex, Ost
     OST_TRY(OST_NEW(linear->ctx, &linear->tet_region, count));
     if (quadratic->tet_axes)
         OST_TRY(OST_NEW(linear->ctx, &linear->tet_axes, 9 * count));
+    const size_t field = (size_t)quadratic->field_width * count;
+    linear->field_width = quadratic->field_width;
+    if (field > 0) {
+        OST_TRY(OST_NEW(linear->ctx, &linear->tet_field, field));
+        memcpy(linear->tet_field, quadratic->tet_field, field * sizeof(double));
+    }
     for (size_t t = 0; t < count; t++)
         for (size_t v = 0; v < 4; v++)
             linear->tet_nodes[4 * t + v] = vertex[quadratic->tet_nodes[10 * t + v]];

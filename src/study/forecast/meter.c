@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "study/meter.h"
+#include "study/forecast/meter.h"
 
 #include "core/error.h"
 #include "core/parallel/reduce.h"

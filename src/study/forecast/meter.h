@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_STUDY_METER_H
-#define ORTHOSTAT_STUDY_METER_H
+#ifndef ORTHOSTAT_STUDY_FORECAST_METER_H
+#define ORTHOSTAT_STUDY_FORECAST_METER_H
 
 #include "effect/effect.h"
 

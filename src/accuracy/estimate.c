@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/estimate.h"
+
+#include "accuracy/loads.h"
+#include "accuracy/operator.h"
+#include "assembly/springs.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <string.h>
+
+/* Of |e|_A²: steps end where two of them add less than this share, at this many at most (of nearly incompressible
+ * linear tets, which lock, the first ones find little); gains are taken to fall by no less than this ratio. */
+static const double small_gain = 0.1, largest_ratio = 0.75;
+enum { most_steps = 24 };
+
+struct OstEstimate {
+    const OstProblem *problem;
+    OstComplement complement;
+    OstSurplusLoads loads;
+    OstOperator stiffness;
+    double *inverse; /* of the functions' blocks, once they are known */
+    int has_inverse; /* of linear theory */
+};
+
+void ost_estimate_destroy(OstEstimate **estimate)
+{
+    if (!*estimate)
+        return;
+    ost_surplus_loads_clear(&(*estimate)->loads);
+    ost_complement_clear(&(*estimate)->complement);
+    OST_FREE((*estimate)->inverse);
+    OST_FREE(*estimate);
+}
+
+static OstStatus create(OstEstimate *estimate)
+{
+    const OstProblem *problem = estimate->problem;
+    OST_TRY(ost_complement_create(problem->mesh, problem->supports, &estimate->complement));
+    OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
+    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL};
+    return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
+}
+
+/* Takes the stiffness to u. */
+static OstStatus move(OstEstimate *estimate, const double *u)
+{
+    const int is_linear = ost_problem_is_linear(estimate->problem);
+    estimate->stiffness.turned_by = is_linear ? NULL : u;
+    if (is_linear && estimate->has_inverse)
+        return OST_SUCCESS;
+    estimate->has_inverse = is_linear;
+    return ost_agree(estimate->problem->ctx, ost_operator_diagonal(&estimate->stiffness, estimate->inverse));
+}
+
+OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
+{
+    OstStatus status = ost_agree(problem->ctx, OST_NEW(problem->ctx, estimate, 1));
+    if (status != OST_SUCCESS)
+        return status;
+    (*estimate)->problem = problem;
+    if (problem->scene)
+        status = create(*estimate);
+    if (status != OST_SUCCESS)
+        ost_estimate_destroy(estimate);
+    return status;
+}
+
+/* --- conjugate gradients on elements and complement --- */
+
+/* Vectors: 3 numbers for each row of the system, then 3 for each function; in most of them those of ghosts are 0. */
+typedef struct Search {
+    const OstEstimate *estimate;
+    OstSolver *solver;
+    size_t rows, all; /* numbers of the rows, and of both */
+    double *r, *z, *p, *q, *e;
+    double *u, *force; /* of nodes: a displacement, and forces on it */
+    int failed;        /* is the preconditioner, or the stiffness, not positive definite? */
+} Search;
+
+static OstStatus open_search(const OstEstimate *estimate, OstSolver *solver, Search *search)
+{
+    const OstProblem *problem = estimate->problem;
+    OstContext *ctx = problem->ctx;
+    *search = (Search){.estimate = estimate, .solver = solver};
+    search->rows = 3 * (size_t)problem->system->matrix->rows;
+    search->all = search->rows + 3 * (size_t)estimate->complement.count;
+    OstStatus status = OST_NEW(ctx, &search->r, 5 * search->all);
+    OST_THEN(OST_NEW(ctx, &search->u, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &search->force, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_TRY(ost_agree(ctx, status));
+    search->z = search->r + search->all;
+    search->p = search->z + search->all;
+    search->q = search->p + search->all;
+    search->e = search->q + search->all;
+    return OST_SUCCESS;
+}
+
+static void close_search(Search *search)
+{
+    OST_FREE(search->r);
+    OST_FREE(search->u);
+    OST_FREE(search->force);
+}
+
+static OstStatus dot(const Search *search, const double *a, const double *b, double *product)
+{
+    *product = 0.0;
+    for (size_t i = 0; i < search->all; i++)
+        *product += a[i] * b[i];
+    return ost_sum(search->estimate->problem->ctx, 1, product);
+}
+
+/* The rows' part of forces on nodes. */
+static void take_rows(const Search *search, double *vector)
+{
+    const OstSystem *system = search->estimate->problem->system;
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, search->force + 3 * (size_t)node, vector + 3 * (size_t)row);
+    }
+}
+
+/* q = A p */
+static OstStatus multiply(Search *search)
+{
+    const OstProblem *problem = search->estimate->problem;
+    double *of_functions = search->q + search->rows;
+    OST_TRY(ost_system_displacement(problem->system, 0.0, search->p, search->u));
+    OST_TRY(ost_complement_import(&search->estimate->complement, search->p + search->rows));
+    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0, search->u, search->force);
+    take_rows(search, search->q);
+    ost_complement_project(&search->estimate->complement, of_functions);
+    return OST_SUCCESS;
+}
+
+/* z = B r */
+static OstStatus precondition(Search *search)
+{
+    const OstComplement *complement = &search->estimate->complement;
+    const double *r = search->r + search->rows;
+    double *z = search->z + search->rows;
+    int found;
+    OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
+    search->failed = !found;
+    for (size_t k = 0; k < (size_t)complement->count; k++)
+        if (ost_complement_owns(complement, (OstLocal)k))
+            ost_apply3(search->estimate->inverse + 9 * k, r + 3 * k, z + 3 * k);
+    return OST_SUCCESS;
+}
+
+/* Goes along p: `gain` is what that adds to |e|_A², `weight` r·z before. */
+static OstStatus go_on(Search *search, double weight, double *gain)
+{
+    double curvature = 0.0;
+    OST_TRY(multiply(search));
+    OST_TRY(dot(search, search->p, search->q, &curvature));
+    search->failed = !(curvature > 0.0);
+    const double length = search->failed ? 0.0 : weight / curvature;
+    for (size_t i = 0; i < search->all; i++) {
+        search->e[i] += length * search->p[i];
+        search->r[i] -= length * search->q[i];
+    }
+    *gain = length * weight;
+    return OST_SUCCESS;
+}
+
+/* The next direction, as if the preconditioner varied (Polak and Ribiere). */
+static OstStatus turn(Search *search, double gain, double *weight)
+{
+    const double before = *weight;
+    double product = 0.0;
+    OST_TRY(precondition(search));
+    OST_TRY(dot(search, search->r, search->z, weight));
+    OST_TRY(dot(search, search->z, search->q, &product));
+    const double share = before > 0.0 ? -gain * product / (before * before) : 0.0;
+    for (size_t i = 0; i < search->all; i++)
+        search->p[i] = search->z[i] + share * search->p[i];
+    search->failed |= !(*weight >= 0.0) || !isfinite(*weight);
+    return OST_SUCCESS;
+}
+
+/* Steps until two of them together add little to |e|_A². What later ones would add is extrapolated. */
+static OstStatus iterate(Search *search, double *square)
+{
+    OstContext *ctx = search->estimate->problem->ctx;
+    double weight = 0.0, gain = 0.0, last = 0.0;
+    *square = 0.0;
+    OST_TRY(turn(search, 0.0, &weight));
+    for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
+        last = gain;
+        OST_TRY(go_on(search, weight, &gain));
+        *square += gain;
+        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, a share of %.1e new", k + 1, sqrt(*square),
+                gain / *square);
+        if (search->failed || (k > 0 && gain + last <= small_gain * *square))
+            break;
+        OST_TRY(turn(search, gain, &weight));
+    }
+    const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
+    *square += gain * ratio / (1.0 - ratio);
+    return OST_SUCCESS;
+}
+
+/* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
+static OstStatus find_residual(Search *search, double t, const double *u)
+{
+    const OstEstimate *estimate = search->estimate;
+    const OstProblem *problem = estimate->problem;
+    const OstComplement *complement = &estimate->complement;
+    double *of_functions = search->r + search->rows, *own = NULL;
+    ost_operator_force(&estimate->stiffness, t, u, search->force, of_functions);
+    for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
+        of_functions[i] = -of_functions[i];
+    ost_surplus_loads_add(&estimate->loads, problem, complement, t, u, of_functions);
+    for (size_t k = 0; k < (size_t)complement->count; k++)
+        if (!ost_complement_owns(complement, (OstLocal)k))
+            memset(of_functions + 3 * k, 0, 3 * sizeof *of_functions);
+    ost_complement_project(complement, of_functions);
+    OstStatus status = OST_SUCCESS;
+    if (problem->mesh->nodes_per_tet == 4 && !problem->field->region_formula) /* the same quadrature: r is 0 */
+        return OST_SUCCESS;
+    OST_THEN(OST_NEW(problem->ctx, &own, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation,
+                                   ost_problem_eigen_share(problem, t), u, own, NULL));
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)
+        search->force[i] = own[i] - search->force[i];
+    OST_FREE(own);
+    if (status == OST_SUCCESS)
+        take_rows(search, search->r);
+    return ost_agree(problem->ctx, status);
+}
+
+static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
+{
+    const OstProblem *problem = search->estimate->problem;
+    double most[2] = {0.0}, energy = 0.0;
+    OST_TRY(ost_system_displacement(problem->system, 0.0, search->e, search->u));
+    for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
+        double better[3];
+        for (size_t i = 0; i < 3; i++)
+            better[i] = u[3 * n + i] + search->u[3 * n + i];
+        most[0] = fmax(most[0], ost_norm3(search->u + 3 * n));
+        most[1] = fmax(most[1], ost_norm3(better));
+    }
+    OST_TRY(ost_max(problem->ctx, 2, most));
+    OST_TRY(ost_problem_energy(problem, t, u, &energy));
+    found->energy_norm = sqrt(square);
+    found->relative = square > 0.0 ? sqrt(square / (square + 2.0 * energy)) : 0.0;
+    found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
+    found->known = 1;
+    return OST_SUCCESS;
+}
+
+static OstStatus share(Search *search, double square, double *tet_error)
+{
+    const OstProblem *problem = search->estimate->problem;
+    double sum = 0.0;
+    OST_TRY(ost_complement_import(&search->estimate->complement, search->e + search->rows));
+    ost_operator_energy(&search->estimate->stiffness, search->u, search->e + search->rows, tet_error);
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        sum += tet_error[tet];
+    OST_TRY(ost_sum(problem->ctx, 1, &sum));
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        tet_error[tet] *= sum > 0.0 ? square / sum : 0.0;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
+                            double *tet_error)
+{
+    Search search = {0};
+    double square = 0.0;
+    *found = (OstAnswerError){0};
+    if (!estimate->problem->scene)
+        return OST_SUCCESS;
+    OstStatus status = move(estimate, u);
+    OST_THEN(open_search(estimate, solver, &search));
+    OST_THEN(find_residual(&search, t, u));
+    OST_THEN(iterate(&search, &square));
+    if (status == OST_SUCCESS && !search.failed) {
+        status = compare(&search, t, u, square, found);
+        if (tet_error)
+            OST_THEN(share(&search, square, tet_error));
+    }
+    close_search(&search);
+    return status;
+}

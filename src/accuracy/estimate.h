@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_ESTIMATE_H
+#define ORTHOSTAT_ACCURACY_ESTIMATE_H
+
+#include "algebra/solver.h"
+#include "problem/problem.h"
+
+/* An estimate of the discretisation error of a displacement u, by the surplus of the next order of elements: e is the
+ * solution of A e = f - A u in the elements' space V and its complement W in that order (quadratic functions of the
+ * edges of linear tets; cubic ones of the edges and faces of quadratic tets). A few conjugate gradient steps find e,
+ * with the solver's preconditioner on V and 3×3 diagonal blocks on W. So the error is seen that the whole body makes
+ * (a block of linear tets in bending is far too stiff everywhere), and material axes and jumps as they are (R. E. Bank
+ * and R. K. Smith, A posteriori error estimates based on hierarchical bases, 1993). */
+typedef struct OstEstimate OstEstimate;
+
+/* Collective. What is kept between calls for one problem. */
+OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate);
+
+/* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
+ * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
+ * NULL. u need not solve the problem's equations well: what is missing there does not count. found->known is 0 where
+ * the loads are not known as functions of place (a problem made of nodal forces), and where the solver has no
+ * preconditioner that is positive definite. */
+OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
+                            double *tet_error);
+
+void ost_estimate_destroy(OstEstimate **estimate);
+
+#endif

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/loads.h"
+
+#include "assembly/loads.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "element/quadrature.h"
+#include "element/shape_functions.h"
+
+#include <string.h>
+
+/* --- integrals over one face, and over one tet --- */
+
+typedef struct Face {
+    const OstLocal *nodes;
+    int node_count, count;
+    OstLocal function[4];
+    double turn[4];
+    double x[3 * OST_MAX_FACE_NODES];
+} Face;
+
+static void open_face(const OstComplement *complement, int nodes_per_face, const OstLocal *nodes, Face *face)
+{
+    const OstMesh *mesh = complement->mesh;
+    face->nodes = nodes;
+    face->node_count = nodes_per_face;
+    face->count = ost_complement_of_face(complement, nodes, face->function);
+    for (int k = 0; k < face->count; k++)
+        face->turn[k] = k < 3 ? ost_complement_turn(mesh, nodes[k], nodes[(k + 1) % 3]) : 1.0;
+    ost_gather3(nodes_per_face, nodes, mesh->coordinates, face->x);
+}
+
+static void add(const OstComplement *complement, OstLocal function, double scale, const double vector[3], double *force)
+{
+    for (int i = 0; i < 3 && ost_complement_owns(complement, function); i++)
+        force[3 * (size_t)function + (size_t)i] += scale * vector[i];
+}
+
+static void share_over_face(const OstComplement *complement, const Face *face, const double at[3],
+                            const double at_point[3], double *force)
+{
+    double values[4];
+    ost_complement_face_values(face->node_count == 6, at, values);
+    for (int k = 0; k < face->count; k++)
+        add(complement, face->function[k], face->turn[k] * values[k], at_point, force);
+}
+
+/* What acts on faces: a traction, a pressure, or the closed form's stress. */
+typedef struct Traction {
+    double vector[3];
+    double pressure;
+    const OstClosedForm *exact;
+} Traction;
+
+static OstStatus load_face(const OstComplement *complement, const Face *face, const Traction *traction, double *force)
+{
+    for (int q = 0; q < ost_triangle_degree5.count; q++) {
+        const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
+        double values[OST_MAX_FACE_NODES], place[3], area[3], s[6], at_point[3];
+        ost_shape_area_vector(face->node_count, point->at, face->x, area);
+        const double weight = 0.5 * point->weight, size = ost_norm3(area);
+        for (int i = 0; i < 3; i++)
+            at_point[i] = weight * (size * traction->vector[i] - traction->pressure * area[i]);
+        if (traction->exact) {
+            ost_shape_values(face->node_count, point->at, values);
+            ost_shape_place(face->node_count, values, face->x, place);
+            OST_TRY(traction->exact->stress(traction->exact->data, place, s));
+            at_point[0] = weight * (s[0] * area[0] + s[3] * area[1] + s[5] * area[2]);
+            at_point[1] = weight * (s[3] * area[0] + s[1] * area[1] + s[4] * area[2]);
+            at_point[2] = weight * (s[5] * area[0] + s[4] * area[1] + s[2] * area[2]);
+        }
+        share_over_face(complement, face, point->at, at_point, force);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus load_faces(const OstComplement *complement, OstLocal count, int nodes_per_face, const OstLocal *faces,
+                            const Traction *traction, double *force)
+{
+    for (OstLocal f = 0; f < count; f++) {
+        Face face;
+        open_face(complement, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, &face);
+        OST_TRY(load_face(complement, &face, traction, force));
+    }
+    return OST_SUCCESS;
+}
+
+/* A force per volume: `vector`, or the closed form's. */
+static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const double vector[3],
+                          const OstClosedForm *exact, double *force)
+{
+    const OstMesh *mesh = complement->mesh;
+    const int n = mesh->nodes_per_tet;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    OstLocal function[OST_MAX_FUNCTIONS];
+    double x[3 * OST_MAX_TET_NODES], shape[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
+    ost_complement_of_tet(complement, tet, function);
+    ost_gather3(n, nodes, mesh->coordinates, x);
+    for (int q = 0; q < ost_tet_degree5.count; q++) {
+        const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
+        double values[OST_MAX_FUNCTIONS], place[3], density[3] = {vector[0], vector[1], vector[2]};
+        const double weight = point->weight * ost_shape_gradients(n, point->at, x, gradients) / 6.0;
+        if (exact) {
+            ost_shape_values(n, point->at, shape);
+            ost_shape_place(n, shape, x, place);
+            OST_TRY(exact->body_force(exact->data, place, density));
+        }
+        ost_complement_values(n == 10, point->at, values);
+        for (int k = 0; k < ost_complement_per_tet(complement); k++) {
+            const int *edge = ost_tet_edge[k < 6 ? k : 0];
+            const double turn = k < 6 ? ost_complement_turn(mesh, nodes[edge[0]], nodes[edge[1]]) : 1.0;
+            add(complement, function[k], turn * weight * values[k], density, force);
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* --- the loads of the case --- */
+
+static OstStatus add_body_load(const OstScene *scene, const OstComplement *complement, const OstLoad *load,
+                               double *force)
+{
+    const OstMesh *mesh = complement->mesh;
+    const int region = load->region ? ost_mesh_find_region(mesh, load->region) : -1;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        if (region >= 0 && mesh->tet_region[tet] != region)
+            continue;
+        const double density = load->kind == OST_LOAD_GRAVITY ? ost_field_density(scene->field, tet) : 1.0;
+        double vector[3];
+        for (int i = 0; i < 3; i++)
+            vector[i] = density * load->vector[i];
+        OST_TRY(load_tet(complement, tet, vector, load->exact ? scene->exact : NULL, force));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_surface_load(const OstScene *scene, const OstComplement *complement, const OstLoad *load,
+                                  double *force)
+{
+    Traction traction = {.pressure = load->kind == OST_LOAD_PRESSURE ? load->pressure : 0.0,
+                         .exact = load->exact ? scene->exact : NULL};
+    OstLocal count = 0, *faces = NULL;
+    int nodes_per_face = 3;
+    double area = 1.0;
+    if (load->follows) /* the problem has those */
+        return OST_SUCCESS;
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, &count, &nodes_per_face, &faces));
+    OstStatus status = OST_SUCCESS;
+    if (load->kind == OST_LOAD_TOTAL_FORCE)
+        status = ost_faces_area(scene->mesh, count, faces, nodes_per_face, &area);
+    for (int i = 0; i < 3 && load->kind != OST_LOAD_PRESSURE; i++)
+        traction.vector[i] = load->vector[i] / area;
+    OST_THEN(load_faces(complement, count, nodes_per_face, faces, &traction, force));
+    OST_FREE(faces);
+    return status;
+}
+
+static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, double *force)
+{
+    const OstLoad *load = &scene->c->loads[i];
+    OstStatus status = OST_SUCCESS;
+    if (scene->load_effect[i] == OST_EFFECT_BODY_FORCE)
+        status = add_body_load(scene, complement, load, force);
+    else if (scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD)
+        status = add_surface_load(scene, complement, load, force);
+    return ost_agree(scene->ctx, status);
+}
+
+static OstStatus add_foundation(const OstScene *scene, const OstSpring *spring, OstSurplusLoads *loads)
+{
+    struct OstFoundation *made = NULL;
+    OST_TRY(ost_agree(scene->ctx, OST_NEW(scene->ctx, &made, 1)));
+    made->along = spring->along;
+    made->across = spring->across;
+    memcpy(made->direction, spring->direction, sizeof made->direction);
+    made->next = loads->foundation;
+    loads->foundation = made;
+    return ost_select_faces(scene->c, scene->mesh, &spring->on, &made->count, &made->nodes_per_face, &made->faces);
+}
+
+OstStatus ost_surplus_loads_create(const OstProblem *problem, const OstComplement *complement, OstSurplusLoads *loads)
+{
+    const OstScene *scene = problem->scene;
+    OstContext *ctx = problem->ctx;
+    *loads = (OstSurplusLoads){.count = ost_problem_functions(problem)};
+    OstStatus status = OST_NEW(ctx, &loads->force, loads->count);
+    for (int k = 0; k < loads->count && status == OST_SUCCESS; k++)
+        status = OST_NEW(ctx, &loads->force[k], 3 * (size_t)complement->count);
+    OST_TRY(ost_agree(ctx, status));
+    for (int i = 0; i < scene->c->load_count; i++)
+        if (ost_effect_on(problem->effects, scene->load_effect[i]))
+            OST_TRY(add_load(scene, complement, i, loads->force[scene->c->loads[i].table]));
+    for (int i = 0; i < scene->c->spring_count; i++)
+        if (scene->c->springs[i].kind == OST_SPRING_FOUNDATION &&
+            ost_effect_on(problem->effects, OST_EFFECT_FOUNDATION))
+            OST_TRY(add_foundation(scene, &scene->c->springs[i], loads));
+    return OST_SUCCESS;
+}
+
+void ost_surplus_loads_clear(OstSurplusLoads *loads)
+{
+    for (int k = 0; k < loads->count && loads->force; k++)
+        OST_FREE(loads->force[k]);
+    OST_FREE(loads->force);
+    while (loads->foundation) {
+        struct OstFoundation *next = loads->foundation->next;
+        OST_FREE(loads->foundation->faces);
+        OST_FREE(loads->foundation);
+        loads->foundation = next;
+    }
+}
+
+/* --- loads that depend on the displacement --- */
+
+static void add_follower(const OstComplement *complement, const OstFollower *follower, double factor, const double *u,
+                         double *force)
+{
+    const int n = follower->nodes_per_face;
+    for (OstLocal f = 0; f < follower->count; f++) {
+        const OstLocal *nodes = follower->faces + (size_t)n * (size_t)f;
+        double moved[3 * OST_MAX_FACE_NODES];
+        Face face;
+        open_face(complement, n, nodes, &face);
+        if (u)
+            ost_gather3(n, nodes, u, moved);
+        for (int i = 0; i < 3 * n && u; i++)
+            face.x[i] += moved[i];
+        (void)load_face(complement, &face, &(Traction){.pressure = factor * follower->pressure},
+                        force); /* cannot fail */
+    }
+}
+
+static void load_foundation_face(const OstComplement *complement, const struct OstFoundation *foundation,
+                                 const Face *face, const double *u, double *force)
+{
+    for (int q = 0; q < ost_triangle_degree5.count; q++) {
+        const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
+        double values[OST_MAX_FACE_NODES], area[3], moved[3], direction[3], at_point[3];
+        ost_shape_values(face->node_count, point->at, values);
+        ost_shape_place(face->node_count, values, u, moved);
+        ost_shape_area_vector(face->node_count, point->at, face->x, area);
+        const double size = ost_norm3(area), weight = 0.5 * point->weight * size;
+        for (int i = 0; i < 3; i++)
+            direction[i] = ost_norm3(foundation->direction) > 0.0 ? foundation->direction[i] : area[i] / size;
+        const double along = (foundation->along - foundation->across) * ost_dot3(direction, moved);
+        for (int i = 0; i < 3; i++)
+            at_point[i] = -weight * (foundation->across * moved[i] + along * direction[i]);
+        share_over_face(complement, face, point->at, at_point, force);
+    }
+}
+
+static void add_foundation_force(const OstComplement *complement, const struct OstFoundation *foundation,
+                                 const double *u, double *force)
+{
+    const int n = foundation->nodes_per_face;
+    for (OstLocal f = 0; f < foundation->count; f++) {
+        const OstLocal *nodes = foundation->faces + (size_t)n * (size_t)f;
+        double moved[3 * OST_MAX_FACE_NODES];
+        Face face;
+        open_face(complement, n, nodes, &face);
+        ost_gather3(n, nodes, u, moved);
+        load_foundation_face(complement, foundation, &face, moved, force);
+    }
+}
+
+void ost_surplus_loads_add(const OstSurplusLoads *loads, const OstProblem *problem, const OstComplement *complement,
+                           double t, const double *u, double *force)
+{
+    const double *moves = ost_problem_is_linear(problem) ? NULL : u;
+    for (int k = 0; k < loads->count; k++) {
+        const double factor = ost_problem_factor(problem, k, t);
+        for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
+            force[i] += factor * loads->force[k][i];
+        for (const OstFollower *follower = problem->follower; follower; follower = follower->next)
+            if (follower->function == k)
+                add_follower(complement, follower, factor, moves, force);
+    }
+    for (const struct OstFoundation *foundation = loads->foundation; foundation; foundation = foundation->next)
+        add_foundation_force(complement, foundation, u, force);
+}

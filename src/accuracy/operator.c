@@ -1,0 +1,490 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/operator.h"
+
+#include "assembly/batch.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+#include "element/biot.h"
+#include "element/large_rotation.h"
+#include "element/shape_functions.h"
+#include "element/strain_batch.h"
+
+#include <string.h>
+
+enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
+
+/* A batch of tets with its functions. */
+typedef struct Cells {
+    OstBatch batch;
+    int nodes, functions;
+    const OstQuadrature *rule;
+    OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
+    OstSimd turn[OST_MAX_FUNCTIONS];
+    const double *turned_by; /* as the operator's; then its displacements */
+    OstSimd base[NUMBERS];
+} Cells;
+
+/* Degrees 2 and 5 integrate products of the functions' gradients in straight tets without error. */
+static void clear_cells(const OstOperator *operator, double eigen_share, Cells *cells)
+{
+    cells->turned_by = operator->turned_by;
+    cells->nodes = operator->complement->mesh->nodes_per_tet;
+    cells->functions = ost_complement_per_tet(operator->complement);
+    cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
+    ost_elasticity_clear(&cells->batch.elasticity);
+    cells->batch.elasticity.eigen_share = eigen_share;
+}
+
+static void find_places(const Cells *cells, OstSimd *places)
+{
+    for (int q = 0; q < cells->rule->count; q++) {
+        double shape[OST_MAX_TET_NODES];
+        ost_shape_values(cells->nodes, cells->rule->point[q].at, shape);
+        for (int i = 0; i < 3; i++) {
+            places[3 * q + i] = shape[0] * cells->batch.x[i];
+            for (int a = 1; a < cells->nodes; a++)
+                places[3 * q + i] += shape[a] * cells->batch.x[3 * a + i];
+        }
+    }
+}
+
+/* The next tets from `first` on. */
+static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Cells *cells)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstMaterialField *field = operator->problem->field;
+    OstBatch *batch = &cells->batch;
+    OstSimd places[3 * OST_MAX_POINTS];
+    batch->count = end - first < OST_SIMD_WIDTH ? (int)(end - first) : OST_SIMD_WIDTH;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        const OstLocal tet = first + (slot < batch->count ? slot : batch->count - 1);
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+        batch->tet[slot] = tet;
+        memcpy(batch->node[slot], nodes, (size_t)cells->nodes * sizeof *nodes);
+        ost_complement_of_tet(operator->complement, tet, cells->function[slot]);
+        for (int k = 0; k < cells->functions; k++)
+            cells->turn[k][slot] =
+                k < 6 ? ost_complement_turn(mesh, nodes[ost_tet_edge[k][0]], nodes[ost_tet_edge[k][1]]) : 1.0;
+    }
+    ost_batch_gather_vectors(batch, cells->nodes, mesh->coordinates, batch->x);
+    if (cells->turned_by)
+        ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
+    if (field->region_formula)
+        find_places(cells, places);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->rule->count, places);
+}
+
+static void gather_functions(const Cells *cells, const double *values, OstSimd *gathered)
+{
+    for (int k = 0; k < cells->functions; k++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            const double *value = values + 3 * (size_t)cells->function[slot][k];
+            for (int i = 0; i < 3; i++)
+                gathered[3 * k + i][slot] = cells->turn[k][slot] * value[i];
+        }
+}
+
+static void scatter(const OstOperator *operator, const Cells * cells, const OstSimd *at_nodes,
+                    const OstSimd *at_functions, double *force, double *of_functions)
+{
+    const OstLocal owned = operator->problem->mesh->owned_nodes;
+    for (int slot = 0; slot < cells->batch.count; slot++) {
+        for (int a = 0; a < cells->nodes; a++) {
+            const OstLocal node = cells->batch.node[slot][a];
+            for (int i = 0; i < 3 && node < owned; i++)
+                force[3 * (size_t)node + (size_t)i] += at_nodes[3 * a + i][slot];
+        }
+        for (int k = 0; k < cells->functions; k++) {
+            const OstLocal function = cells->function[slot][k];
+            if (!ost_complement_owns(operator->complement, function))
+                continue;
+            for (int i = 0; i < 3; i++)
+                of_functions[3 * (size_t)function + (size_t)i] += cells->turn[k][slot] * at_functions[3 * k + i][slot];
+        }
+    }
+}
+
+/* The gradients at a point, with its volume. */
+static inline void evaluate(const Cells *cells, const OstElement *element, int q, OstPoint *point,
+                            OstSimd gradient[OST_MAX_FUNCTIONS][3])
+{
+    element->evaluate(cells->batch.x, &cells->rule->point[q], point);
+    ost_complement_gradients(cells->nodes, cells->rule->point[q].at, point, gradient);
+}
+
+/* --- forces --- */
+
+/* The strain of a displacement gradient (row-major), less the eigenstrain. */
+static void find_strain(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9], OstPolar *polar,
+                        OstSimd elastic[6])
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd strain[6];
+    for (int i = 0; i < 3 && formulation == OST_FORMULATION_LINEAR; i++) {
+        const int next = (i + 1) % 3;
+        strain[i] = slope[4 * i];
+        strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
+    }
+    if (formulation != OST_FORMULATION_LINEAR) {
+        ost_polar(slope, polar);
+        ost_biot_strain(polar, strain);
+    }
+    ost_elastic_strain(elasticity, ost_elasticity_at(elasticity, q), strain, elastic);
+}
+
+/* The first Piola stress, times the volume; `mean` is that of the stiff mode over the tet. */
+static void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
+                        const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
+{
+    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    const int at = ost_elasticity_at(elasticity, q);
+    OstSimd elastic[6], stress[6];
+    OstPolar polar;
+    find_strain(cells, formulation, q, slope, &polar, elastic);
+    ost_simd_stress(elasticity->c[at], elastic, stress);
+    for (int p = 0; p < 6 && elasticity->by_mean; p++)
+        stress[p] += *mean * elasticity->m[at][p];
+    for (int n = 0; n < 9 && formulation == OST_FORMULATION_LINEAR; n++)
+        piola[n] = stress[place[n]];
+    if (formulation != OST_FORMULATION_LINEAR)
+        ost_biot_piola(&polar, stress, piola);
+    for (int n = 0; n < 9; n++)
+        piola[n] *= *volume;
+}
+
+static inline void add_along(const OstSimd piola[9], const OstSimd gradient[3], OstSimd *force)
+{
+    for (int i = 0; i < 3; i++)
+        force[i] += piola[3 * i] * gradient[0] + piola[3 * i + 1] * gradient[1] + piola[3 * i + 2] * gradient[2];
+}
+
+static inline void add_slope(const OstSimd *u, const OstSimd gradient[3], OstSimd slope[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] += u[i] * gradient[j];
+}
+
+/* The displacement gradient at a point; w may be NULL. */
+static inline void find_slope(const Cells *cells, const OstPoint *point, OstSimd gradient[OST_MAX_FUNCTIONS][3],
+                              const OstSimd *u, const OstSimd *w, OstSimd slope[9])
+{
+    ost_displacement_gradient(cells->nodes, point, u, slope);
+    for (int k = 0; k < cells->functions && w; k++)
+        add_slope(w + 3 * k, gradient[k], slope);
+}
+
+/* R at a point of the turned body. */
+static void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
+{
+    OstSimd slope[9];
+    OstPolar polar;
+    ost_displacement_gradient(cells->nodes, point, cells->base, slope);
+    ost_polar(slope, &polar);
+    ost_polar_rotation(&polar, rotation);
+}
+
+/* R' slope, and R slope. */
+static void turn_back(const OstSimd rotation[9], OstSimd slope[9])
+{
+    OstSimd given[9];
+    memcpy(given, slope, sizeof given);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] = rotation[i] * given[j] + rotation[3 + i] * given[3 + j] + rotation[6 + i] * given[6 + j];
+}
+
+static void turn(const OstSimd rotation[9], OstSimd slope[9])
+{
+    OstSimd given[9];
+    memcpy(given, slope, sizeof given);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] =
+                rotation[3 * i] * given[j] + rotation[3 * i + 1] * given[3 + j] + rotation[3 * i + 2] * given[6 + j];
+}
+
+/* The mean of m'(strain - e0) over the tets where C is split. */
+static void find_mean(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
+                      const OstSimd *w, OstSimd *mean)
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd volume = {0};
+    *mean = (OstSimd){0};
+    for (int q = 0; q < cells->rule->count; q++) {
+        const OstSimd *m = elasticity->m[ost_elasticity_at(elasticity, q)];
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], elastic[6], rotation[9];
+        OstPoint point;
+        OstPolar polar;
+        evaluate(cells, element, q, &point, gradient);
+        find_slope(cells, &point, gradient, u, w, slope);
+        if (cells->turned_by) {
+            find_rotation(cells, &point, rotation);
+            turn_back(rotation, slope);
+        }
+        find_strain(cells, formulation, q, slope, &polar, elastic);
+        volume += point.volume;
+        for (int p = 0; p < 6; p++)
+            *mean += point.volume * m[p] * elastic[p];
+    }
+    *mean /= volume;
+}
+
+/* Forces of a batch; w may be NULL. */
+static void forces_of(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
+                      const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+{
+    OstSimd mean = {0};
+    memset(at_nodes, 0, 3 * (size_t)cells->nodes * sizeof *at_nodes);
+    memset(at_functions, 0, 3 * (size_t)cells->functions * sizeof *at_functions);
+    if (cells->batch.elasticity.by_mean)
+        find_mean(cells, element, formulation, u, w, &mean);
+    for (int q = 0; q < cells->rule->count; q++) {
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], piola[9], rotation[9];
+        OstPoint point;
+        evaluate(cells, element, q, &point, gradient);
+        find_slope(cells, &point, gradient, u, w, slope);
+        if (cells->turned_by) {
+            find_rotation(cells, &point, rotation);
+            turn_back(rotation, slope);
+        }
+        find_stress(cells, formulation, q, slope, &mean, &point.volume, piola);
+        if (cells->turned_by)
+            turn(rotation, piola);
+        for (int a = 0; a < cells->nodes; a++)
+            add_along(piola, point.gradient[a], at_nodes + 3 * a);
+        for (int k = 0; k < cells->functions; k++)
+            add_along(piola, gradient[k], at_functions + 3 * k);
+    }
+}
+
+/* The same of straight linear tets with uniform C, by linear theory: the stress is linear, and known at the vertices.
+ */
+static void forces_of_linear(const Cells *cells, const OstElement *element, const OstSimd *u, const OstSimd *w,
+                             OstSimd *at_nodes, OstSimd *at_functions)
+{
+    OstPoint point;
+    OstSimd slope[9], at_vertex[4][9], stress[4][9], sum[9] = {{0}};
+    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
+    ost_displacement_gradient(4, &point, u, slope);
+    for (int a = 0; a < 4; a++)
+        memcpy(at_vertex[a], slope, sizeof slope);
+    for (int e = 0; e < 6 && w; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        const OstSimd coefficient[3] = {4.0 * w[3 * e], 4.0 * w[3 * e + 1], 4.0 * w[3 * e + 2]};
+        add_slope(coefficient, point.gradient[b], at_vertex[a]);
+        add_slope(coefficient, point.gradient[a], at_vertex[b]);
+    }
+    point.volume *= 0.05; /* of products of two barycentric coordinates */
+    for (int a = 0; a < 4; a++) {
+        find_stress(cells, OST_FORMULATION_LINEAR, 0, at_vertex[a], NULL, &point.volume, stress[a]);
+        for (int n = 0; n < 9; n++)
+            sum[n] += stress[a][n];
+    }
+    memset(at_functions, 0, 18 * sizeof *at_functions);
+    for (int e = 0; e < 6; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        OstSimd of_a[9], of_b[9];
+        for (int n = 0; n < 9; n++) {
+            of_a[n] = 4.0 * (sum[n] + stress[a][n]);
+            of_b[n] = 4.0 * (sum[n] + stress[b][n]);
+        }
+        add_along(of_a, point.gradient[b], at_functions + 3 * e);
+        add_along(of_b, point.gradient[a], at_functions + 3 * e);
+    }
+    memset(at_nodes, 0, 12 * sizeof *at_nodes);
+    for (int n = 0; n < 9; n++)
+        sum[n] *= 5.0;
+    for (int a = 0; a < 4; a++)
+        add_along(sum, point.gradient[a], at_nodes + 3 * a);
+}
+
+/* Forces of a batch by the quickest way; w may be NULL. */
+static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
+                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+{
+    const int is_simple = cells->nodes == 4 && cells->batch.elasticity.points == 1 &&
+                          formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
+    if (is_simple)
+        forces_of_linear(cells, element, u, w, at_nodes, at_functions);
+    else
+        forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
+}
+
+static void sum_forces(const OstOperator *operator, OstFormulation formulation, double eigen_share, const double *u,
+                       const double *w, double *force, double *of_functions)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    Cells cells;
+    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
+    memset(of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * of_functions);
+    clear_cells(operator, eigen_share, &cells);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+        gather(operator, first, mesh->tet_count, &cells);
+        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
+        if (w)
+            gather_functions(&cells, w, more);
+        find_forces(&cells, element, formulation, moved, w ? more : NULL, at_nodes, at_functions);
+        scatter(operator, & cells, at_nodes, at_functions, force, of_functions);
+    }
+}
+
+void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions)
+{
+    const OstProblem *problem = operator->problem;
+    const OstOperator unturned = {problem, operator->complement, NULL};
+    sum_forces(&unturned, problem->formulation, ost_problem_eigen_share(problem, t), u, NULL, force, of_functions);
+}
+
+void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
+                        double *of_functions)
+{
+    sum_forces(operator, OST_FORMULATION_LINEAR, 0.0, u, w, force, of_functions);
+}
+
+void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    Cells cells;
+    clear_cells(operator, 0.0, &cells);
+    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+        OstSimd sum = {0};
+        gather(operator, first, mesh->owned_tets, &cells);
+        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
+        gather_functions(&cells, w, more);
+        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+        for (int n = 0; n < 3 * cells.nodes; n++)
+            sum += (moved[n] - moved[n % 3]) * at_nodes[n];
+        for (int n = 0; n < 3 * cells.functions; n++)
+            sum += more[n] * at_functions[n];
+        for (int slot = 0; slot < cells.batch.count; slot++)
+            energy[cells.batch.tet[slot]] = sum[slot];
+    }
+}
+
+/* --- the functions' own blocks --- */
+
+/* Of straight linear tets with uniform C. */
+static void add_linear_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
+{
+    OstPoint point;
+    OstSimd own[4][9], stress[4][6][3];
+    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
+    for (int a = 0; a < 4; a++) {
+        ost_stress_columns(cells->batch.elasticity.c[0], point.gradient[a], stress[a]);
+        ost_block_of_stress(point.gradient[a], stress[a], own[a]);
+    }
+    for (int e = 0; e < 6; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        OstSimd cross[9];
+        ost_block_of_stress(point.gradient[a], stress[b], cross);
+        for (int n = 0; n < 9; n++)
+            block[e][n] =
+                point.volume * (1.6 * (own[a][n] + own[b][n]) + 0.8 * (cross[n] + cross[3 * (n % 3) + n / 3]));
+    }
+}
+
+static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    OstSimd mode[OST_MAX_FUNCTIONS][3] = {{{0}}}, volume = {0}; /* m'B of the stiff mode, integrated */
+    memset(block, 0, OST_MAX_FUNCTIONS * sizeof *block);
+    for (int q = 0; q < cells->rule->count; q++) {
+        const int at = ost_elasticity_at(elasticity, q);
+        OstSimd gradient[OST_MAX_FUNCTIONS][3];
+        OstPoint point;
+        evaluate(cells, element, q, &point, gradient);
+        volume += point.volume;
+        for (int k = 0; k < cells->functions; k++) {
+            OstSimd stress[6][3], of_point[9], of_mode[3];
+            ost_stress_columns(elasticity->c[at], gradient[k], stress);
+            ost_block_of_stress(gradient[k], stress, of_point);
+            for (int n = 0; n < 9; n++)
+                block[k][n] += point.volume * of_point[n];
+            if (!elasticity->by_mean)
+                continue;
+            ost_force_of_stress(gradient[k], elasticity->m[at], of_mode);
+            for (int i = 0; i < 3; i++)
+                mode[k][i] += point.volume * of_mode[i];
+        }
+    }
+    for (int k = 0; k < cells->functions && elasticity->by_mean; k++)
+        for (int n = 0; n < 9; n++)
+            block[k][n] += mode[k][n / 3] * mode[k][n % 3] / volume;
+}
+
+/* R block R' with the rotation at the centroid. */
+static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
+{
+    OstSimd rotation[9];
+    OstPoint point;
+    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
+    find_rotation(cells, &point, rotation);
+    for (int k = 0; k < cells->functions; k++) {
+        turn(rotation, block[k]);
+        for (int n = 0; n < 3; n++) {
+            OstSimd row[3] = {block[k][3 * n], block[k][3 * n + 1], block[k][3 * n + 2]};
+            for (int i = 0; i < 3; i++)
+                block[k][3 * n + i] =
+                    rotation[3 * i] * row[0] + rotation[3 * i + 1] * row[1] + rotation[3 * i + 2] * row[2];
+        }
+    }
+}
+
+/* P (P A P + (I - P) s)^-1 P, s of A's size. */
+static OstStatus invert(OstContext *ctx, const double *projector, double block[9])
+{
+    double inner[9], left[9];
+    const double size = (block[0] + block[4] + block[8]) / 3.0;
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, inner);
+        for (int n = 0; n < 9; n++)
+            block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
+    }
+    memcpy(inner, block, sizeof inner);
+    if (!(ost_invert3(inner, block) > 0.0))
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the error estimate meets a stiffness that is not positive definite");
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, block);
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstComplement *complement = operator->complement;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    Cells cells;
+    memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
+    clear_cells(operator, 0.0, &cells);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd block[OST_MAX_FUNCTIONS][9];
+        gather(operator, first, mesh->tet_count, &cells);
+        if (cells.nodes == 4 && cells.batch.elasticity.points == 1)
+            add_linear_blocks(&cells, element, block);
+        else
+            add_blocks(&cells, element, block);
+        if (cells.turned_by)
+            turn_blocks(&cells, element, block);
+        for (int slot = 0; slot < cells.batch.count; slot++)
+            for (int k = 0; k < cells.functions; k++)
+                for (int n = 0; n < 9; n++)
+                    inverse[9 * (size_t)cells.function[slot][k] + (size_t)n] += block[k][n][slot];
+    }
+    for (OstLocal k = 0; k < complement->count; k++) {
+        const OstLocal support = complement->support[k];
+        if (ost_complement_owns(complement, k))
+            OST_TRY(invert(mesh->ctx, support < 0 ? NULL : complement->projector + 9 * (size_t)support,
+                           inverse + 9 * (size_t)k));
+    }
+    return OST_SUCCESS;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_OPERATOR_H
+#define ORTHOSTAT_ACCURACY_OPERATOR_H
+
+#include "accuracy/complement.h"
+#include "problem/problem.h"
+
+/* Forces and stiffness of the elements and their complement together, tet by tet without a matrix. A displacement has
+ * 3 numbers for each node and for each function, ghosts included; forces are complete on those that this rank owns. */
+typedef struct OstOperator {
+    const OstProblem *problem;
+    const OstComplement *complement;
+    const double
+        *turned_by; /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
+} OstOperator;
+
+/* Local. The internal forces at t of the displacement u of the nodes. */
+void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions);
+
+/* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body.
+ * (What the stress adds to it is left out: so it is definite.) */
+void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
+                        double *of_functions);
+
+/* Local. The inverses of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained:
+ * 9 numbers for each function. */
+OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
+
+/* Local. Of each owned tet, twice the strain energy of a displacement. */
+void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy);
+
+#endif

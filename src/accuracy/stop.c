@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/stop.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <math.h>
+
+/* Relative to the solution; the error of the equations is never left above this. */
+static const double largest_error = 1e-2;
+
+/* Where the equations' error is more than this share of the discretisation error, the latter's estimate may have a part
+ * of it, and is made again. */
+static const double small_share = 0.5;
+
+void ost_solve_stop_close(OstSolveStop *stop)
+{
+    ost_estimate_destroy(&stop->estimate);
+    OST_FREE(stop->displacement);
+}
+
+/* The error of the equations to go on to; 0 where the discretisation error is not known. */
+static double next_error(OstSolveStop *stop, double error)
+{
+    const OstAnswerError *answer = stop->answer;
+    if (!answer->known || !(answer->relative > 0.0))
+        return 0.0;
+    const double size = answer->energy_norm / answer->relative;
+    stop->settled = error <= small_share * answer->energy_norm;
+    return fmin((stop->settled ? stop->share : small_share) * answer->energy_norm, largest_error * size);
+}
+
+/* OstErrorStop's. */
+static OstStatus ask(void *data, const double *u, double error, double *next)
+{
+    OstSolveStop *stop = data;
+    OstContext *ctx = stop->problem->ctx;
+    if (stop->settled) {
+        *next = error;
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_problem_displacement(stop->problem, 1.0, u, stop->displacement));
+    ost_ledger_enter(ctx, OST_EFFECT_ERROR_ESTIMATE);
+    const OstStatus status =
+        ost_estimate_find(stop->estimate, stop->solver, 1.0, stop->displacement, stop->answer, stop->tet_error);
+    ost_ledger_leave(ctx);
+    *next = next_error(stop, error);
+    ost_log(ctx, OST_LOG_VERBOSE, "solver: error of the equations %.2e, of the discretisation %.2e: on to %.2e", error,
+            stop->answer->energy_norm, *next);
+    return status;
+}
+
+OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, double *tet_error,
+                              OstAnswerError *answer, OstSolveStop *stop)
+{
+    *stop = (OstSolveStop){.stop = {.ask = ask, .data = stop, .first = largest_error, .relative = 1},
+                           .problem = problem,
+                           .solver = solver,
+                           .share = share,
+                           .tet_error = tet_error,
+                           .answer = answer};
+    ost_ledger_enter(problem->ctx, OST_EFFECT_ERROR_ESTIMATE);
+    OstStatus status =
+        ost_agree(problem->ctx, OST_NEW(problem->ctx, &stop->displacement, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(ost_estimate_create(problem, &stop->estimate));
+    ost_ledger_leave(problem->ctx);
+    if (status != OST_SUCCESS)
+        ost_solve_stop_close(stop);
+    return status;
+}
+
+void ost_solve_stop_tighten(OstSolveStop *stop, double error)
+{
+    stop->stop.first = error;
+    stop->stop.relative = 0;
+}

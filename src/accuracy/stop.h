@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_STOP_H
+#define ORTHOSTAT_ACCURACY_STOP_H
+
+#include "accuracy/estimate.h"
+
+/* Ends a linear solve where the error of its equations is a small share of the discretisation error, both in the norm
+ * of the energy: more iterations would hardly make the answer better. The discretisation error is estimated on the way,
+ * once that of the equations is a hundredth of the solution, and again while the two are of one size. */
+typedef struct OstSolveStop {
+    OstErrorStop stop; /* for OstSolverAim */
+    const OstProblem *problem;
+    OstSolver *solver;
+    OstEstimate *estimate;
+    double share;           /* of the discretisation error */
+    double *displacement;   /* 3 × node_count */
+    double *tet_error;      /* of the last estimate: owned_tets; the caller's, or NULL */
+    OstAnswerError *answer; /* the last estimate; the caller's */
+    int settled;            /* the discretisation error is known */
+} OstSolveStop;
+
+/* Collective. For solves at t = 1; `tet_error` and `answer` are filled by the solve. The stop does not move. */
+OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, double *tet_error,
+                              OstAnswerError *answer, OstSolveStop *stop);
+void ost_solve_stop_close(OstSolveStop *stop);
+
+/* Local. The next solve goes on from where one was stopped, to this error. */
+void ost_solve_stop_tighten(OstSolveStop *stop, double error);
+
+#endif

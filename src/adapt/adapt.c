@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "adapt/adapt.h"
+
+#include "adapt/stage.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "guard/guard.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The estimate is to be within this share of the error that is asked for: it is up to a quarter low near edges and
+ * corners. A mesh is refined for somewhat less, so that regions that are less smooth than expected do not take another
+ * level. */
+static const double safety = 0.75, aim = 0.6;
+
+/* By how much a level may reduce the error, by order: what is expected of finer meshes is not trusted further. */
+static const double most_reduction[3] = {0.0, 2.0, 4.0};
+
+/* Linear tets are kept where no more than this is missing: refined, they are cheaper than quadratic ones then. */
+static const double linear_is_near = 2.0;
+
+/* A level has at most about this many times the tets: what is marked on a coarse mesh is marked widely. */
+static const double most_growth = 4.0;
+
+/* A level that would have less than this many times the tets is not worth its time. */
+static const double least_growth = 1.15;
+
+/* Seconds grow a little faster than unknowns. Memory of the process, with libraries, over that of Orthostat's arrays.
+ */
+static const double seconds_power = 1.1, memory_beside = 2.0;
+
+/* --- limits --- */
+
+/* Collective. Clocks differ between ranks; rank 0's counts. */
+static OstStatus seconds_since(OstContext *ctx, double start, double *seconds)
+{
+    *seconds = ost_seconds() - start;
+    return OST_MPI(ctx, MPI_Bcast(seconds, 1, MPI_DOUBLE, 0, ost_comm(ctx)));
+}
+
+/* By how much the limits allow the next mesh to grow, and which of them is the narrower. */
+static OstStatus allowed_growth(const OstAdaption *adaption, double start, double *growth, OstAdaptEnd *end)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    double elapsed = 0.0;
+    OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
+    const double by_time =
+        pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(last->seconds, 1e-6), 1.0 / seconds_power);
+    const double by_memory = adaption->limits.bytes / (memory_beside * last->bytes);
+    *growth = fmin(by_time, by_memory);
+    *end = by_time < by_memory ? OST_ADAPT_OUT_OF_TIME : OST_ADAPT_OUT_OF_MEMORY;
+    return OST_SUCCESS;
+}
+
+/* --- what is missing --- */
+
+static double error_of(const OstAdaptLevel *level)
+{
+    return level->error.relative;
+}
+
+/* The rate of the last two levels of one order; that of smooth solutions where there are no two. */
+static void foretell(OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    const double smooth = last->order / 3.0;
+    adaption->rate = smooth;
+    if (adaption->count > 1 && last[-1].order == last->order) {
+        const double found =
+            log(error_of(&last[-1]) / error_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
+        adaption->rate = fmin(fmax(found, 0.05), 1.5 * smooth);
+    }
+    const double growth = pow(error_of(last) / (safety * adaption->request), 1.0 / adaption->rate);
+    adaption->needed_unknowns = growth * (double)last->unknowns;
+    adaption->needed_seconds = pow(growth, seconds_power) * last->seconds;
+    adaption->needed_bytes = memory_beside * growth * last->bytes;
+}
+
+/* --- levels --- */
+
+static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double start)
+{
+    OstAdaptLevel *level = &adaption->level[adaption->count++];
+    const OstResult *result = stage->result;
+    *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
+                             .tets = stage->scene->mesh->global_tets,
+                             .unknowns = result->unknowns,
+                             .error = result->answer,
+                             .strain_energy = result->checks.strain_energy,
+                             .iterations = result->solve.iterations,
+                             .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
+    OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
+    OST_TRY(seconds_since(adaption->ctx, start, &level->seconds));
+    ost_log(adaption->ctx, OST_LOG_VERBOSE,
+            "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %.2g %% off in energy; %.3f s",
+            adaption->count, level->order, (long long)level->tets, (long long)level->unknowns, level->iterations,
+            100.0 * level->error.relative, level->seconds);
+    return OST_SUCCESS;
+}
+
+/* Quadratic tets come where much is missing: first without cutting any. */
+static int next_order(const OstAdaption *adaption, const OstCase *c)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    if (c->order != 0 || last->order == 2)
+        return last->order;
+    return error_of(last) > linear_is_near * adaption->request ? 2 : 1;
+}
+
+/* What the marks are to reach. The squared error is |e|², of which `relative` is over |u + e|. */
+static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    const double error = error_of(last);
+    const double wanted = fmax(aim * adaption->request, error / most_reduction[order]);
+    const double square = last->error.energy_norm * last->error.energy_norm;
+    const double fall = fmin(wanted / error, 1.0);
+    return (OstMarking){.order = order,
+                        .target = order == last->order ? square * fall * fall : square,
+                        .most_tets = fmin(growth, most_growth) * (double)last->tets};
+}
+
+/* Goes on to the next level, unless a limit is in the way (`end`). */
+static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, double start, OstStage *next,
+                      int *ended)
+{
+    const double level_start = ost_seconds();
+    const int order = next_order(adaption, c);
+    double growth = 0.0;
+    OST_TRY(allowed_growth(adaption, start, &growth, &adaption->end));
+    *ended = growth < least_growth;
+    if (*ended)
+        return OST_SUCCESS;
+    OstMarking marking = aim_of(adaption, order, growth);
+    OST_TRY(ost_stage_refine(stage, &marking, next));
+    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected with %.2g %% of error, made %lld",
+            marking.expected_tets,
+            100.0 * error_of(&adaption->level[adaption->count - 1]) * sqrt(marking.expected_square) /
+                adaption->level[adaption->count - 1].error.energy_norm,
+            (long long)next->scene->mesh->global_tets);
+    OST_TRY(ost_stage_solve(next));
+    return note_level(adaption, next, level_start);
+}
+
+/* Is the request met, or is there no more to be done? */
+static int is_over(OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    const int met = error_of(last) <= safety * adaption->request;
+    const int over = !last->error.known || met || adaption->count == OST_MOST_ADAPT_LEVELS;
+    if (over)
+        adaption->end = !last->error.known ? OST_ADAPT_NO_ESTIMATE : met ? OST_ADAPT_MET : OST_ADAPT_OUT_OF_LEVELS;
+    return over;
+}
+
+/* A finer level that fails leaves the one before as the answer. */
+static OstStatus take_failure(OstAdaption *adaption, OstStatus status)
+{
+    snprintf(adaption->failure, sizeof adaption->failure, "%s", ost_error_text(adaption->ctx));
+    adaption->end = OST_ADAPT_FAILED;
+    return status == OST_LIBRARY_FAILED ? status : OST_SUCCESS;
+}
+
+static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
+{
+    int ended = 0;
+    while (!ended && !is_over(adaption)) {
+        OstStage *next = NULL;
+        OstStatus status = ost_stage_create(adaption->ctx, &next);
+        if (status == OST_SUCCESS)
+            status = step(adaption, c, adaption->stage, start, next, &ended);
+        if (status == OST_SUCCESS && !ended) {
+            OstStage *old = adaption->stage;
+            adaption->stage = next;
+            next = old;
+        }
+        ost_stage_destroy(&next);
+        if (status != OST_SUCCESS)
+            return take_failure(adaption, status);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus adapt(OstAdaption *adaption, const OstCase *c)
+{
+    const double start = ost_seconds();
+    OST_TRY(ost_stage_create(adaption->ctx, &adaption->stage));
+    OST_TRY(ost_stage_open(adaption->stage, c));
+    OST_TRY(ost_stage_solve(adaption->stage));
+    OST_TRY(note_level(adaption, adaption->stage, start));
+    OST_TRY(climb(adaption, c, start));
+    if (adaption->end != OST_ADAPT_MET && adaption->end != OST_ADAPT_NO_ESTIMATE)
+        foretell(adaption);
+    return ost_stage_finish(adaption->stage);
+}
+
+OstStatus ost_adapt(const OstCase *c, const OstAdaptLimits *limits, OstAdaption **adaption)
+{
+    OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, adaption, 1)));
+    (*adaption)->ctx = c->ctx;
+    (*adaption)->request = c->relative_error;
+    (*adaption)->limits = *limits;
+    return adapt(*adaption, c);
+}
+
+void ost_adaption_destroy(OstAdaption **adaption)
+{
+    if (!*adaption)
+        return;
+    ost_stage_destroy(&(*adaption)->stage);
+    OST_FREE(*adaption);
+}
+
+OstScene *ost_adaption_scene(const OstAdaption *adaption)
+{
+    return adaption->stage ? adaption->stage->scene : NULL;
+}
+
+OstResult *ost_adaption_result(const OstAdaption *adaption)
+{
+    return adaption->stage ? adaption->stage->result : NULL;
+}

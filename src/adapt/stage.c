@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "adapt/stage.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "problem/scene_parts.h"
+#include "solve/recovery.h"
+#include "solve/strategy.h"
+
+OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
+{
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, stage, 1)));
+    (*stage)->ctx = ctx;
+    return OST_SUCCESS;
+}
+
+void ost_stage_destroy(OstStage **stage)
+{
+    if (!*stage)
+        return;
+    OST_FREE((*stage)->start);
+    OST_FREE((*stage)->fall);
+    OST_FREE((*stage)->before);
+    OST_FREE((*stage)->cuts);
+    ost_result_destroy(&(*stage)->result);
+    ost_bisection_destroy(&(*stage)->bisection);
+    ost_scene_destroy(&(*stage)->scene);
+    OST_FREE(*stage);
+}
+
+OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
+{
+    stage->c = *c;
+    OST_TRY(ost_scene_create(&stage->c, &stage->scene));
+    ost_ledger_enter(c->ctx, OST_EFFECT_ADAPTIVITY);
+    const OstStatus status = ost_bisection_create(stage->scene->mesh, &stage->bisection);
+    ost_ledger_leave(c->ctx);
+    return status;
+}
+
+/* --- solving --- */
+
+/* A tet's share of the squared error. */
+static double share_of(const OstStage *stage, OstLocal tet)
+{
+    const double error = stage->result->tet_error[tet];
+    return error * error;
+}
+
+/* What is expected of the next cuts, from what the last ones did. */
+static OstStatus learn(OstStage *stage)
+{
+    const int order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1;
+    OST_TRY(OST_NEW(stage->ctx, &stage->fall, stage->scene->mesh->owned_tets));
+    for (OstLocal t = 0; t < stage->scene->mesh->owned_tets; t++) {
+        const double *before = stage->before ? stage->before + 2 * (size_t)t : NULL;
+        stage->fall[t] = !before               ? ost_smooth_fall(order)
+                         : stage->cuts[t] == 0 ? before[1]
+                                               : ost_found_fall(order, before[0], share_of(stage, t), stage->cuts[t]);
+    }
+    OST_FREE(stage->before);
+    OST_FREE(stage->cuts);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_stage_solve(OstStage *stage)
+{
+    OstProblem *problem = NULL;
+    OstAnalysis *analysis = NULL;
+    OstStatus status = ost_scene_problem(stage->scene, &problem);
+    if (status == OST_SUCCESS)
+        status = ost_analysis_create(problem, &stage->c.solver, &analysis);
+    if (status == OST_SUCCESS) {
+        analysis->start = stage->start;
+        status = ost_analysis_solve(analysis, 1U << OST_FIELD_ERROR, &stage->result);
+    }
+    if (status == OST_SUCCESS && stage->result->answer.known)
+        status = ost_agree(stage->ctx, learn(stage));
+    ost_analysis_destroy(&analysis);
+    ost_problem_destroy(&problem);
+    OST_FREE(stage->start);
+    return status;
+}
+
+OstStatus ost_stage_finish(OstStage *stage)
+{
+    stage->result->asked = ost_scene_result_fields(stage->scene);
+    return ost_agree(stage->ctx, ost_result_recover(stage->result, stage->result->asked));
+}
+
+/* --- refining --- */
+
+/* The answer of linear theory is a start for the next; that of large rotations is not, as each level solves linearly
+ * first. */
+static OstStatus carry_answer(const OstStage *stage, OstStage *next)
+{
+    if (stage->result->newton.used)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(next->ctx, OST_NEW(next->ctx, &next->start, 3 * (size_t)next->scene->mesh->node_count)));
+    return ost_bisection_carry(next->bisection, 3, stage->result->displacement, next->start);
+}
+
+/* Shares are compared between levels of one order. */
+static OstStatus carry_shares(const OstStage *stage, OstStage *next)
+{
+    const size_t old = (size_t)stage->scene->mesh->owned_tets, tets = (size_t)next->scene->mesh->owned_tets;
+    double *pairs = NULL;
+    if (stage->scene->mesh->nodes_per_tet != next->scene->mesh->nodes_per_tet)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(stage->ctx, &pairs, 2 * old);
+    OST_THEN(OST_NEW(stage->ctx, &next->before, 2 * tets));
+    OST_THEN(OST_NEW(stage->ctx, &next->cuts, tets));
+    status = ost_agree(stage->ctx, status);
+    for (size_t t = 0; t < old && status == OST_SUCCESS; t++) {
+        pairs[2 * t] = share_of(stage, (OstLocal)t);
+        pairs[2 * t + 1] = stage->fall[t];
+    }
+    if (status == OST_SUCCESS)
+        status = ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts);
+    OST_FREE(pairs);
+    return status;
+}
+
+/* Cuts the tets that have the error. */
+static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisection, OstMeshChunk **chunk)
+{
+    const OstMesh *mesh = stage->scene->mesh;
+    const OstShapeSurface surface = ost_scene_surface(&stage->c);
+    unsigned char *times = NULL;
+    double *share = NULL;
+    OstStatus status = OST_NEW(stage->ctx, &times, mesh->owned_tets);
+    OST_THEN(OST_NEW(stage->ctx, &share, mesh->owned_tets));
+    OST_TRY_DONE(ost_agree(stage->ctx, status));
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        share[t] = share_of(stage, t);
+    OST_TRY_DONE(ost_mark(mesh, share, stage->fall, marking, times));
+    OST_TRY_DONE(ost_bisection_split(bisection, times, &surface, chunk));
+done:
+    OST_FREE(times);
+    OST_FREE(share);
+    return status;
+}
+
+static OstStatus carry(const OstStage *stage, OstStage *next)
+{
+    OST_TRY(ost_bisection_settle(next->bisection, next->scene->mesh));
+    OST_TRY(carry_shares(stage, next));
+    return carry_answer(stage, next);
+}
+
+OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
+{
+    OstContext *ctx = stage->ctx;
+    OstMeshChunk *chunk = NULL;
+    next->c = stage->c;
+    next->c.order = marking->order;
+    next->c.refinement = 0;
+    next->bisection = stage->bisection;
+    stage->bisection = NULL;
+    ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
+    OstStatus status = cut(stage, marking, next->bisection, &chunk);
+    ost_ledger_leave(ctx);
+    if (status == OST_SUCCESS)
+        status = ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene);
+    ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
+    if (status == OST_SUCCESS)
+        status = carry(stage, next);
+    ost_ledger_leave(ctx);
+    return status;
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/forecast/forecast.h"
+
+#include "case/case_data.h"
+
+#include <math.h>
+
+/* Iterations to a relative residual of 1e-8, fitted to tubes, blocks, beams and octants (docs/performance.md). They
+ * depend little on size; orders differ. Thin bodies, near incompressibility and moduli that differ need more. */
+static const struct {
+    double usual, thinner, incompressible, uneven;
+} iterations_of[2] = {{13.5, 2.0, 0.27, 0.08}, {9.0, 5.0, 0.4, 0.13}};
+static const double usual_poisson = 0.3;
+static const double plain_factor = 4.0; /* of ML's own aggregates */
+static const double usual_digits = 8.0;
+
+/* Where the solver stops at a share of the discretisation error: few, whatever the order. */
+static const double stopped_usual = 3.7, stopped_incompressible = 0.21, stopped_uneven = 0.05;
+
+/* Operations for each vertex while a hierarchy is made, over the square of its row's columns in the prolongator; for
+ * each node of quadratic tets; and of a dense factorisation, for the cube of its unknowns. */
+static const double product_operations = 600.0, quadratic_operations = 34e3, factor_operations = 1.0 / 6.0;
+
+/* Strain and stress, and the error estimate, where each tet has axes of its own. */
+static const double varying_axes = 2.0;
+
+/* Of Newton's method: the stiffness of large rotations over the linear one, and an iteration's linear solve over one to
+ * 1e-8. */
+static const double newton_assembly = 3.0, newton_solve = 0.6;
+
+static int is_multigrid(const OstPlan *plan)
+{
+    return plan->solver.first != OST_METHOD_DIRECT && plan->solver.first != OST_METHOD_PLAIN;
+}
+
+/* Does the solver end where the error of the equations is small beside the discretisation's? */
+static int stops_early(const OstPlan *plan)
+{
+    return is_multigrid(plan) && plan->solver.options.algebraic_fraction > 0.0 &&
+           ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE);
+}
+
+/* How many times as many iterations a material takes: by how near it is to incompressible, and how moduli differ. */
+static double hardness(const OstSolverFacts *facts, double incompressible, double uneven)
+{
+    const double volume = (1.0 - 2.0 * usual_poisson) / fmax(1.0 - 2.0 * facts->poisson, 1e-6);
+    return pow(fmax(volume, 1.0), incompressible) * pow(fmax(facts->anisotropy, 1.0), uneven);
+}
+
+double ost_forecast_iterations(const OstPlan *plan)
+{
+    const OstSolverFacts *facts = &plan->facts;
+    const double thin = plan->counts.surface / fmax(plan->counts.vertices, 1.0);
+    const int q = plan->quadratic;
+    if (plan->solver.first == OST_METHOD_DIRECT)
+        return 1.0;
+    if (stops_early(plan))
+        return stopped_usual * hardness(facts, stopped_incompressible, stopped_uneven);
+    const double iterations = (iterations_of[q].usual + iterations_of[q].thinner * fmin(thin, 2.0)) *
+                              hardness(facts, iterations_of[q].incompressible, iterations_of[q].uneven) *
+                              -log10(plan->solver.options.relative_residual) / usual_digits;
+    return plan->solver.first == OST_METHOD_PLAIN ? plain_factor * iterations : iterations;
+}
+
+/* What is read of matrix and hierarchy in an iteration. */
+static double iteration_bytes(const OstPlan *plan)
+{
+    return is_multigrid(plan) ? plan->bytes_matrix + plan->levels.kept : plan->bytes_matrix + plan->bytes_solver;
+}
+
+void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations, double work[OST_STAGES])
+{
+    const OstMeshCounts *counts = &plan->counts;
+    const OstPlanLevels *levels = &plan->levels;
+    const OstEffectState *estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE);
+    work[OST_STAGE_MESH] = plan->bytes_mesh;
+    work[OST_STAGE_ASSEMBLY] = plan->bytes_matrix;
+    work[OST_STAGE_SETUP] = product_operations * counts->vertices * levels->columns * levels->columns +
+                            factor_operations * levels->coarsest * levels->coarsest * levels->coarsest +
+                            (plan->quadratic ? quadratic_operations * counts->nodes : 0.0);
+    if (!is_multigrid(plan))
+        work[OST_STAGE_SETUP] = plan->bytes_solver;
+    work[OST_STAGE_SOLVE] = iterations * iteration_bytes(plan);
+    const double dearer = ost_effect_on(&plan->effects, OST_EFFECT_VARYING_AXES) ? varying_axes : 1.0;
+    work[OST_STAGE_ESTIMATE] = estimate->on ? dearer * (iteration_bytes(plan) + estimate->bytes) : 0.0;
+    work[OST_STAGE_REST] = plan->bytes_matrix + dearer * ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
+    work[OST_STAGE_OUTPUT] = c->output_fields != 0 ? plan->bytes_output : 0.0;
+}
+
+void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *rates, int ranks, OstForecast *forecast)
+{
+    *forecast = (OstForecast){.iterations = ost_forecast_iterations(plan), .start = rates->start};
+    ost_forecast_work(c, plan, forecast->iterations, forecast->work);
+    forecast->in_all = rates->start;
+    for (int s = 0; s < OST_STAGES; s++) {
+        const double rate = ost_rate_at(rates, 1 + plan->quadratic, (OstStage)s, plan->bytes_in_all / ranks);
+        forecast->seconds[s] = forecast->work[s] * rate / ranks;
+        forecast->in_all += forecast->seconds[s];
+    }
+    if (ost_effect_on(&plan->effects, OST_EFFECT_LARGE_ROTATION))
+        forecast->newton =
+            newton_assembly * forecast->seconds[OST_STAGE_ASSEMBLY] + newton_solve * forecast->seconds[OST_STAGE_SOLVE];
+    forecast->bytes = plan->bytes_in_all;
+    forecast->with_libraries = plan->bytes_in_all + rates->process_bytes * ranks;
+}

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "../case/case_text.h"
+
+#include "core/memory.h"
+#include "orthostat/analysis.h"
+#include "problem/scene_data.h"
+
+/* The estimated error of an answer against the true one, which a far finer one knows: where nothing is moved,
+ * |u - u_h|² = 2 (energy of u - energy of u_h). */
+
+#define CUBE "mesh: {block: {size: [1, 1, 1], divisions: [3, 3, 3]}}\n"
+#define BEAM "mesh: {block: {size: [20, 2, 2], divisions: [20, 2, 2]}}\n"
+#define HELD "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+#define SIDEWAYS "loads: [{on: {boundary: xmax}, traction: [0, 1, 0.5]}]\n"
+#define HEAVY "loads: [{body_force: [0.3, -1, 0.2]}, {on: {boundary: zmax}, pressure: 2}]\n"
+#define STEEL "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]\n"
+#define OF_NU(nu) "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: " nu "}]\n"
+#define TURNED "axes: {fixed: [[0.6, 0.48, 0.64], [-0.8, 0.36, 0.48], [0, -0.8, 0.6]]}"
+#define FIBRES "materials: [{region: all, youngs_modulus: [1e6, 1e3, 1e3], poissons_ratio: 0.3, " TURNED "}]\n"
+#define JUMPS                                                                      \
+    "materials:\n  - {region: block, youngs_modulus: 1000, poissons_ratio: 0.3}\n" \
+    "  - {region: core, youngs_modulus: [1e6, 2e4, 1e4], poissons_ratio: 0.2, " TURNED "}\n"
+#define FINE "large_rotation: off\naccuracy: {relative_residual: 1e-10}\noutput: {fields: [error]}\n"
+
+/* Tets of a region `core`, here and there, where the case has a material for it. */
+static void add_core(const OstCase *c, OstMeshChunk *chunk)
+{
+    char **names = NULL;
+    if (strcmp(c->materials[c->material_count - 1].region, "core") != 0)
+        return;
+    assert_success(OST_NEW(ctx, &names, 2));
+    names[0] = chunk->regions.name[0];
+    assert_success(ost_copy_string(ctx, "core", &names[1]));
+    OST_FREE(chunk->regions.name);
+    chunk->regions = (OstNames){2, names};
+    for (OstLocal t = 0; t < chunk->tet_count; t++) /* hexes of six tets, so that both regions are thick */
+        chunk->tet_region[t] = ((chunk->first_tet + t) / 6 * 7) % 5 < 2;
+}
+
+typedef struct Answer {
+    OstCase *c;
+    OstScene *scene;
+    OstResult *result;
+} Answer;
+
+static Answer solve(const char *text, int order, int refinement)
+{
+    Answer made = {0};
+    OstMeshChunk *chunk = NULL;
+    assert_success(read_text(text, &made.c));
+    made.c->order = order;
+    made.c->refinement = refinement;
+    assert_success(ost_chunk_create_block(ctx, &made.c->block, &chunk));
+    add_core(made.c, chunk);
+    assert_success(ost_scene_create_on(made.c, &chunk, &made.scene));
+    assert_success(ost_scene_solve(made.scene, &made.result));
+    return made;
+}
+
+static void release(Answer *answer)
+{
+    ost_result_destroy(&answer->result);
+    ost_scene_destroy(&answer->scene);
+    ost_case_destroy(&answer->c);
+}
+
+/* Estimated over true error; `refinement` is that of the finer answer. */
+static double effectivity(const char *text, int order, int refinement)
+{
+    Answer coarse = solve(text, order, 0), fine = solve(text, 2, refinement);
+    const double square = 2.0 * (fine.result->checks.strain_energy - coarse.result->checks.strain_energy);
+    const OstAnswerError found = *ost_result_answer_error(coarse.result);
+    const OstAnswerError rest = *ost_result_answer_error(fine.result);
+    assert_true(found.known && rest.known);
+    assert_true(square > 0.0);
+    const double truth = sqrt(square + rest.energy_norm * rest.energy_norm);
+    release(&coarse);
+    release(&fine);
+    return found.energy_norm / truth;
+}
+
+static void true_errors_are_estimated(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text;
+        int order;
+    } bodies[] = {
+        {"bending", BEAM STEEL HELD SIDEWAYS FINE, 1},
+        {"steel", CUBE STEEL HELD HEAVY FINE, 1},
+        {"steel", CUBE STEEL HELD HEAVY FINE, 2},
+        {"fibres", CUBE FIBRES HELD SIDEWAYS FINE, 1},
+        {"fibres", CUBE FIBRES HELD SIDEWAYS FINE, 2},
+        {"jumps", CUBE JUMPS HELD HEAVY FINE, 1},
+        {"jumps", CUBE JUMPS HELD HEAVY FINE, 2},
+        {"nu 0.49", CUBE OF_NU("0.49") HELD SIDEWAYS FINE, 1},
+        {"nu 0.49", CUBE OF_NU("0.49") HELD SIDEWAYS FINE, 2},
+        {"nu 0.499", CUBE OF_NU("0.499") HELD SIDEWAYS FINE, 1},
+    };
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
+        const double found = effectivity(bodies[i].text, bodies[i].order, 1);
+        print_message("%s, order %d: %.3f\n", bodies[i].name, bodies[i].order, found);
+        if (!(found > 0.7 && found < 1.5))
+            fail_msg("%s, order %d: estimated over true error is %g", bodies[i].name, bodies[i].order, found);
+    }
+}
+
+/* A beam whose end turns by 30 degrees: how far is it still to go? */
+static void large_rotations_are_estimated(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "mesh: {block: {size: [10, 1, 1], divisions: [20, 2, 2]}}\n" STEEL HELD
+        "loads: [{on: {boundary: xmax}, traction: [0, 0, 2]}]\nlarge_rotation: on\noutput: {fields: [error]}\n";
+    Answer coarse = solve(text, 1, 0), fine = solve(text, 2, 0);
+    const double far = ost_result_largest_displacement(fine.result, NULL);
+    const double truth = 1.0 - ost_result_largest_displacement(coarse.result, NULL) / far;
+    const OstAnswerError found = *ost_result_answer_error(coarse.result);
+    assert_true(ost_result_newton_report(fine.result)->used && found.known);
+    assert_true(truth > 0.2);
+    if (!(found.displacement > 0.7 * truth && found.displacement < 1.5 * truth))
+        fail_msg("the displacement is off by %g, and by %g as estimated", truth, found.displacement);
+    assert_true(ost_result_answer_error(fine.result)->displacement < 0.02);
+    release(&coarse);
+    release(&fine);
+}
+
+/* Answers that the elements hold have no error, whatever acts on the body. */
+static void exact_answers_have_no_error(void **state)
+{
+    (void)state;
+    static const char *const bodies[] = {
+        CUBE STEEL "constraints: [{on: {boundary: xmin}, displacement: [0.5, -0.2, 0.1]}]\n" FINE,
+        CUBE FIBRES "constraints: free_body\nloads: [{on: {boundary: xmin}, traction: [-1, 0, 0]}, {on: {boundary: "
+                    "xmax}, traction: [1, 0, 0]}]\n" FINE,
+        CUBE "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
+             "constraints: free_body\n" FINE,
+        CUBE STEEL "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]}, "
+                   "{on: {boundary: zmin}, slide: [0, 0, 1]}]\nloads: [{on: {boundary: xmax}, pressure: 3}]\n" FINE,
+        CUBE "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0}]\n"
+             "springs: [{on: {boundary: xmin}, foundation: 10}]\nloads: [{on: {boundary: xmax}, traction: [1, 0, "
+             "0]}]\n" FINE,
+    };
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
+        for (int order = 1; order <= 2; order++) {
+            Answer answer = solve(bodies[i], order, 0);
+            const OstAnswerError found = *ost_result_answer_error(answer.result);
+            const double size = sqrt(2.0 * answer.result->checks.strain_energy) + 1e-3;
+            if (!found.known || !(found.energy_norm < 1e-6 * size))
+                fail_msg("body %d, order %d: an error of %g (known: %d) in %g", (int)i, order, found.energy_norm,
+                         found.known, size);
+            release(&answer);
+        }
+}
+
+/* The tets' shares add up to the whole. */
+static void shares_add_up(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        Answer answer = solve(CUBE JUMPS HELD HEAVY FINE, order, 0);
+        const double *error = ost_result_tet_error(answer.result);
+        double sum = 0.0;
+        assert_non_null(error);
+        for (OstLocal tet = 0; tet < answer.scene->mesh->owned_tets; tet++)
+            sum += error[tet] * error[tet];
+        MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, ost_comm(ctx));
+        const double whole = ost_result_answer_error(answer.result)->energy_norm;
+        assert_close(sqrt(sum), whole, 1e-10 * whole);
+        release(&answer);
+    }
+}
+
+/* With factors, which do not depend on the partition, the estimate is that of one rank. */
+static void ranks_agree(void **state)
+{
+    (void)state;
+    static const char text[] = CUBE JUMPS HELD HEAVY FINE "solver: {method: direct}\n";
+    OstContext *const world = ctx;
+    for (int order = 1; order <= 2; order++) {
+        Answer shared = solve(text, order, 0);
+        const double found = ost_result_answer_error(shared.result)->energy_norm;
+        release(&shared);
+        assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
+        ost_log_set_level(ctx, OST_LOG_QUIET);
+        Answer alone = solve(text, order, 0);
+        const double expected = ost_result_answer_error(alone.result)->energy_norm;
+        release(&alone);
+        ost_context_destroy(&ctx);
+        ctx = world;
+        assert_close(found, expected, 1e-6 * expected);
+    }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(true_errors_are_estimated),
+    cmocka_unit_test(large_rotations_are_estimated),
+    cmocka_unit_test(exact_answers_have_no_error),
+    cmocka_unit_test(shares_add_up),
+    cmocka_unit_test(ranks_agree),
+};
+
+OST_TEST_MAIN(tests)

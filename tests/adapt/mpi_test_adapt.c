@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "../case/case_text.h"
+
+#include "adapt/adapt.h"
+#include "adapt/mark.h"
+
+/* A beam of three cells, clamped at one end, where edges and corners are singular, and pushed aside at the other. */
+#define BEAM                                                                             \
+    "mesh: {block: {size: [3, 1, 1], divisions: [3, 1, 1]}}\n"                           \
+    "materials: [{region: all, youngs_modulus: [1e6, 1e5, 1e5], poissons_ratio: 0.3}]\n" \
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"                   \
+    "loads: [{on: {boundary: xmax}, traction: [0, 0, 100]}]\nlarge_rotation: off\n"
+
+static const OstAdaptLimits no_limits = {INFINITY, INFINITY};
+
+static OstAdaption *adapt(const char *text, const OstAdaptLimits *limits, OstCase **c)
+{
+    OstAdaption *adaption = NULL;
+    assert_success(read_text(text, c));
+    assert_success(ost_adapt(*c, limits, &adaption));
+    return adaption;
+}
+
+static void end(OstAdaption **adaption, OstCase **c)
+{
+    ost_adaption_destroy(adaption);
+    ost_case_destroy(c);
+}
+
+static const OstAdaptLevel *last_of(const OstAdaption *adaption)
+{
+    return &adaption->level[adaption->count - 1];
+}
+
+/* Loads alone act: the energy that is missing is half the error's square. */
+static double true_error(const OstAdaption *adaption, double energy)
+{
+    return sqrt(1.0 - last_of(adaption)->strain_energy / energy);
+}
+
+static void a_request_is_met_and_not_by_far(void **state)
+{
+    (void)state;
+    static const double request[2] = {0.1, 0.05};
+    OstCase *c = NULL;
+    const double energy = 0.666362; /* by 222,330 unknowns that are 0.7 % off, and what they miss */
+    for (int r = 0; r < 2; r++) {
+        char text[1024];
+        snprintf(text, sizeof text, BEAM "accuracy: {relative_error: %g}\n", request[r]);
+        OstAdaption *adaption = adapt(text, &no_limits, &c);
+        assert_int_equal(adaption->end, OST_ADAPT_MET);
+        assert_true(last_of(adaption)->error.relative <= 0.75 * request[r]);
+        assert_true(true_error(adaption, energy) < request[r]);
+        assert_true(true_error(adaption, energy) > 0.3 * request[r]);
+        assert_int_equal(ost_adaption_result(adaption)->unknowns, last_of(adaption)->unknowns);
+        assert_int_equal(ost_adaption_scene(adaption)->mesh->global_tets, last_of(adaption)->tets);
+        end(&adaption, &c);
+    }
+}
+
+/* Two cuts of a mesh take the same answer; the second solve starts from the first's. */
+static void levels_start_from_the_last_answer(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    OstAdaption *adaption = adapt(
+        BEAM "accuracy: {relative_error: 0.08, relative_residual: 1e-6}\nsolver: {method: metric}\n", &no_limits, &c);
+    OstCase *alone = NULL;
+    OstAdaption *once = NULL;
+    const int most = last_of(adaption)->iterations;
+    assert_int_equal(adaption->end, OST_ADAPT_MET);
+    assert_true(adaption->count > 3);
+    for (int l = 2; l < adaption->count; l++) {
+        assert_true(adaption->level[l].error.relative < adaption->level[l - 1].error.relative);
+        assert_true(adaption->level[l].tets > adaption->level[l - 1].tets);
+        assert_int_equal(adaption->level[l].order, 2);
+    }
+    /* the same mesh, uniformly refined, from nothing */
+    once = adapt("element: {order: 2}\nmesh: {block: {size: [3, 1, 1], divisions: [3, 1, 1]}, refine: 1}\n"
+                 "materials: [{region: all, youngs_modulus: [1e6, 1e5, 1e5], poissons_ratio: 0.3}]\n"
+                 "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+                 "loads: [{on: {boundary: xmax}, traction: [0, 0, 100]}]\nlarge_rotation: off\n"
+                 "accuracy: {relative_error: 0.9, relative_residual: 1e-6}\nsolver: {method: metric}\n",
+                 &no_limits, &alone);
+    assert_int_equal(once->count, 1);
+    assert_true(most < last_of(once)->iterations);
+    end(&once, &alone);
+    end(&adaption, &c);
+}
+
+static void the_order_of_the_case_is_kept(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    OstAdaption *adaption = adapt(BEAM "element: {order: 1}\naccuracy: {relative_error: 0.5}\n", &no_limits, &c);
+    assert_int_equal(adaption->end, OST_ADAPT_MET);
+    assert_true(adaption->count > 1);
+    for (int l = 0; l < adaption->count; l++)
+        assert_int_equal(adaption->level[l].order, 1);
+    end(&adaption, &c);
+}
+
+static void limits_leave_the_best_answer_and_the_price_of_the_rest(void **state)
+{
+    (void)state;
+    const OstAdaptLimits limits[2] = {{INFINITY, 1e6}, {1e-9, INFINITY}};
+    const OstAdaptEnd ends[2] = {OST_ADAPT_OUT_OF_MEMORY, OST_ADAPT_OUT_OF_TIME};
+    for (int i = 0; i < 2; i++) {
+        char words[OST_LONGEST_ADAPT_WORDS];
+        OstCase *c = NULL;
+        OstAdaption *adaption = adapt(BEAM "accuracy: {relative_error: 0.01}\n", &limits[i], &c);
+        assert_int_equal(adaption->end, ends[i]);
+        assert_true(adaption->needed_unknowns > (double)last_of(adaption)->unknowns);
+        assert_true(adaption->needed_seconds > 0.0);
+        assert_non_null(ost_adaption_result(adaption)->displacement);
+        ost_adaption_words(adaption, words);
+        assert_non_null(strstr(words, i == 0 ? "--max-memory" : "--max-time"));
+        end(&adaption, &c);
+    }
+}
+
+/* Equal shares, and one that is 2^14 times larger: it takes three cuts (2^7), and the others none. */
+static void marks_make_shares_equal(void **state)
+{
+    (void)state;
+    enum { TETS = 60 };
+    const OstMesh mesh = {.ctx = ctx, .owned_tets = TETS};
+    double error[TETS], fall[TETS];
+    unsigned char times[TETS];
+    for (int t = 0; t < TETS; t++) {
+        error[t] = 1.0;
+        fall[t] = ost_smooth_fall(2);
+    }
+    if (ost_rank(ctx) == 0)
+        error[7] = ldexp(1.0, 14);
+    OstMarking marking = {.order = 2, .target = 1.0, .most_tets = 1e9};
+    assert_success(ost_mark(&mesh, error, fall, &marking, times));
+    for (int t = 0; t < TETS; t++)
+        assert_int_equal(times[t], t == 7 && ost_rank(ctx) == 0 ? 3 : 0);
+    assert_close(marking.expected_tets, TETS * ost_size(ctx) + 7.0, 1e-12);
+    /* nothing is missing: nothing is cut */
+    marking.target = 1e9;
+    assert_success(ost_mark(&mesh, error, fall, &marking, times));
+    for (int t = 0; t < TETS; t++)
+        assert_int_equal(times[t], 0);
+    assert_close(ost_found_fall(2, 1.0, 0.5, 1), 1.0, 1e-15);
+    assert_close(ost_found_fall(2, 1.0, 1e-9, 1), ost_smooth_fall(2), 1e-15);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_request_is_met_and_not_by_far),
+    cmocka_unit_test(levels_start_from_the_last_answer),
+    cmocka_unit_test(the_order_of_the_case_is_kept),
+    cmocka_unit_test(limits_leave_the_best_answer_and_the_price_of_the_rest),
+    cmocka_unit_test(marks_make_shares_equal),
+};
+
+OST_TEST_MAIN(tests)

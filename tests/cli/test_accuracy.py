@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`accuracy: {relative_error}`: `orthostat solve` refines until the answer is as accurate as that, and says what it takes
+where it may not."""
+import json
+import os
+
+from program import check, new_folder, run
+
+CASE = """title: a clamped beam
+mesh: {{block: {{size: [3, 1, 1], divisions: [3, 1, 1]}}}}
+materials: [{{region: all, youngs_modulus: [1e6, 1e5, 1e5], poissons_ratio: 0.3}}]
+constraints: [{{on: {{boundary: xmin}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{boundary: xmax}}, traction: [0, 0, 100]}}]
+large_rotation: off
+watch: {{tip: {{displacement: {{nearest: [3, 0, 0]}}, component: z}}}}
+{accuracy}
+"""
+folder = new_folder()
+
+
+def solve(accuracy, *options, ranks=1):
+    with open(os.path.join(folder, "beam.yaml"), "w", encoding="utf-8") as stream:
+        stream.write(CASE.format(accuracy=accuracy))
+    done = run("solve", "beam.yaml", "--json", "beam.json", *options, ranks=ranks, folder=folder)
+    path = os.path.join(folder, "beam.json")
+    if not os.path.exists(path):
+        return done, None
+    with open(path, encoding="utf-8") as stream:
+        return done, json.load(stream)
+
+
+done, as_given = solve("")
+check(done.exit_code == 0, done.errors)
+check("adaption" not in as_given and as_given["tets"] == 18, "without the key the mesh stays as it is")
+
+done, report = solve("accuracy: {relative_error: 0.1}")
+check(done.exit_code == 0, done.errors)
+adaption = report["adaption"]
+levels = adaption["levels"]
+check(adaption["met"] and adaption["end"] == "met" and adaption["asked"] == 0.1, f"met: {adaption}")
+check(levels[0]["order"] == 1 and levels[-1]["order"] == 2, "from linear tets to quadratic ones")
+check(levels[-1]["relative_error"] <= 0.075 < levels[-2]["relative_error"], "no level too many")
+check(levels[-1]["tets"] == report["tets"] and levels[-1]["unknowns"] == report["unknowns"], "the result is the last level")
+check("10 % asked for" in done.output and str(levels[-1]["unknowns"]) in done.output, done.output)
+check(os.path.getsize(os.path.join(folder, "beam.vtkhdf")) > 0, "a file of the last mesh")
+
+_, parallel = solve("accuracy: {relative_error: 0.1}", ranks=3)
+check([level["tets"] for level in parallel["adaption"]["levels"]] == [level["tets"] for level in levels],
+      "the same meshes on 3 ranks")
+check(abs(parallel["watched"]["tip"]["value"] / report["watched"]["tip"]["value"] - 1) < 1e-3, "the same tip on 3 ranks")
+
+done, report = solve("accuracy: {relative_error: 0.001}", "--max-memory", "0.005")
+adaption = report["adaption"]
+check(done.exit_code == 1 and "--max-memory" in done.errors and "not met" in done.errors, f"what is missing: {done.errors}")
+check(not adaption["met"] and adaption["end"] == "out of memory", f"the end: {adaption}")
+check(adaption["needed_unknowns"] > report["unknowns"] and adaption["needed_bytes"] > 0.005 * 2**30, "what it would take")
+check(report["accepted"], "the answer is one, though not as accurate")
+
+done, _ = solve("accuracy: {relative_error: 0.1}", "--max-time", "soon")
+check(done.exit_code == 2 and "found 'soon'" in done.errors, done.errors)
