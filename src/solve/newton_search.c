@@ -44,11 +44,11 @@ static OstStatus measure(const OstNewton *newton, double length, Point *point)
 
 /* The energy that a step must lie below (L. Grippo, F. Lampariello and S. Lucidi, A nonmonotone line search technique
  * for Newton's method, SIAM J. Numer. Anal. 23, 1986): a whole step of a slender body that turns stretches it at first,
- * and the next one takes that back. */
+ * and the next one takes that back. Where the stiffness was indefinite, the next one may lead elsewhere. */
 static double reference(const OstNewton *newton, const Point *start)
 {
     double highest = start->value;
-    for (int k = 0; k < OST_RECENT; k++)
+    for (int k = 0; k < OST_RECENT && !newton->indefinite; k++)
         highest = fmax(highest, newton->recent[k]);
     return highest;
 }
