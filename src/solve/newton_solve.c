@@ -12,6 +12,9 @@
 /* A new hierarchy pays once a digit takes so many times the iterations, and so many more, than when it was new. */
 static const double more_iterations = 1.5, further_iterations = 1.0;
 
+/* So many iterations cost more than a hierarchy: after them it pays once a digit takes so many times the iterations. */
+static const double of_a_setup = 40.0, slightly_more = 1.2;
+
 /* How far GMRES goes: residuals of slender bodies say little about their bending, so that less leads astray. Where it
  * does not get below the other, factors take the hierarchy's place. */
 static const double accurate = 1e-10, inaccurate = 1e-6;
@@ -22,15 +25,16 @@ static int can_go_on(OstStatus status)
     return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT;
 }
 
-/* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. */
+/* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. Once the
+ * stiffness was found indefinite, its exact stress says which way the body buckles. */
 static OstStatus fill(OstNewton *newton, int definite)
 {
     OstProblem *problem = newton->problem;
     const OstFormulation formulation = problem->formulation;
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
-    const OstStatus status =
-        ost_problem_stiffness_from(problem, newton->t, newton->displacement,
-                                   newton->moved && ost_newton_has_energy(newton) ? newton->from : NULL, definite);
+    const OstStatus status = ost_problem_stiffness_from(
+        problem, newton->t, newton->displacement,
+        newton->moved && !newton->indefinite && ost_newton_has_energy(newton) ? newton->from : NULL, definite);
     ost_problem_take_formulation(problem, formulation);
     return status;
 }
@@ -75,7 +79,8 @@ static void judge_hierarchy(OstNewton *newton)
     const double cost = newton->solve.iterations / digits;
     if (newton->cost == 0.0)
         newton->cost = fmax(cost, 1.0);
-    else if (cost > more_iterations * newton->cost + further_iterations)
+    else if (cost > more_iterations * newton->cost + further_iterations ||
+             (newton->solve.iterations > of_a_setup && cost > slightly_more * newton->cost))
         newton->rebuild = 1;
 }
 
