@@ -446,6 +446,34 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     return status;
 }
 
+static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,
+                                   double *u, OstSolveReport *report)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    if (solver->method == OST_METHOD_AUTO)
+        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
+    current_system(solver, &system, &preconditioner);
+    report->method = solver->method;
+    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s", solver->direct ? "MUMPS factors" : "ML cycle");
+    return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, &report->iterations,
+                           &report->relative_residual);
+}
+
+OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
+                                       const double *f, double *u, OstSolveReport *report)
+{
+    memset(report, 0, sizeof *report);
+    report->plan = solver->plan;
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    const double start = ost_seconds();
+    const OstStatus status = solve_unsymmetric(solver, further, relative, f, u, report);
+    report->setup_seconds = solver->setup_seconds;
+    report->solve_seconds = ost_seconds() - start;
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
 {
     OstCgSystem system;

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_SOLVER_H
 
 #include "algebra/krylov/error_of_residual.h"
+#include "algebra/krylov/gmres.h"
 #include "algebra/krylov/goal.h"
 #include "algebra/matrix/geometry.h"
 #include "orthostat/solver.h"
@@ -56,6 +57,12 @@ void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
  * smaller residual (report.attainable_residual), where another strategy cannot help. u and the report are filled either
  * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
+/* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the
+ * solver was last built with, of whatever matrix that was: A may be indefinite, S unsymmetric. The report has method,
+ * iterations and ||M^-1 r|| / ||M^-1 f||, which may be larger than `relative` after many iterations. */
+OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
+                                       const double *f, double *u, OstSolveReport *report);
 
 /* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
  * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.

@@ -40,6 +40,17 @@ void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const Ost
     ost_batch_gather(batch, element, mesh, field, left < OST_SIMD_WIDTH ? (int)left : OST_SIMD_WIDTH, tets);
 }
 
+void ost_batch_keep_alike(OstBatch *batch, const OstElement *element, const OstMesh *mesh,
+                          const OstMaterialField *field)
+{
+    const unsigned uniform = element->uniform ? element->uniform(batch->x, &batch->elasticity) : 0U;
+    int count = 1;
+    while (count < batch->count && (uniform >> count & 1U) == (uniform & 1U))
+        count++;
+    if (count < batch->count)
+        ost_batch_gather_from(batch, element, mesh, field, batch->tet[0], batch->tet[0] + count);
+}
+
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data)
 {
@@ -53,10 +64,12 @@ void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstF
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = t;
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->owned_tets; first += batch.count) {
         OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstMeans means;
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
+        if (formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, field);
         ost_batch_gather_vectors(&batch, element->nodes, u, of_nodes);
         if (formulation == OST_FORMULATION_LINEAR)
             element->means(batch.x, &batch.elasticity, of_nodes, &means);

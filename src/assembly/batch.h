@@ -58,6 +58,12 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
 void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,
                            const OstMaterialField *field, OstLocal first, OstLocal end);
 
+/* Local. Drops the tets from the first on that would not have the first one's quadrature rule by themselves. Rules that
+ * all integrate linear elasticity without error differ where rotations are large: all ranks must take the same for a
+ * tet, whatever its neighbours in the batch. */
+void ost_batch_keep_alike(OstBatch *batch, const OstElement *element, const OstMesh *mesh,
+                          const OstMaterialField *field);
+
 /* Local. Reads the vectors of the batch's nodes: vectors[3 n + i] is component i at local node n. */
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered);
 

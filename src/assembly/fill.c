@@ -77,10 +77,12 @@ static inline void fetch_ahead(const OstLocal *block_of_tet, size_t first, size_
 static void tangent_stiffness(const OstBatch *batch, const OstElement *element, const OstTangent *tangent,
                               OstSimd *blocks)
 {
-    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES], from[3 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(batch, element->nodes, tangent->u, u);
-    ost_large_rotation_stiffness(element, tangent->formulation, batch->x, &batch->elasticity, u, tangent->definite,
-                                 blocks);
+    if (tangent->from)
+        ost_batch_gather_vectors(batch, element->nodes, tangent->from, from);
+    ost_large_rotation_stiffness(element, tangent->formulation, batch->x, &batch->elasticity, u,
+                                 tangent->from ? from : NULL, tangent->definite, blocks);
 }
 
 /* The linear stiffness if `tangent` is NULL. */
@@ -96,10 +98,12 @@ static void sum_tets(OstSystem *system, const OstMaterialField *field, const Ost
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = tangent ? tangent->t : 0.0;
     batch.elasticity.stretch_suffices = element->points == 0 && !tangent; /* only the linear stiffness does without C */
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
         fetch_ahead(system->block_of_tet, pairs * (size_t)least(first + OST_SIMD_WIDTH, mesh->tet_count),
                     pairs * (size_t)least(first + 2 * OST_SIMD_WIDTH, mesh->tet_count), system->matrix->value);
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
+        if (tangent)
+            ost_batch_keep_alike(&batch, element, mesh, field);
         if (tangent)
             tangent_stiffness(&batch, element, tangent, blocks);
         else

@@ -251,3 +251,28 @@ void ost_follower_stiffen(const OstFollower *follower, const double *factor, con
     for (; follower; follower = follower->next)
         stiffen(follower, factor[follower->function], u, system);
 }
+
+static void add_skew(const OstFollower *follower, double factor, const double *u, const double *v, double *product)
+{
+    const int n = follower->nodes_per_face;
+    const double half = 0.5 * factor * follower->pressure;
+    for (OstLocal f = 0; f < follower->count; f++) {
+        double x[3 * OST_MAX_FACE_NODES], blocks[9 * OST_MAX_FACE_NODES * OST_MAX_FACE_NODES];
+        const OstLocal *nodes = place_face(follower, f, u, x);
+        differentiate(n, x, blocks);
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n && nodes[a] < follower->mesh->owned_nodes; b++)
+                for (int i = 0; i < 3; i++)
+                    for (int j = 0; j < 3; j++)
+                        product[3 * (size_t)nodes[a] + (size_t)i] +=
+                            half * (blocks[9 * (n * a + b) + 3 * i + j] - blocks[9 * (n * b + a) + 3 * j + i]) *
+                            v[3 * (size_t)nodes[b] + (size_t)j];
+    }
+}
+
+void ost_follower_add_skew(const OstFollower *follower, const double *factor, const double *u, const double *v,
+                           double *product)
+{
+    for (; follower; follower = follower->next)
+        add_skew(follower, factor[follower->function], u, v, product);
+}

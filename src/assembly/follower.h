@@ -39,4 +39,9 @@ OstStatus ost_follower_conserves(const OstFollower *follower, const OstSupports 
  * loads in nonlinear finite element analyses, 1984). */
 void ost_follower_stiffen(const OstFollower *follower, const double *factor, const double *u, OstSystem *system);
 
+/* Local. Adds that rest, the skew part of the load stiffness, times v (3 × node_count) to the owned nodes' `product`.
+ */
+void ost_follower_add_skew(const OstFollower *follower, const double *factor, const double *u, const double *v,
+                           double *product);
+
 #endif

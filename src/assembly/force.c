@@ -45,8 +45,10 @@ OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *fie
         memset(magnitude, 0, bytes);
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = t;
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
+        if (formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, field);
         ost_batch_gather_vectors(&batch, element->nodes, u, displacement);
         if (formulation == OST_FORMULATION_LINEAR)
             element->force(batch.x, &batch.elasticity, displacement, of_tets);

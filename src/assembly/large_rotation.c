@@ -5,12 +5,13 @@
 
 #include <float.h>
 
-/* Reads the next owned tets from `first` on, and the displacements of their nodes. */
+/* Reads the next owned tets of one quadrature rule from `first` on, and the displacements of their nodes. */
 static void gather(OstBatch *batch, const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLocal first,
                    OstSimd *of_nodes)
 {
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     ost_batch_gather_from(batch, element, mesh, field, first, mesh->owned_tets);
+    ost_batch_keep_alike(batch, element, mesh, field);
     ost_batch_gather_vectors(batch, element->nodes, u, of_nodes);
 }
 
@@ -22,7 +23,7 @@ double ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField 
     double energy = 0.0;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = t;
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->owned_tets; first += batch.count) {
         OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstSimd of_tets;
         gather(&batch, mesh, field, u, first, of_nodes);
@@ -39,7 +40,7 @@ void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const
     OstBatch batch;
     *least = (OstLeastStretch){.tet = -1, .stretch = DBL_MAX};
     ost_elasticity_clear(&batch.elasticity);
-    for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->owned_tets; first += batch.count) {
         OstSimd of_nodes[3 * OST_MAX_TET_NODES];
         OstSimd stretch;
         gather(&batch, mesh, field, u, first, of_nodes);

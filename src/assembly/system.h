@@ -43,6 +43,7 @@ typedef struct OstTangent {
     OstFormulation formulation;         /* consistent or classical */
     double t;                           /* the share of the eigenstrain */
     const double *u;                    /* 3 × node_count */
+    const double *from;                 /* 3 × node_count or NULL: ost_large_rotation_stiffness */
     int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
     const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
     const double *factor;               /* of its loads, one for each function of time */

@@ -61,6 +61,34 @@ static inline void shear_shares(const OstPolar *polar, const OstSimd inverse[3],
     }
 }
 
+void ost_biot_strain_change(const OstPolar *polar, const OstSimd df[9], OstSimd change[6])
+{
+    OstSimd w[STRAINS][STRAINS], inverse[3], share[3][3], g[3][3], principal[STRAINS];
+    principal_to_world(polar, w);
+    inverse_sums(polar, inverse);
+    shear_shares(polar, inverse, share);
+    for (int j = 0; j < 3; j++) {
+        const OstSimd *v = polar->before + 3 * j;
+        OstSimd column[3];
+        for (int i = 0; i < 3; i++)
+            column[i] = df[3 * i] * v[0] + df[3 * i + 1] * v[1] + df[3 * i + 2] * v[2];
+        for (int i = 0; i < 3; i++) {
+            const OstSimd *a = polar->after + 3 * i;
+            g[i][j] = a[0] * column[0] + a[1] * column[1] + a[2] * column[2];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        const int i = pair[k][0], j = pair[k][1];
+        principal[k] = g[k][k];
+        principal[3 + k] = share[i][j] * g[i][j] + share[j][i] * g[j][i];
+    }
+    for (int p = 0; p < STRAINS; p++) {
+        change[p] = w[p][0] * principal[0];
+        for (int n = 1; n < STRAINS; n++)
+            change[p] += w[p][n] * principal[n];
+    }
+}
+
 /* The stress along the principal directions before. */
 static inline void principal_stress(const OstSimd stress[6], OstSimd w[STRAINS][STRAINS], OstSimd s[STRAINS])
 {

@@ -16,6 +16,9 @@
 /* Local. U - I in world axes (11 22 33 12 23 31, engineering shear). */
 void ost_biot_strain(const OstPolar *polar, OstSimd strain[6]);
 
+/* Local. The derivative of U - I along a change dF of F (row-major), in world axes. */
+void ost_biot_strain_change(const OstPolar *polar, const OstSimd df[9], OstSimd change[6]);
+
 /* Local. P (row-major) from the stress conjugate to U - I, in world axes. */
 void ost_biot_piola(const OstPolar *polar, const OstSimd stress[6], OstSimd piola[9]);
 

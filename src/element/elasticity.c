@@ -235,6 +235,7 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
         gather_varying(elasticity, field, region, tets, points, places);
     else
         gather_uniform(elasticity, field, region);
+    elasticity->varying = elasticity->points > 1 ? (1U << OST_SIMD_WIDTH) - 1U : 0U;
 }
 
 static void copy_lane(const OstElasticity *from, int slot, OstElasticity *to)
@@ -257,14 +258,18 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
     elasticity->by_mean = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
+    elasticity->varying = 0;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const OstLocal same[OST_SIMD_WIDTH] = {tets[slot], tets[slot], tets[slot], tets[slot]};
         OstElasticity one;
         ost_elasticity_clear(&one);
         gather_region(&one, field, field->tet_region[tets[slot]], same, points, places);
         elasticity->by_mean |= one.by_mean;
+        elasticity->varying |= one.varying & 1U << slot;
         copy_lane(&one, slot, elasticity);
     }
+    if (!elasticity->varying)
+        elasticity->points = 1;
 }
 
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,

@@ -20,9 +20,10 @@ enum { OST_MAX_POINTS = 14, OST_ELASTICITY_COUNT = 21 };
  * `shear` = C_44 / sqrt(C_11 C_22), C_ijkl = (1 - 2 shear) A_ij A_kl + shear (A_ik A_jl + A_il A_jk). Computing C from
  * A is cheaper than rotating it, and the stiffness of a linear tet follows from A without C, which is cheaper still. */
 typedef struct OstElasticity {
-    int points;     /* 1: C is uniform in each tet; otherwise the number of points that was asked for */
-    int by_mean;    /* is C split? */
-    int32_t region; /* the present values are valid for every tet of this region; -1: for this batch alone */
+    int points;       /* 1: C is uniform in each tet; otherwise the number of points that was asked for */
+    unsigned varying; /* bit k: C varies within tet k */
+    int by_mean;      /* is C split? */
+    int32_t region;   /* the present values are valid for every tet of this region; -1: for this batch alone */
 
     int stretch_suffices;      /* set by the caller if A may stand for c and m (linear tets only) */
     int by_stretch;            /* does A stand for C, and c is not set? */
@@ -50,6 +51,7 @@ typedef struct OstElasticity {
 static inline void ost_elasticity_clear(OstElasticity *elasticity)
 {
     elasticity->region = -1;
+    elasticity->varying = 0;
     elasticity->stretch_suffices = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;

@@ -42,6 +42,9 @@ typedef struct OstElement {
     const OstQuadrature *(*rule)(const OstSimd *x, const OstElasticity *elasticity);
     void (*evaluate)(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point);
 
+    /* Bit k: by itself, tet k would have the rule of fewer points. NULL: there is only one. */
+    unsigned (*uniform)(const OstSimd *x, const OstElasticity *elasticity);
+
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
     void (*stiffness)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks);
 

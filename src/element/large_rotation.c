@@ -59,6 +59,36 @@ static void deform(const OstElement *element, const OstSimd *x, const OstElastic
     tets->stiff /= tets->volume;
 }
 
+/* Puts the stress that is linear between `from` and u in place of that at u. */
+static void take_linear_stress(const OstElement *element, const OstElasticity *elasticity, const OstSimd *u,
+                               const OstSimd *from, DeformedTets *tets)
+{
+    tets->stiff = (OstSimd){0};
+    for (int q = 0; q < tets->count; q++) {
+        Deformed *at = &tets->at[q];
+        OstPolar polar;
+        OstSimd slope[9], before[9], change[6];
+        OstSimd mode;
+        ost_displacement_gradient(element->nodes, &at->point, from, before);
+        ost_displacement_gradient(element->nodes, &at->point, u, slope);
+        for (int n = 0; n < 9; n++)
+            slope[n] -= before[n];
+        ost_polar(before, &polar);
+        ost_biot_strain(&polar, at->strain);
+        ost_biot_strain_change(&polar, slope, change);
+        for (int p = 0; p < 6; p++)
+            at->strain[p] += change[p];
+        for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
+            at->strain[p] -= at->e0[p];
+        ost_simd_stress(at->c, at->strain, at->stress);
+        if (!elasticity->by_mean)
+            continue;
+        dot6(at->m, at->strain, &mode);
+        tets->stiff += at->point.volume * mode;
+    }
+    tets->stiff /= tets->volume;
+}
+
 /* The stress at a point, with the stiff mode's part. */
 static inline void whole_stress(const DeformedTets *tets, const OstElasticity *elasticity, int q, OstSimd stress[6])
 {
@@ -173,10 +203,12 @@ static inline void sum_points(int nodes, const DeformedTets *tets, const OstElas
 }
 
 static void consistent_stiffness(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                 const OstSimd *u, int definite, OstSimd *blocks)
+                                 const OstSimd *u, const OstSimd *from, int definite, OstSimd *blocks)
 {
     DeformedTets tets;
     deform(element, x, elasticity, u, &tets);
+    if (from)
+        take_linear_stress(element, elasticity, u, from, &tets);
     if (element->nodes == 4) /* a number that the compiler knows: half the time of what follows the Hessian */
         sum_points(4, &tets, elasticity, definite, blocks);
     else
@@ -295,12 +327,13 @@ void ost_large_rotation_force(const OstElement *element, OstFormulation formulat
 }
 
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                                  const OstElasticity *elasticity, const OstSimd *u, int definite, OstSimd *blocks)
+                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
+                                  OstSimd *blocks)
 {
     if (formulation == OST_FORMULATION_CLASSICAL)
         classical_stiffness(element, x, elasticity, u, blocks);
     else
-        consistent_stiffness(element, x, elasticity, u, definite, blocks);
+        consistent_stiffness(element, x, elasticity, u, from, definite, blocks);
 }
 
 static void consistent_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,

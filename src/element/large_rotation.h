@@ -21,10 +21,16 @@ void ost_large_rotation_energy(const OstElement *element, OstFormulation formula
 void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                               const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-/* Blocks as of OstElement.stiffness. If `definite`, the derivative of the stress at each point is made positive
- * semidefinite where it is not (ost_biot_hessian), and so the tet's stiffness. (The classical one always is.) */
+/* Blocks as of OstElement.stiffness. `from`: NULL, or another displacement, of the last Newton iteration: the stress of
+ * the geometric part is then that at `from` plus its linear change up to u, without what rotation by a linear
+ * displacement seems to stretch (D. Magisano, L. Leonetti and G. Garcea, How to improve efficiency and robustness of
+ * the Newton method in geometrically non-linear structural problem discretized via displacement-based finite elements,
+ * Comput. Methods Appl. Mech. Eng. 313, 2017). If `definite`, the derivative of the stress at each point is made
+ * positive semidefinite where it is not (ost_biot_hessian), and so the tet's stiffness. (The classical one always is.)
+ */
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                                  const OstElasticity *elasticity, const OstSimd *u, int definite, OstSimd *blocks);
+                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
+                                  OstSimd *blocks);
 
 /* F - I at a point. */
 static inline void ost_displacement_gradient(int nodes, const OstPoint *point, const OstSimd *u, OstSimd slope[9])

@@ -63,8 +63,10 @@ static inline void evaluate(const OstSimd *x, const double at[4], OstPoint *poin
     }
 }
 
-static int are_straight(const OstSimd *x)
+/* Straight edges and a uniform C make the integrand of the stiffness quadratic. */
+static unsigned find_uniform(const OstSimd *x, const OstElasticity *elasticity)
 {
+    unsigned uniform = ~elasticity->varying & ((1U << OST_SIMD_WIDTH) - 1U);
     for (int a = 4; a < NODES; a++) {
         const int *end = ost_tet10_ends[a];
         OstSimd off = {0};
@@ -78,15 +80,14 @@ static int are_straight(const OstSimd *x)
         }
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
             if (!(off[slot] <= straight * straight * length[slot]))
-                return 0;
+                uniform &= ~(1U << slot);
     }
-    return 1;
+    return uniform;
 }
 
-/* Straight edges and a uniform C make the integrand of the stiffness quadratic. */
 static int is_uniform(const OstSimd *x, const OstElasticity *elasticity)
 {
-    return elasticity->points == 1 && are_straight(x);
+    return elasticity->points == 1 && find_uniform(x, elasticity) == (1U << OST_SIMD_WIDTH) - 1U;
 }
 
 /* Degree 2 integrates uniform tets without error. For the others it would be enough for convergence of order 2
@@ -456,6 +457,7 @@ const OstElement ost_tet10 = {
     .points = POINTS,
     .places = tet10_places,
     .rule = rule_for,
+    .uniform = find_uniform,
     .evaluate = tet10_evaluate,
     .stiffness = tet10_stiffness,
     .force = tet10_force,

@@ -286,18 +286,36 @@ static OstStatus make_pattern(OstProblem *problem)
     return ost_case_located(c, c->constraints[0].on.place, status);
 }
 
-/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
-static OstStatus fill(const OstProblem *problem, double t, const double *u, int definite)
+static OstStatus factors_at(const OstProblem *problem, double t, double **factor)
 {
-    OstTangent tangent = {
-        .formulation = problem->formulation, .t = ost_problem_eigen_share(problem, t), .u = u, .definite = definite};
+    OST_TRY(OST_NEW(problem->ctx, factor, ost_problem_functions(problem)));
+    for (int k = 0; k < ost_problem_functions(problem); k++)
+        (*factor)[k] = ost_problem_factor(problem, k, t);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double *u, const double *v, double *product)
+{
+    double *factor = NULL;
+    OST_TRY(factors_at(problem, t, &factor));
+    ost_follower_add_skew(problem->follower, factor, u, v, product);
+    OST_FREE(factor);
+    return OST_SUCCESS;
+}
+
+/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
+static OstStatus fill(const OstProblem *problem, double t, const double *u, const double *from, int definite)
+{
+    OstTangent tangent = {.formulation = problem->formulation,
+                          .t = ost_problem_eigen_share(problem, t),
+                          .u = u,
+                          .from = from,
+                          .definite = definite};
     double *factor = NULL;
     if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
         return ost_system_fill_tangent(problem->system, problem->field, NULL);
     if (problem->follower && !definite) {
-        OST_TRY(OST_NEW(problem->ctx, &factor, ost_problem_functions(problem)));
-        for (int k = 0; k < ost_problem_functions(problem); k++)
-            factor[k] = ost_problem_factor(problem, k, t);
+        OST_TRY(factors_at(problem, t, &factor));
         tangent.follower = problem->follower;
         tangent.factor = factor;
     }
@@ -307,7 +325,8 @@ static OstStatus fill(const OstProblem *problem, double t, const double *u, int 
 }
 
 /* The matrix stays where it is, so that a solver on it can be kept. */
-static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, int definite, OstStiffness *stiffness)
+static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, const double *from, int definite,
+                                OstStiffness *stiffness)
 {
     if (!problem->system)
         OST_TRY(make_pattern(problem));
@@ -315,7 +334,7 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
     if (fills && !problem->system->block_of_tet)
         OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
     if (fills)
-        OST_TRY(ost_agree(problem->ctx, fill(problem, t, u, definite)));
+        OST_TRY(ost_agree(problem->ctx, fill(problem, t, u, from, definite)));
     problem->filled = 1;
     const OstBlockMatrix *matrix = problem->system->matrix;
     if (stiffness)
@@ -331,12 +350,17 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
 
 OstStatus ost_problem_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness)
 {
-    return make_stiffness(problem, t, u, 0, stiffness);
+    return make_stiffness(problem, t, u, NULL, 0, stiffness);
 }
 
 OstStatus ost_problem_definite_stiffness(OstProblem *problem, double t, const double *u, OstStiffness *stiffness)
 {
-    return make_stiffness(problem, t, u, 1, stiffness);
+    return make_stiffness(problem, t, u, NULL, 1, stiffness);
+}
+
+OstStatus ost_problem_stiffness_from(OstProblem *problem, double t, const double *u, const double *from, int definite)
+{
+    return make_stiffness(problem, t, u, from, definite, NULL);
 }
 
 OstStatus ost_problem_worst_tet(const OstProblem *problem, const double *u, OstWorstTet *worst)

@@ -57,6 +57,14 @@ OstStatus ost_problem_displacement(const OstProblem *problem, double t, const do
  */
 OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts);
 
+/* Collective. As ost_problem_stiffness, or ost_problem_definite_stiffness, with the stress linear between `from` (3 ×
+ * node_count, or NULL) and u (element/large_rotation.h). */
+OstStatus ost_problem_stiffness_from(OstProblem *problem, double t, const double *u, const double *from, int definite);
+
+/* Local. Adds what the stiffness of a load that is not conservative has beside its symmetric part, which the matrix
+ * holds, times v (3 × node_count), to the owned nodes' `product`. */
+OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double *u, const double *v, double *product);
+
 /* What acts on a body is a sum over functions of time, each a factor times a load and prescribed displacements.
  * Function 0 is t itself: the problem's force and supports. The others follow the problem's time tables (timed.c). */
 

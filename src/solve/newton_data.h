@@ -14,6 +14,9 @@ typedef enum {
     OST_REST_UNSTABLE  /* at rest, but not stable, and nothing stable was found near by */
 } OstRest;
 
+/* The energy may rise above that of the last iteration, but not above all of so many. */
+enum { OST_RECENT = 5 };
+
 struct OstNewton {
     OstContext *ctx;
     OstProblem *problem;
@@ -26,6 +29,9 @@ struct OstNewton {
     double t;
     double *displacement, *candidate; /* 3 × node_count */
     double *direction;                /* 3 × node_count: the correction of the displacement */
+    double *from;                     /* 3 × node_count: the displacement before its last change */
+    double recent[OST_RECENT];        /* the energies at the last displacements, the oldest overwritten first */
+    int moved;                        /* is there such a change, since the last state at rest? */
     double *residual, *correction;    /* 3 × rows */
     double *internal, *load;          /* 3 × owned_nodes */
     double energy;                    /* total: of the strain, less that of the load */
@@ -57,6 +63,12 @@ static inline int ost_newton_has_energy(const OstNewton *newton)
     return newton->problem->formulation == OST_FORMULATION_CONSISTENT && newton->problem->conservative;
 }
 
+/* Has the stiffness an unsymmetric part? */
+static inline int ost_newton_is_unsymmetric(const OstNewton *newton)
+{
+    return !newton->problem->conservative;
+}
+
 /* Collective. Finds the state at rest under load(newton->t), from newton->displacement, in at most so many iterations.
  * A failure is one of the machine; else `rest` says how it ended. */
 OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest);
@@ -68,6 +80,9 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement);
  * and newton->direction with ghosts. `definite`: by the stiffness that is made positive definite tet by tet. *found: 0
  * where the solver found none, or the matrix indefinite. */
 OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, const double *rhs, int *found);
+
+/* Collective. The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
+OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction);
 
 /* Collective. Goes along newton->direction until the energy (without one, the residual) is low enough; evaluates there.
  * *length: of the step, 0 if none helps. */

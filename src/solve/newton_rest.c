@@ -176,6 +176,8 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     double forcing = loosest, fallen_from = 0.0, before = 0.0;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
+    for (int k = 0; k < OST_RECENT; k++)
+        newton->recent[k] = newton->energy;
     newton->decrement = INFINITY;
     newton->stopped = 0;
     for (int k = 0;; k++) {

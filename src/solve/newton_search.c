@@ -42,13 +42,24 @@ static OstStatus measure(const OstNewton *newton, double length, Point *point)
     return OST_SUCCESS;
 }
 
+/* The energy that a step must lie below (L. Grippo, F. Lampariello and S. Lucidi, A nonmonotone line search technique
+ * for Newton's method, SIAM J. Numer. Anal. 23, 1986): a whole step of a slender body that turns stretches it at first,
+ * and the next one takes that back. Where the stiffness was indefinite, the next one may lead elsewhere. */
+static double reference(const OstNewton *newton, const Point *start)
+{
+    double highest = start->value;
+    for (int k = 0; k < OST_RECENT && !newton->indefinite; k++)
+        highest = fmax(highest, newton->recent[k]);
+    return highest;
+}
+
 static int is_low_enough(const OstNewton *newton, const Point *start, const Point *point)
 {
     if (!isfinite(point->value) || !isfinite(point->slope))
         return 0;
     if (!ost_newton_has_energy(newton))
         return fabs(point->slope) <= flatter * fabs(start->slope);
-    if (point->value <= start->value + share * point->length * start->slope)
+    if (point->value <= reference(newton, start) + share * point->length * start->slope)
         return 1;
     const double hidden = drowned * newton->energy_size;
     return point->value <= start->value + hidden && fabs(point->slope) <= flatter * fabs(start->slope);
@@ -90,19 +101,43 @@ static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
     return OST_SUCCESS;
 }
 
+/* To the candidate. */
+static void move(OstNewton *newton)
+{
+    const size_t bytes = 3 * (size_t)newton->problem->mesh->node_count * sizeof(double);
+    memcpy(newton->from, newton->displacement, bytes);
+    memcpy(newton->displacement, newton->candidate, bytes);
+    newton->moved = 1;
+    newton->recent[newton->step_iterations % OST_RECENT] = newton->energy;
+}
+
+/* Where nothing is minimised. On the way residuals may rise a thousandfold and say nothing: load steps are cut back
+ * where whole corrections do not converge. */
+static OstStatus take_whole(OstNewton *newton, double *length)
+{
+    Point point;
+    OST_TRY(go_to(newton, 1.0, &point));
+    if (!isfinite(newton->norm))
+        return ost_newton_evaluate(newton, newton->displacement);
+    move(newton);
+    *length = 1.0;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_search(OstNewton *newton, double *length)
 {
     Point start, point;
     double next = 1.0;
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
+    if (ost_newton_is_unsymmetric(newton))
+        return take_whole(newton, length);
     for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
         OST_TRY(go_to(newton, next, &point));
         if (is_low_enough(newton, &start, &point)) {
             if (cut == 0 && ost_newton_has_energy(newton))
                 OST_TRY(extend(newton, &start, &point));
-            memcpy(newton->displacement, newton->candidate,
-                   3 * (size_t)newton->problem->mesh->node_count * sizeof(double));
+            move(newton);
             *length = point.length;
             return OST_SUCCESS;
         }

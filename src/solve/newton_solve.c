@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/halo.h"
 #include "core/small.h"
 #include "solve/newton_data.h"
@@ -11,20 +12,29 @@
 /* A new hierarchy pays once a digit takes so many times the iterations, and so many more, than when it was new. */
 static const double more_iterations = 1.5, further_iterations = 1.0;
 
+/* So many iterations cost more than a hierarchy: after them it pays once a digit takes so many times the iterations. */
+static const double of_a_setup = 40.0, slightly_more = 1.2;
+
+/* How far GMRES goes: residuals of slender bodies say little about their bending, so that less leads astray. Where it
+ * does not get below the other, factors take the hierarchy's place. */
+static const double accurate = 1e-10, inaccurate = 1e-6;
+
 /* A failure that Newton's method can answer: the matrix is indefinite, or too hard for the solver. */
 static int can_go_on(OstStatus status)
 {
     return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT;
 }
 
-/* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. */
+/* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. Once the
+ * stiffness was found indefinite, its exact stress says which way the body buckles. */
 static OstStatus fill(OstNewton *newton, int definite)
 {
     OstProblem *problem = newton->problem;
     const OstFormulation formulation = problem->formulation;
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
-    const OstStatus status = definite ? ost_problem_definite_stiffness(problem, newton->t, newton->displacement, NULL)
-                                      : ost_problem_stiffness(problem, newton->t, newton->displacement, NULL);
+    const OstStatus status = ost_problem_stiffness_from(
+        problem, newton->t, newton->displacement,
+        newton->moved && !newton->indefinite && ost_newton_has_energy(newton) ? newton->from : NULL, definite);
     ost_problem_take_formulation(problem, formulation);
     return status;
 }
@@ -48,6 +58,20 @@ static OstStatus update(OstNewton *newton, int definite)
     return OST_SUCCESS;
 }
 
+/* The same where GMRES solves: any factors or hierarchy of a definite stiffness serve as its preconditioner. */
+static OstStatus update_unsymmetric(OstNewton *newton)
+{
+    if (newton->rebuild) {
+        OST_TRY(fill(newton, 1));
+        newton->report.setups++;
+        newton->cost = 0.0;
+        newton->stiffness->moved = 1;
+        OST_TRY(ost_stiffness_solver_rebuild(newton->stiffness, newton->t, newton->displacement));
+        newton->rebuild = 0;
+    }
+    return fill(newton, 0);
+}
+
 /* Has the hierarchy become too old? */
 static void judge_hierarchy(OstNewton *newton)
 {
@@ -55,38 +79,93 @@ static void judge_hierarchy(OstNewton *newton)
     const double cost = newton->solve.iterations / digits;
     if (newton->cost == 0.0)
         newton->cost = fmax(cost, 1.0);
-    else if (cost > more_iterations * newton->cost + further_iterations)
+    else if (cost > more_iterations * newton->cost + further_iterations ||
+             (newton->solve.iterations > of_a_setup && cost > slightly_more * newton->cost))
         newton->rebuild = 1;
 }
 
-/* The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
-static OstStatus take_direction(OstNewton *newton)
+OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction)
 {
     const OstProblem *problem = newton->problem;
     const OstMesh *mesh = problem->mesh;
     for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
         const OstLocal row = problem->system->row_of_node[node];
-        double *direction = newton->direction + 3 * (size_t)node;
+        double *of_node = direction + 3 * (size_t)node;
         double projector[9];
-        memset(direction, 0, 3 * sizeof *direction);
+        memset(of_node, 0, 3 * sizeof *of_node);
         if (row < 0)
             continue;
         ost_supports_get(problem->supports, node, projector, NULL);
-        ost_apply3(projector, newton->correction + 3 * (size_t)row, direction);
+        ost_apply3(projector, correction + 3 * (size_t)row, of_node);
     }
-    return ost_agree(newton->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), newton->direction));
+    return ost_agree(newton->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), direction));
+}
+
+/* The load may have no work function (pressure that follows a surface with a free rim): its stiffness then has a skew
+ * part. GMRES solves with it, preconditioned by the definite stiffness of some earlier state. */
+typedef struct Skew {
+    OstNewton *newton;
+    double *moved;   /* 3 × node_count */
+    double *product; /* 3 × owned_nodes */
+} Skew;
+
+/* y += P S P v on the rows */
+static OstStatus add_skew(void *data, const double *v, double *y)
+{
+    const Skew *skew = data;
+    const OstNewton *newton = skew->newton;
+    const OstProblem *problem = newton->problem;
+    OST_TRY(ost_newton_spread(newton, v, skew->moved));
+    memset(skew->product, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof(double));
+    OST_TRY(ost_agree(newton->ctx,
+                      ost_problem_add_skew(problem, newton->t, newton->displacement, skew->moved, skew->product)));
+    for (OstLocal row = 0; row < problem->system->matrix->rows; row++) {
+        const size_t node = (size_t)problem->system->node_of_row[row];
+        double projector[9], kept[3];
+        ost_supports_get(problem->supports, (OstLocal)node, projector, NULL);
+        ost_apply3(projector, skew->product + 3 * node, kept);
+        for (size_t i = 0; i < 3; i++)
+            y[3 * (size_t)row + i] += kept[i];
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus solve_skew(OstNewton *newton, double forcing, const double *rhs)
+{
+    const OstMesh *mesh = newton->problem->mesh;
+    Skew skew = {.newton = newton};
+    const OstFurtherPart further = {.data = &skew, .add = add_skew};
+    OstStatus status = OST_NEW(newton->ctx, &skew.moved, 3 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(newton->ctx, &skew.product, 3 * (size_t)mesh->owned_nodes));
+    status = ost_agree(newton->ctx, status);
+    OST_THEN(ost_solver_solve_unsymmetric(newton->stiffness->solver, &further, forcing, rhs, newton->correction,
+                                          &newton->solve));
+    OST_FREE(skew.moved);
+    OST_FREE(skew.product);
+    return status;
 }
 
 /* One attempt. *again: the hierarchy was old, and a new one may find what it did not. */
 static OstStatus attempt(OstNewton *newton, int definite, double forcing, const double *rhs, int *again)
 {
     const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
+    const int unsymmetric = ost_newton_is_unsymmetric(newton) && !definite;
+    OstStatus status;
     ost_solver_aim(
         newton->stiffness->solver,
         (OstSolverAim){.relative_residual = forcing, .crude = 1, .probing = !definite, .first = newton->method});
     newton->solve.indefinite = 0;
-    OST_TRY(update(newton, definite));
-    const OstStatus status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+    if (unsymmetric) {
+        OST_TRY(update_unsymmetric(newton));
+        status = solve_skew(newton, accurate, rhs);
+        if (newton->solve.relative_residual > inaccurate) {
+            newton->rebuild = 1;
+            newton->method = OST_METHOD_DIRECT;
+        }
+    } else {
+        OST_TRY(update(newton, definite));
+        status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+    }
     newton->report.linear_iterations += newton->solve.iterations;
     *again = can_go_on(status) && old && !newton->solve.indefinite;
     if (status == OST_SUCCESS && !old)
@@ -112,5 +191,5 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
     OST_TRY(status);
     judge_hierarchy(newton);
     *found = 1;
-    return take_direction(newton);
+    return ost_newton_spread(newton, newton->correction, newton->direction);
 }

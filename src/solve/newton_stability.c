@@ -73,6 +73,7 @@ OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *res
     for (int attempt = 0;; attempt++) {
         double size = 0.0;
         int stable = 0, found = 0;
+        newton->moved = 0;
         OST_TRY(smooth_forces(newton, newton->residual, &size));
         OST_TRY(ost_newton_solve(newton, 0, 1e-3, newton->residual, &stable));
         if (stable)

@@ -87,6 +87,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->displacement, nodes));
         OST_THEN(OST_NEW(ctx, &made->candidate, nodes));
         OST_THEN(OST_NEW(ctx, &made->direction, nodes));
+        OST_THEN(OST_NEW(ctx, &made->from, nodes));
         OST_THEN(OST_NEW(ctx, &made->internal, owned));
         OST_THEN(OST_NEW(ctx, &made->load, owned));
         OST_THEN(OST_NEW(ctx, &made->residual, rows));
@@ -107,6 +108,7 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE((*newton)->displacement);
     OST_FREE((*newton)->candidate);
     OST_FREE((*newton)->direction);
+    OST_FREE((*newton)->from);
     OST_FREE((*newton)->internal);
     OST_FREE((*newton)->load);
     OST_FREE((*newton)->residual);
@@ -190,6 +192,7 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
         newton->candidate[i] -= state->displacement[i];
     OST_TRY(move_supports(newton, state));
     memcpy(newton->displacement, state->displacement, count * sizeof(double));
+    newton->moved = 0;
     for (int definite = 0; definite < 2 && !found; definite++)
         OST_TRY(ost_newton_solve(newton, definite, 1e-3, newton->residual, &found));
     for (size_t i = 0; i < count; i++)
@@ -222,8 +225,11 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
     const double step = t - state->t;
     newton->indefinite = newton->step_iterations = 0;
     OST_TRY(load_to(newton, state, t));
-    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+    newton->moved = 1;
+    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++) {
+        newton->from[i] = state->displacement[i];
         newton->displacement[i] = state->displacement[i] + step * state->slope[i];
+    }
     OST_TRY(prescribe(newton, newton->displacement));
     return ost_newton_find_rest(newton, most_iterations, rest);
 }

@@ -130,9 +130,11 @@ static void average(const OstResult *result, Sums *sums)
     ost_elasticity_clear(&at_nodes);
     batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
     find_regions(mesh, sums->region);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
         OstSimd stress[6 * OST_MAX_TET_NODES];
         ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
+        if (result->formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, result->field);
         stress_of_batch(result, element, &batch, &at_nodes, stress);
         add_batch(mesh, element, &batch, stress, sums);
     }

@@ -77,7 +77,8 @@ static void force_of(const Case *test, OstFormulation formulation, OstSimd *forc
 static void stiffness_of(const Case *test, OstFormulation formulation, int definite, int slot, double *k)
 {
     OstSimd blocks[9 * MOST_NODES * (MOST_NODES + 1) / 2];
-    ost_large_rotation_stiffness(test->element, formulation, test->x, &test->elasticity, test->u, definite, blocks);
+    ost_large_rotation_stiffness(test->element, formulation, test->x, &test->elasticity, test->u, NULL, definite,
+                                 blocks);
     full_matrix(test->element->nodes, blocks, slot, k);
 }
 
@@ -216,6 +217,53 @@ static void a_rigid_rotation_costs_nothing(void **state)
 }
 
 /* The linear force up to second order, and without cancellation where u is tiny. */
+/* Largest of K (w × x) over the size of K, x the places at u, w a rotation, with the stress linear between `from` and
+ * u.
+ */
+static double resistance_to_turning(const Case *test, const OstSimd *from, int slot)
+{
+    OstSimd blocks[9 * MOST_NODES * (MOST_NODES + 1) / 2];
+    double k[WIDTH * WIDTH], most = 0.0;
+    ost_large_rotation_stiffness(test->element, OST_FORMULATION_CONSISTENT, test->x, &test->elasticity, test->u, from,
+                                 0, blocks);
+    full_matrix(test->element->nodes, blocks, slot, k);
+    for (int i = 0; i < test->width; i++) {
+        double sum = 0.0;
+        for (int n = 0; n < test->width; n += 3) {
+            const double x = test->x[n][slot] + test->u[n][slot], y = test->x[n + 1][slot] + test->u[n + 1][slot];
+            sum += k[test->width * i + n + 1] * x - k[test->width * i + n] * y; /* about z */
+        }
+        most = fmax(most, fabs(sum));
+    }
+    return most / largest_of(test->width * test->width, k);
+}
+
+/* Turned by a displacement that is linear in the angle, tets are stretched. By the stress that is linear between the
+ * two shapes they are not, and do not resist being turned on. */
+static void the_linear_stress_knows_no_stretch_by_rotation(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        Case test;
+        OstSimd none[WIDTH] = {{0}};
+        make_case(&kinds[kind], moderate, 0.0, &test);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            for (int n = 0; n < test.width; n += 3) {
+                test.u[n][slot] = -0.4 * test.x[n + 1][slot];
+                test.u[n + 1][slot] = 0.4 * test.x[n][slot];
+                test.u[n + 2][slot] = 0.0;
+            }
+        }
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            assert_true(resistance_to_turning(&test, NULL, slot) > 1e-3);
+            assert_true(resistance_to_turning(&test, none, slot) < 1e-13);
+            const double same = resistance_to_turning(&test, test.u, slot),
+                         at_u = resistance_to_turning(&test, NULL, slot);
+            assert_close(same / at_u, 1.0, 1e-12);
+        }
+    }
+}
+
 static void small_displacements_give_the_linear_force(void **state)
 {
     (void)state;
@@ -580,6 +628,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(force_and_stiffness_are_derivatives_of_the_energy),
     cmocka_unit_test(forces_balance),
     cmocka_unit_test(a_rigid_rotation_costs_nothing),
+    cmocka_unit_test(the_linear_stress_knows_no_stretch_by_rotation),
     cmocka_unit_test(small_displacements_give_the_linear_force),
     cmocka_unit_test(a_definite_stiffness_is_changed_only_where_it_must_be),
     cmocka_unit_test(a_definite_tet_has_no_negative_eigenvalue),

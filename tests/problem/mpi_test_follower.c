@@ -178,6 +178,53 @@ static void a_rim_that_moves_leaves_no_work_function(void **state)
         }
 }
 
+/* On a surface with a free rim the derivative of the load has a skew part, which the matrix leaves out. Differences of
+ * the load, of second degree in the places, are exact but for rounding. */
+static void stiffness_and_its_skew_part_are_the_loads_derivative(void **state)
+{
+    (void)state;
+    const double step = 0.01, t = 0.7;
+    for (int order = 1; order <= 2; order++) {
+        Made made = make(order, FREE_RIM), plain = make(order, UNPRESSED);
+        const OstMesh *mesh = made.mesh;
+        const size_t owned = 3 * (size_t)mesh->owned_nodes, all = 3 * (size_t)mesh->node_count;
+        double *direction = numbers(all), *u = numbers(all), *slope = numbers(owned), *beside = numbers(owned);
+        double *skew = numbers(owned);
+        OstStiffness with, without;
+        for (OstLocal node = 0; node < mesh->node_count; node++)
+            for (int i = 0; i < 3 && !holds(mesh, node); i++)
+                direction[3 * node + i] = random_of(mesh->node_label[node], 50 + i);
+        for (int side = -1; side <= 1; side += 2) {
+            shift(&made, side * step, direction, u);
+            ost_problem_load(made.problem, t, u, beside);
+            for (size_t i = 0; i < owned; i++)
+                slope[i] += 0.5 * side / step * beside[i];
+        }
+        assert_success(ost_problem_add_skew(made.problem, t, made.u, direction, skew));
+        assert_success(ost_problem_stiffness(made.problem, t, made.u, &with));
+        assert_success(ost_problem_stiffness(plain.problem, t, plain.u, &without));
+        const double size = largest(ctx, (OstLocal)owned, slope);
+        assert_true(largest(ctx, (OstLocal)owned, skew) > 0.01 * size);
+        for (OstLocal row = 0; row < with.rows; row++) {
+            double product[3];
+            memcpy(product, skew + 3 * with.node[row], sizeof product);
+            for (OstLocal k = with.row_start[row]; k < with.row_start[row + 1]; k++)
+                for (int n = 0; n < 9; n++)
+                    product[n / 3] += (with.value[9 * k + n] - without.value[9 * k + n]) *
+                                      direction[3 * with.node[with.column[k]] + n % 3];
+            for (int i = 0; i < 3; i++)
+                assert_close(-product[i] / size, slope[3 * with.node[row] + i] / size, 1e-10);
+        }
+        free(direction);
+        free(u);
+        free(slope);
+        free(beside);
+        free(skew);
+        destroy(&made);
+        destroy(&plain);
+    }
+}
+
 static void undeformed_it_is_the_ordinary_pressure(void **state)
 {
     (void)state;
@@ -202,6 +249,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(on_a_closed_surface_it_balances_in_any_shape),
     cmocka_unit_test(load_and_stiffness_are_derivatives_of_the_work),
     cmocka_unit_test(a_rim_that_moves_leaves_no_work_function),
+    cmocka_unit_test(stiffness_and_its_skew_part_are_the_loads_derivative),
     cmocka_unit_test(undeformed_it_is_the_ordinary_pressure),
 };
 
