@@ -3,6 +3,8 @@
 
 #include "core/error.h"
 
+#include <math.h>
+
 /* Other work on the machine disturbs short runs most: they are repeated, and the fastest counts. */
 enum { MOST_REPEATS = 3 };
 static const double long_enough = 0.5;
@@ -28,7 +30,7 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
         if (watch)
             OST_TRY(ost_watch_evaluate(scene, result, watch, &run->watched[q]));
         else
-            run->watched[q] = (OstWatched){result->largest_displacement, result->largest_displacement};
+            run->watched[q] = (OstWatched){result->largest_displacement, result->largest_displacement, NAN};
     }
     return OST_SUCCESS;
 }
