@@ -10,11 +10,13 @@
 #include "core/small.h"
 #include "problem/free_body.h"
 
+#include <math.h>
 #include <string.h>
 
-/* Of |e|_A²: steps end where two of them add less than this share, at this many at most (of nearly incompressible
- * linear tets, which lock, the first ones find little); gains are taken to fall by no less than this ratio. */
-static const double small_gain = 0.1, largest_ratio = 0.75;
+/* Of |e|_A²: steps end where the last gain is below the first share and what later ones would add, extrapolated,
+ * changes the sum by less than the second, at this many at most (of nearly incompressible linear tets, which lock, the
+ * first ones find little); gains are taken to fall by no less than this ratio. */
+static const double small_gain = 0.2, settled = 0.06, largest_ratio = 0.75;
 enum { most_steps = 24 };
 
 struct OstEstimate {
@@ -148,8 +150,13 @@ static OstStatus precondition(Search *search)
     const OstComplement *complement = &search->estimate->complement;
     const double *r = search->r + search->rows;
     double *z = search->z + search->rows;
-    int found;
-    OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
+    double residual = 0.0;
+    int found = 1;
+    for (size_t i = 0; i < search->rows; i++)
+        residual += search->r[i] * search->r[i];
+    OST_TRY(ost_sum(search->estimate->problem->ctx, 1, &residual));
+    if (residual > 0.0) /* linear tets begin without one */
+        OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
     search->failed = !found;
     for (size_t k = 0; k < (size_t)complement->count; k++)
         if (ost_complement_owns(complement, (OstLocal)k))
@@ -188,27 +195,32 @@ static OstStatus turn(Search *search, double gain, double *weight)
     return OST_SUCCESS;
 }
 
-/* Steps until two of them together add little to |e|_A². What later ones would add is extrapolated. */
+/* What all steps after this one would add to |e|_A², if gains go on falling as from the last to this. */
+static double gains_to_come(double gain, double last)
+{
+    const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
+    return gain * ratio / (1.0 - ratio);
+}
+
+/* Steps until |e|_A² with what is to come settles. */
 static OstStatus iterate(Search *search, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    double weight = 0.0, gain = 0.0, last = 0.0;
+    double weight = 0.0, gain = 0.0, sum = 0.0;
     *square = 0.0;
     OST_TRY(turn(search, 0.0, &weight));
     for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
-        last = gain;
+        const double last = gain, before = *square;
         OST_TRY(go_on(search, weight, &gain));
-        *square += gain;
-        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, a share of %.1e new", k + 1, sqrt(*square),
-                gain / *square);
-        if (search->failed || (k > 0 && gain + last <= small_gain * *square))
+        sum += gain;
+        *square = sum + gains_to_come(gain, last);
+        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", k + 1, sqrt(sum),
+                sqrt(*square - sum));
+        if (search->failed || (k > 0 && gain <= small_gain * sum && fabs(*square - before) <= settled * *square))
             break;
         OST_TRY(turn(search, gain, &weight));
     }
-    const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
-    const double more = gain * ratio / (1.0 - ratio);
-    search->longer = *square > 0.0 ? 1.0 + more / *square : 1.0;
-    *square += more;
+    search->longer = sum > 0.0 ? *square / sum : 1.0;
     return OST_SUCCESS;
 }
 

@@ -19,19 +19,22 @@ typedef struct Cells {
     OstBatch batch;
     int nodes, functions;
     const OstQuadrature *rule;
+    int points; /* at which C is needed */
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
     const double *turned_by; /* as the operator's; then its displacements */
     OstSimd base[NUMBERS];
 } Cells;
 
-/* Degrees 2 and 5 integrate products of the functions' gradients in straight tets without error. */
-static void clear_cells(const OstOperator *operator, double eigen_share, Cells *cells)
+/* Degrees 2 and 5 integrate products of the functions' gradients in straight tets without error. Where axes come from a
+ * formula, the residual needs them `exactly`; for the stiffness of linear tets those at the centroid will do. */
+static void clear_cells(const OstOperator *operator, int exactly, double eigen_share, Cells *cells)
 {
     cells->turned_by = operator->turned_by;
     cells->nodes = operator->complement->mesh->nodes_per_tet;
     cells->functions = ost_complement_per_tet(operator->complement);
     cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
+    cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
     ost_elasticity_clear(&cells->batch.elasticity);
     cells->batch.elasticity.eigen_share = eigen_share;
 }
@@ -70,9 +73,9 @@ static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Ce
     ost_batch_gather_vectors(batch, cells->nodes, mesh->coordinates, batch->x);
     if (cells->turned_by)
         ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
-    if (field->region_formula)
+    if (field->region_formula && cells->points > 0)
         find_places(cells, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->rule->count, places);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
 }
 
 static void gather_functions(const Cells *cells, const double *values, OstSimd *gathered)
@@ -321,7 +324,7 @@ static void sum_forces(const OstOperator *operator, OstFormulation formulation, 
     Cells cells;
     memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
     memset(of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * of_functions);
-    clear_cells(operator, eigen_share, &cells);
+    clear_cells(operator, !w, eigen_share, &cells);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
         gather(operator, first, mesh->tet_count, &cells);
@@ -351,7 +354,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    clear_cells(operator, 0.0, &cells);
+    clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
         OstSimd sum = {0};
@@ -465,7 +468,7 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
     memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
-    clear_cells(operator, 0.0, &cells);
+    clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);

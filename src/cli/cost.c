@@ -18,13 +18,15 @@ typedef struct Arguments {
     int calibrate;
 } Arguments;
 
-enum { ORDERS = 256, REFINEMENTS, TOLERANCES, CALIBRATE };
+enum { ORDERS = 256, REFINEMENTS, TOLERANCES, ACCURACIES, CALIBRATE };
 
 static const struct argp_option options[] = {
     {"max-time", 't', "SECONDS", 0, "Skip runs that would take the total beyond this time (default: 600)", 0},
     {"orders", ORDERS, "LIST", 0, "Orders of the elements (default: 1,2)", 0},
     {"refinements", REFINEMENTS, "LIST", 0, "Uniform refinements of the mesh (default: 0,1,2)", 0},
     {"tolerances", TOLERANCES, "LIST", 0, "Relative residuals to solve to (default: 1e-2,1e-4,1e-8)", 0},
+    {"accuracies", ACCURACIES, "LIST", 0,
+     "Errors in the norm of the energy to solve to adaptively; - for none (default: 0.1,0.03)", 0},
     {"csv", 'c', "FILE", 0, "Write the list as CSV here; - for standard output", 0},
     {"json", 'j', "FILE", 0, "Write everything as JSON here; - for standard output", 0},
     {"picture", 'p', "FILE", 0, "Draw error against seconds here (.png, .svg or .pdf)", 0},
@@ -91,6 +93,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         return read_list(state, "refinements", value, &v->refinement_count, v->refinement, NULL);
     case TOLERANCES:
         return read_list(state, "tolerances", value, &v->tolerance_count, NULL, v->tolerance);
+    case ACCURACIES:
+        v->accuracy_count = 0;
+        return strcmp(value, "-") == 0 ? 0
+                                       : read_list(state, "accuracies", value, &v->accuracy_count, NULL, v->accuracy);
     default:
         return ost_cli_take(key, value, state);
     }
@@ -101,8 +107,9 @@ static const struct argp cost_argp = {
     parse_option,
     "CASE\n--calibrate",
     "Measures what accuracy costs: solves a case with every combination of element order, refinement and solver "
-    "tolerance, and lists each run's error (of the strain energy and of the case's quantities of interest), seconds "
-    "and memory, and the cheapest run for errors of 10, 3, 1 and 0.3 %.",
+    "tolerance, and adaptively, and lists each run's error (of the strain energy and of the case's quantities of "
+    "interest), seconds "
+    "and memory, and the cheapest run for errors of 10, 3, 1, 0.3 and 0.1 %, and what the next refinement would give.",
     NULL,
     NULL,
     NULL};
@@ -171,5 +178,8 @@ done:
 int ost_cli_cost(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {.variants = ost_cost_default_variants(), .calibrate = 0};
+    arguments.variants.accuracy_count = 2;
+    arguments.variants.accuracy[0] = 0.1;
+    arguments.variants.accuracy[1] = 0.03;
     return ost_cli_run(ctx, &cost_argp, argc, argv, &arguments, run_study);
 }

@@ -10,7 +10,7 @@
 
 const char *const ost_cost_state_word[] = {"waiting", "done", "not run", "failed"};
 
-const double ost_cost_target[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003};
+const double ost_cost_target[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003, 0.001};
 
 OstCostVariants ost_cost_default_variants(void)
 {
@@ -24,11 +24,13 @@ OstCostVariants ost_cost_default_variants(void)
 }
 
 /* By refinement, then order, then tolerance with the tightest first: cheap runs come early, and the tight ones, from
- * which references are made, before the loose ones. */
+ * which references are made, before the loose ones. Adaptive runs come last, coarse ones first. */
 static int compare_runs(const void *a, const void *b)
 {
     const OstCostRun *x = a;
     const OstCostRun *y = b;
+    if (x->accuracy != y->accuracy)
+        return x->accuracy == 0.0 || (y->accuracy != 0.0 && x->accuracy > y->accuracy) ? -1 : 1;
     if (x->refinement != y->refinement)
         return x->refinement - y->refinement;
     if (x->order != y->order)
@@ -51,6 +53,10 @@ static OstStatus check_variants(OstContext *ctx, const OstCostVariants *v)
         if (!(v->tolerance[i] >= 1e-15 && v->tolerance[i] < 1.0))
             return OST_RAISE(ctx, OST_INVALID_INPUT, "a tolerance is a number from 1e-15 to below 1, not %g",
                              v->tolerance[i]);
+    for (int i = 0; i < v->accuracy_count; i++)
+        if (!(v->accuracy[i] > 0.0 && v->accuracy[i] < 1.0))
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "an accuracy is a number above 0 and below 1, not %g",
+                             v->accuracy[i]);
     return OST_SUCCESS;
 }
 
@@ -58,13 +64,16 @@ static OstStatus check_variants(OstContext *ctx, const OstCostVariants *v)
 static OstStatus list_runs(OstCost *cost)
 {
     const OstCostVariants *v = &cost->variants;
-    OST_TRY(OST_NEW(cost->ctx, &cost->run, v->order_count * v->refinement_count * v->tolerance_count));
+    OST_TRY(
+        OST_NEW(cost->ctx, &cost->run, v->order_count * v->refinement_count * v->tolerance_count + v->accuracy_count));
     int count = 0;
     for (int o = 0; o < v->order_count; o++)
         for (int r = 0; r < v->refinement_count; r++)
             for (int t = 0; t < v->tolerance_count; t++)
                 cost->run[count++] =
                     (OstCostRun){.order = v->order[o], .refinement = v->refinement[r], .tolerance = v->tolerance[t]};
+    for (int i = 0; i < v->accuracy_count; i++)
+        cost->run[count++] = (OstCostRun){.refinement = -1, .accuracy = v->accuracy[i]};
     qsort(cost->run, (size_t)count, sizeof *cost->run, compare_runs);
     for (int i = 0; i < count; i++)
         if (cost->run_count == 0 || compare_runs(&cost->run[i], &cost->run[cost->run_count - 1]) != 0)

@@ -7,22 +7,24 @@
 #include "study/watch.h"
 
 /* What accuracy costs: one case, solved with every combination of element order, uniform refinement and solver
- * tolerance; each run's error against a reference, its seconds and its memory. */
+ * tolerance, and adaptively to several accuracies; each run's error against a reference and as it was estimated, its
+ * seconds and its memory. */
 
 enum {
     OST_COST_MOST_REFINEMENTS = 8,
     OST_COST_MOST_VALUES = 16,
-    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_VALUES,
+    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_VALUES + OST_COST_MOST_VALUES,
     OST_COST_REASON_SIZE = OST_ERROR_TEXT_SIZE
 };
 
 typedef struct OstCostVariants {
-    int order_count, refinement_count, tolerance_count;
+    int order_count, refinement_count, tolerance_count, accuracy_count;
     int order[OST_COST_MOST_VALUES];
     int refinement[OST_COST_MOST_VALUES];
     double tolerance[OST_COST_MOST_VALUES];
-    double max_seconds; /* for all runs together */
-    double max_bytes;   /* of our own arrays, over all ranks; 0: no bound */
+    double accuracy[OST_COST_MOST_VALUES]; /* asked of adaptive runs: relative errors in the norm of the energy */
+    double max_seconds;                    /* for all runs together */
+    double max_bytes;                      /* of our own arrays, over all ranks; 0: no bound */
 } OstCostVariants;
 
 typedef enum { OST_COST_WAITING, OST_COST_DONE, OST_COST_NOT_RUN, OST_COST_FAILED } OstCostState;
@@ -30,16 +32,21 @@ typedef enum { OST_COST_WAITING, OST_COST_DONE, OST_COST_NOT_RUN, OST_COST_FAILE
 typedef struct OstCostRun {
     int order, refinement;
     double tolerance; /* of the relative residual */
+    double accuracy;  /* of an adaptive run, which has no tolerance, refinement -1 and its last mesh's order; else 0 */
+    int levels;       /* meshes that it went through */
     OstCostState state;
-    char reason[OST_COST_REASON_SIZE]; /* NOT_RUN, FAILED */
+    char reason[OST_COST_REASON_SIZE]; /* NOT_RUN, FAILED; DONE: why an accuracy was not met, or empty */
     double predicted_seconds;          /* from earlier runs; 0: not known */
+    double seconds_left;               /* of the study, as the run begins */
     int repeats;                       /* short runs are repeated, and the fastest counts */
     OstGlobal unknowns, tets;
     int iterations;
     double residual;
     double seconds; /* of the slowest rank, as are those by phase */
     double phase[OST_STAGES];
-    double bytes; /* our own arrays at their peak, over all ranks */
+    double bytes;     /* our own arrays at their peak, over all ranks */
+    double estimate;  /* of the relative error in the norm of the energy, by the run itself; NaN: not known */
+    double true_norm; /* that error by the reference of the strain energy; NaN: not known */
     OstWatched watched[OST_COST_MOST_QUANTITIES];
     double error[OST_COST_MOST_QUANTITIES];       /* relative; NaN: not known */
     double least_error[OST_COST_MOST_QUANTITIES]; /* relative: a smaller one is by accident */
@@ -72,7 +79,7 @@ struct OstCost {
     double seconds;  /* of the whole study */
 };
 
-/* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8. */
+/* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8; no adaptive runs. */
 OstCostVariants ost_cost_default_variants(void);
 
 /* Collective. Lists the runs; the case must outlive the study. Raises OST_INVALID_INPUT for a value out of range. */
@@ -83,7 +90,7 @@ void ost_cost_destroy(OstCost **cost);
  * with its reason; returns the last failure if no run has an answer. */
 OstStatus ost_cost_run(OstCost *cost);
 
-/* Collective. One run: mesh, assembly, solve. No fields are recovered or written. */
+/* Collective. One run: mesh, assembly, solve, estimate of the error. No fields are recovered or written. */
 OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run);
 
 /* Local. Chooses the references and fills the errors. ost_cost_run ends with it. */
@@ -101,8 +108,20 @@ int ost_cost_cheapest(const OstCost *cost, int quantity, double target);
  * many. */
 int ost_cost_frontier(const OstCost *cost, int quantity, int *runs);
 
+/* A run that was not made: the refinement after the finest of an order. */
+typedef struct OstCostNext {
+    int order, refinement;
+    double tolerance;
+    double unknowns, error, seconds, bytes;
+    double error_factor, seconds_factor; /* of a refinement, as observed in the last one */
+} OstCostNext;
+
+/* Local. What the next refinement of an order would give, from how error, seconds and memory changed in the last one.
+ * Returns 0 if there are no two refinements whose errors are known and fall. */
+int ost_cost_next(const OstCost *cost, int quantity, int order, OstCostNext *next);
+
 /* The errors for which the cheapest run is listed. */
-enum { OST_COST_TARGETS = 4 };
+enum { OST_COST_TARGETS = 5 };
 extern const double ost_cost_target[OST_COST_TARGETS];
 
 extern const char *const ost_cost_state_word[]; /* by OstCostState */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
 
+#include <limits.h>
 #include <math.h>
 
 /* The relative error in the energy norm, over the solver's tolerance: at most the square root of the condition number
@@ -15,7 +16,7 @@ static OstAnswers collect(const OstCost *cost, int quantity, int order, int *ref
     OstAnswers answers = {.order = order, .refinement = refinement, .value = value};
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
-        if (run->state != OST_COST_DONE || run->order != order)
+        if (run->state != OST_COST_DONE || run->accuracy != 0.0 || run->order != order)
             continue;
         if (answers.count > 0 && refinement[answers.count - 1] == run->refinement)
             continue; /* the same refinement, less tightly solved */
@@ -62,7 +63,8 @@ static void choose_reference(OstCost *cost, int quantity)
 /* A run that is itself the reference has no known error. */
 static double error_of(const OstCostReference *reference, const OstCostRun *run, int quantity)
 {
-    const int is_reference = run->order == reference->order && run->refinement == reference->finest;
+    const int is_reference =
+        run->accuracy == 0.0 && run->order == reference->order && run->refinement == reference->finest;
     if (run->state != OST_COST_DONE || reference->kind == OST_REFERENCE_NONE || reference->size <= 0.0)
         return NAN;
     if (reference->kind == OST_REFERENCE_FINEST && is_reference)
@@ -76,14 +78,25 @@ static double least_left(const OstCost *cost, const OstCostRun *run, int quantit
     const OstCostReference *reference = &cost->quantity[quantity].reference;
     double left = 0.0;
     for (const OstCostRun *coarse = cost->run; coarse < run; coarse++) {
-        if (coarse->state != OST_COST_DONE || coarse->order != run->order || coarse->tolerance != run->tolerance ||
-            coarse->refinement >= run->refinement)
+        if (run->accuracy != 0.0 || coarse->state != OST_COST_DONE || coarse->order != run->order ||
+            coarse->tolerance != run->tolerance || coarse->refinement >= run->refinement)
             continue;
         const double change = fabs(run->watched[quantity].value - coarse->watched[quantity].value);
         const double reduction = pow(ost_best_rate_factor(run->order), run->refinement - coarse->refinement);
         left = change / (reduction - 1.0);
     }
     return run->state == OST_COST_DONE && reference->size > 0.0 ? left / reference->size : 0.0;
+}
+
+/* Of a linear body under loads the squared error in the norm of the energy is twice what the strain energy lacks. */
+static double norm_of(const OstCost *cost, const OstCostRun *run)
+{
+    for (int q = 0; q < cost->quantity_count; q++) {
+        const OstWatch *watch = cost->quantity[q].watch;
+        if (watch && watch->kind == OST_WATCH_STRAIN_ENERGY && run->error[q] > cost->quantity[q].reference.uncertainty)
+            return sqrt(run->error[q]);
+    }
+    return NAN;
 }
 
 void ost_cost_judge(OstCost *cost)
@@ -95,6 +108,43 @@ void ost_cost_judge(OstCost *cost)
             cost->run[i].least_error[q] = least_left(cost, &cost->run[i], q);
         }
     }
+    for (int i = 0; i < cost->run_count; i++)
+        cost->run[i].true_norm = norm_of(cost, &cost->run[i]);
+}
+
+/* The finest run of an order below a refinement, at its tightest tolerance, whose error is known. */
+static const OstCostRun *finest_of(const OstCost *cost, int quantity, int order, int below)
+{
+    const OstCostRun *finest = NULL;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        if (run->state == OST_COST_DONE && run->accuracy == 0.0 && run->order == order && run->refinement < below &&
+            run->error[quantity] > 0.0 && (!finest || run->refinement > finest->refinement))
+            finest = run;
+    }
+    return finest;
+}
+
+int ost_cost_next(const OstCost *cost, int quantity, int order, OstCostNext *next)
+{
+    const OstCostRun *fine = finest_of(cost, quantity, order, INT_MAX);
+    const OstCostRun *coarse = fine ? finest_of(cost, quantity, order, fine->refinement) : NULL;
+    if (!coarse || !(fine->error[quantity] < coarse->error[quantity]))
+        return 0;
+    const double steps = fine->refinement - coarse->refinement;
+    const double error = pow(fine->error[quantity] / coarse->error[quantity], 1.0 / steps);
+    const double seconds = pow(fine->seconds / coarse->seconds, 1.0 / steps);
+    *next = (OstCostNext){.order = order,
+                          .refinement = fine->refinement + 1,
+                          .tolerance = fine->tolerance,
+                          .unknowns = (double)fine->unknowns *
+                                      pow((double)fine->unknowns / (double)coarse->unknowns, 1.0 / steps),
+                          .error = fine->error[quantity] * error,
+                          .seconds = fine->seconds * seconds,
+                          .bytes = fine->bytes * pow(fine->bytes / coarse->bytes, 1.0 / steps),
+                          .error_factor = error,
+                          .seconds_factor = seconds};
+    return 1;
 }
 
 double ost_cost_claim(const OstCost *cost, const OstCostRun *run, int quantity)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
 
+#include "adapt/adapt.h"
 #include "core/error.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Other work on the machine disturbs short runs most: they are repeated, and the fastest counts. */
 enum { MOST_REPEATS = 3 };
@@ -22,6 +24,8 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     run->tets = scene->mesh->global_tets;
     run->iterations = result->solve.iterations;
     run->residual = result->solve.relative_residual;
+    run->order = scene->mesh->nodes_per_tet == 10 ? 2 : 1;
+    run->estimate = result->answer.known ? result->answer.relative : NAN;
     for (int w = 0; w < cost->c->watch_count && !cost->placed; w++)
         OST_TRY(ost_watch_place(scene->mesh, &cost->watch[w]));
     cost->placed = 1;
@@ -59,8 +63,40 @@ done:
     return status;
 }
 
+/* Until the accuracy is met, or time or memory run out. */
+static OstStatus measure_adaptive(OstCost *cost, const OstCase *variant, OstCostRun *run)
+{
+    OstContext *ctx = cost->ctx;
+    const OstLogLevel level = ost_log_level(ctx);
+    const OstAdaptLimits limits = {.seconds = run->seconds_left,
+                                   .bytes = cost->variants.max_bytes > 0.0 ? cost->variants.max_bytes : INFINITY};
+    OstAdaption *adaption = NULL;
+    OstMeter meter;
+    OstStatus status = ost_meter_start(ctx, &meter);
+    if (level == OST_LOG_NORMAL) /* every mesh on the way would warn */
+        ost_log_set_level(ctx, OST_LOG_QUIET);
+    OST_THEN(ost_adapt(variant, &limits, &adaption));
+    OST_THEN(ost_meter_read(ctx, &meter));
+    if (status == OST_SUCCESS) {
+        note(&meter, run);
+        status = evaluate(cost, ost_adaption_scene(adaption), ost_adaption_result(adaption), run);
+        run->levels = adaption->count;
+        run->repeats = 1;
+        if (adaption->end != OST_ADAPT_MET) {
+            char words[OST_LONGEST_ADAPT_WORDS];
+            ost_adaption_words(adaption, words);
+            snprintf(run->reason, sizeof run->reason, "%s", words);
+        }
+    }
+    ost_log_set_level(ctx, level);
+    ost_adaption_destroy(&adaption);
+    return status;
+}
+
 OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run)
 {
+    if (run->accuracy != 0.0)
+        return measure_adaptive(cost, variant, run);
     double spent = 0.0;
     do {
         OstCostRun again = *run;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ERROR_WIDTH = 12, CELL_SIZE = 40 };
+enum { ERROR_WIDTH = 12, NORM_WIDTH = 9, CELL_SIZE = 40 };
 static const double mebibyte = 1048576.0;
 
 /* 1,234,567 */
@@ -47,7 +47,7 @@ static void error_cell(const OstCost *cost, const OstCostRun *run, int quantity,
 
 static void print_heading(const OstCost *cost)
 {
-    printf("  order  refine  tolerance     unknowns");
+    printf("  order  refine  tolerance     unknowns %*s %*s", NORM_WIDTH, "estimated", NORM_WIDTH, "true");
     for (int q = 0; q < cost->quantity_count; q++)
         printf(" %*.*s", ERROR_WIDTH, ERROR_WIDTH, cost->quantity[q].name);
     for (int p = OST_STAGE_MESH; p < OST_STAGE_OUTPUT; p++)
@@ -63,10 +63,26 @@ static void print_seconds(double seconds)
         printf(seconds < 99.95 ? " %7.2f s" : " %7.0f s", seconds);
 }
 
+static void print_norm(double error)
+{
+    char cell[CELL_SIZE] = "-";
+    if (!isnan(error))
+        percent(error, cell, sizeof cell);
+    printf(" %*s", NORM_WIDTH, cell);
+}
+
+static void print_setting(const OstCostRun *run)
+{
+    if (run->accuracy == 0.0)
+        printf("  %5d  %6d  %9.0e", run->order, run->refinement, run->tolerance);
+    else
+        printf("  adaptively to %6.2g %%", 100.0 * run->accuracy);
+}
+
 static void print_run(const OstCost *cost, const OstCostRun *run)
 {
     char cell[CELL_SIZE];
-    printf("  %5d  %6d  %9.0e", run->order, run->refinement, run->tolerance);
+    print_setting(run);
     if (run->state != OST_COST_DONE) {
         printf("     %s%s%s%s\n", ost_cost_state_word[run->state], run->state == OST_COST_NOT_RUN ? " (" : ": ",
                run->reason, run->state == OST_COST_NOT_RUN ? ")" : "");
@@ -74,6 +90,8 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
     }
     with_commas(run->unknowns, cell, sizeof cell);
     printf(" %12s", cell);
+    print_norm(run->estimate);
+    print_norm(run->true_norm);
     for (int q = 0; q < cost->quantity_count; q++) {
         error_cell(cost, run, q, cell, sizeof cell);
         printf(" %*s", ERROR_WIDTH, cell);
@@ -83,6 +101,8 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
     print_seconds(run->phase[OST_STAGE_REST]);
     print_seconds(run->seconds);
     printf(" %8.1f MiB\n", run->bytes / mebibyte);
+    if (run->reason[0])
+        printf("      %s\n", run->reason);
 }
 
 static void print_reference(const OstCostQuantity *quantity)
@@ -129,7 +149,10 @@ static void print_cheapest_for(const OstCost *cost, int quantity, double target)
         return;
     }
     const OstCostRun *run = &cost->run[cheapest];
-    printf("order %d, refinement %d, tolerance %.0e ", run->order, run->refinement, run->tolerance);
+    if (run->accuracy == 0.0)
+        printf("order %d, refinement %d, tolerance %.0e ", run->order, run->refinement, run->tolerance);
+    else
+        printf("adaptively to %-4.2g %%: %d meshes, order %d ", 100.0 * run->accuracy, run->levels, run->order);
     print_seconds(run->seconds);
     printf(" %8.1f MiB", run->bytes / mebibyte);
     const double ratio = next >= 0 ? cost->run[next].seconds / run->seconds : 0.0;
@@ -140,6 +163,24 @@ static void print_cheapest_for(const OstCost *cost, int quantity, double target)
     printf("\n");
 }
 
+/* What one more refinement would give. */
+static void print_next(const OstCost *cost, int quantity)
+{
+    OstCostNext next;
+    char error[CELL_SIZE], unknowns[CELL_SIZE];
+    for (int order = 1; order <= 2; order++) {
+        if (!ost_cost_next(cost, quantity, order, &next))
+            continue;
+        percent(next.error, error, sizeof error);
+        with_commas((OstGlobal)next.unknowns, unknowns, sizeof unknowns);
+        printf("  %-14s order %d, refinement %d: %s unknowns, about %s", cost->quantity[quantity].name, order,
+               next.refinement, unknowns, error);
+        print_seconds(next.seconds);
+        printf(" %8.1f MiB   (an error %.2g times as large for %.2g times the seconds)\n", next.bytes / mebibyte,
+               next.error_factor, next.seconds_factor);
+    }
+}
+
 void ost_cost_print(const OstCost *cost)
 {
     if (ost_rank(cost->ctx) != 0)
@@ -148,7 +189,8 @@ void ost_cost_print(const OstCost *cost)
     for (int i = 0; i < cost->run_count; i++)
         done += cost->run[i].state == OST_COST_DONE;
     printf("%s: %s\n  %d of %d runs done in %.3g s on %d rank%s\n\n"
-           "errors and costs (seconds of the slowest rank, memory of Orthostat's own arrays on all ranks)\n",
+           "errors and costs (estimated, true: of the whole answer in the norm of the energy, the former by the run "
+           "itself; seconds of the slowest rank, memory of Orthostat's own arrays on all ranks)\n",
            cost->c->path, cost->c->title, done, cost->run_count, cost->seconds, ost_size(cost->ctx),
            ost_size(cost->ctx) == 1 ? "" : "s");
     print_heading(cost);
@@ -163,4 +205,7 @@ void ost_cost_print(const OstCost *cost)
             printf("  %-14s", t == 0 ? cost->quantity[q].name : "");
             print_cheapest_for(cost, q, ost_cost_target[t]);
         }
+    printf("\nthe next refinement would give\n");
+    for (int q = 0; q < cost->quantity_count; q++)
+        print_next(cost, q);
 }

@@ -24,7 +24,7 @@ static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
     const OstCostRun *best = NULL;
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *other = &cost->run[i];
-        if (other->state != OST_COST_DONE || other->order > run->order)
+        if (other->state != OST_COST_DONE || other->accuracy != 0.0 || other->order > run->order)
             continue;
         if (!best || other->order > best->order ||
             (other->order == best->order && other->refinement > best->refinement)) {
@@ -55,7 +55,7 @@ static double growth_to(const OstCost *cost, const OstCostRun *model)
 /* Seconds and bytes of a run; 0: not known. */
 static void predict(const OstCost *cost, const OstCostRun *run, double *seconds, double *bytes)
 {
-    const OstCostRun *model = find_model(cost, run);
+    const OstCostRun *model = run->accuracy == 0.0 ? find_model(cost, run) : NULL; /* an adaptive run limits itself */
     *seconds = *bytes = 0.0;
     if (!model)
         return;
@@ -85,6 +85,7 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     predict(cost, run, &run->predicted_seconds, &bytes);
     bytes *= memory_beside;
     OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
+    const int is_late = run->accuracy != 0.0 && elapsed >= variants->max_seconds;
     const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > variants->max_seconds;
     const int too_large = variants->max_bytes > 0.0 && bytes > variants->max_bytes;
     if (too_slow)
@@ -92,7 +93,10 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     else if (too_large)
         snprintf(run->reason, sizeof run->reason, "about %.2g GiB of memory, of %.2g there are", bytes / 0x1p30,
                  variants->max_bytes / 0x1p30);
-    *yes = !too_slow && !too_large;
+    else if (is_late)
+        snprintf(run->reason, sizeof run->reason, "no time is left");
+    run->seconds_left = variants->max_seconds - elapsed;
+    *yes = !too_slow && !too_large && !is_late;
     return OST_SUCCESS;
 }
 
@@ -101,10 +105,29 @@ static void announce(const OstCost *cost, const OstCostRun *run, int number)
     char line[160], about[32] = "";
     if (run->predicted_seconds > 0.0)
         describe_seconds(run->predicted_seconds, about, sizeof about);
-    snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1, cost->run_count,
-             run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
+    if (run->accuracy != 0.0)
+        snprintf(line, sizeof line, "run %d of %d: adaptively to %g", number + 1, cost->run_count, run->accuracy);
+    else
+        snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1,
+                 cost->run_count, run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
     ost_progress(cost->ctx, line, (double)number / cost->run_count);
+}
+
+/* A tolerance is kept to the end; an adaptive run chooses its own. */
+static void vary(const OstCostRun *run, OstCase *variant)
+{
+    variant->output_fields = 1U << OST_FIELD_ERROR;
+    if (run->accuracy != 0.0) {
+        variant->asks_error = 1;
+        variant->relative_error = run->accuracy;
+        return;
+    }
+    variant->asks_error = 0;
+    variant->order = run->order;
+    variant->refinement = run->refinement;
+    variant->solver.relative_residual = run->tolerance;
+    variant->solver.algebraic_fraction = 0.0;
 }
 
 OstStatus ost_cost_run(OstCost *cost)
@@ -123,11 +146,7 @@ OstStatus ost_cost_run(OstCost *cost)
         }
         announce(cost, run, i);
         OstCase variant = *cost->c;
-        variant.order = run->order;
-        variant.refinement = run->refinement;
-        variant.solver.relative_residual = run->tolerance;
-        variant.output_fields = 0;
-        variant.asks_error = 0;
+        vary(run, &variant);
         const OstStatus status = cost->measure(cost, &variant, run);
         run->state = status == OST_SUCCESS ? OST_COST_DONE : OST_COST_FAILED;
         done += status == OST_SUCCESS;

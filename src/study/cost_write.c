@@ -43,11 +43,11 @@ static void write_number(FILE *file, int known, double number)
 static void write_heading(FILE *file, const OstCost *cost)
 {
 #define HEADING(name, make_json) "," #name
-    fputs("order,refinement,tolerance,state,reason,predicted_seconds" RUN_NUMBER_TABLE(HEADING), file);
+    fputs("order,refinement,tolerance,accuracy,state,reason,predicted_seconds" RUN_NUMBER_TABLE(HEADING), file);
 #undef HEADING
     for (int p = 0; p < OST_STAGES; p++)
         fprintf(file, ",%s_seconds", ost_stage_label[p]);
-    fputs(",bytes", file);
+    fputs(",bytes,estimate,true_norm", file);
     for (int q = 0; q < cost->quantity_count; q++) {
         static const char *const columns[] = {"",       " reference", " reference uncertainty", " reference kind",
                                               " error", " claim"};
@@ -64,7 +64,8 @@ static void write_heading(FILE *file, const OstCost *cost)
 static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
 {
     const int done = run->state == OST_COST_DONE;
-    fprintf(file, "%d,%d,%g,%s,", run->order, run->refinement, run->tolerance, ost_cost_state_word[run->state]);
+    fprintf(file, "%d,%d,%g,%g,%s,", run->order, run->refinement, run->tolerance, run->accuracy,
+            ost_cost_state_word[run->state]);
     write_text(file, run->reason);
     write_number(file, run->predicted_seconds > 0.0, run->predicted_seconds);
 #define CELL(name, make_json) write_number(file, done, (double)run->name);
@@ -73,6 +74,8 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
     for (int p = 0; p < OST_STAGES; p++)
         write_number(file, done, run->phase[p]);
     write_number(file, done, run->bytes);
+    write_number(file, done, run->estimate);
+    write_number(file, done, run->true_norm);
     for (int q = 0; q < cost->quantity_count; q++) {
         const OstCostReference *reference = &cost->quantity[q].reference;
         write_number(file, done, run->watched[q].value);
@@ -141,13 +144,27 @@ static json_t *frontier_json(const OstCost *cost, int quantity)
     return frontier;
 }
 
+static json_t *next_json(const OstCost *cost, int quantity)
+{
+    json_t *list = json_array();
+    OstCostNext next;
+    for (int order = 1; order <= 2; order++)
+        if (ost_cost_next(cost, quantity, order, &next))
+            json_array_append_new(list,
+                                  json_pack("{s:i, s:i, s:f, s:f, s:f, s:f, s:f}", "order", order, "refinement",
+                                            next.refinement, "tolerance", next.tolerance, "unknowns", next.unknowns,
+                                            "error", next.error, "seconds", next.seconds, "bytes", next.bytes));
+    return list;
+}
+
 static json_t *quantities_json(const OstCost *cost)
 {
     json_t *quantities = json_array();
     for (int q = 0; q < cost->quantity_count; q++)
-        json_array_append_new(quantities, json_pack("{s:s, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
-                                                    reference_json(&cost->quantity[q]), "cheapest",
-                                                    cheapest_json(cost, q), "frontier", frontier_json(cost, q)));
+        json_array_append_new(quantities,
+                              json_pack("{s:s, s:o, s:o, s:o, s:o}", "name", cost->quantity[q].name, "reference",
+                                        reference_json(&cost->quantity[q]), "cheapest", cheapest_json(cost, q),
+                                        "frontier", frontier_json(cost, q), "next", next_json(cost, q)));
     return quantities;
 }
 
@@ -164,9 +181,10 @@ static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
 
 static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 {
-    json_t *item = json_pack("{s:i, s:i, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
-                             "tolerance", run->tolerance, "state", ost_cost_state_word[run->state], "reason",
-                             run->reason, "predicted_seconds", run->predicted_seconds);
+    json_t *item =
+        json_pack("{s:i, s:i, s:f, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
+                  "tolerance", run->tolerance, "accuracy", run->accuracy, "state", ost_cost_state_word[run->state],
+                  "reason", run->reason, "predicted_seconds", run->predicted_seconds);
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
@@ -177,6 +195,9 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 #undef KEY
     json_object_set_new(item, "phase_seconds", phases);
     json_object_set_new(item, "bytes", json_real(run->bytes));
+    json_object_set_new(item, "levels", json_integer(run->levels));
+    json_object_set_new(item, "estimate", ost_json_number(run->estimate));
+    json_object_set_new(item, "true_norm", ost_json_number(run->true_norm));
     json_object_set_new(item, "answers", answers_json(cost, run));
     return item;
 }

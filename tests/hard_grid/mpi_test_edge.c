@@ -48,8 +48,13 @@ static void what_rounding_has_cost_is_corrected(void **state)
         "plate, order 2, nu 0.499, E2 x 1e+06, smooth"};
     for (int k = 0; k < (int)(sizeof words / sizeof *words); k++) {
         const HardReading reading = read_point(words[k]);
+        const HardErrors *off = &reading.truth.off;
+        if (reading.outcome != HARD_SOLVED_TO_ROUNDING)
+            print_message("%s: %s; displacement %.1e (stated %.1e), reactions %.1e, stresses %.1e (stated %.1e)\n",
+                          words[k], reading.reason, off->displacement, reading.stated_error, off->reaction, off->stress,
+                          reading.stated_forces);
         assert_int_equal(reading.outcome, HARD_SOLVED_TO_ROUNDING);
-        assert_true(reading.truth.off.known && reading.truth.off.displacement < 1e-6);
+        assert_true(off->known && off->displacement < 1e-6);
         assert_true(hard_states_its_error(&reading));
     }
 }

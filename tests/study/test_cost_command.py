@@ -58,10 +58,11 @@ class Cost(unittest.TestCase):
         with open(self.path("p.csv"), newline="") as stream:
             rows = list(csv.DictReader(stream))
         self.assertEqual(study["ranks"], 2)
-        self.assertEqual(len(rows), 12)
-        self.assertEqual(len(study["runs"]), 12)
+        self.assertEqual(len(rows), 14)
+        self.assertEqual(len(study["runs"]), 14)
         # Order 2 of one mesh against order 1 of its refinement, which has the same nodes.
-        error = {(one["order"], one["refinement"]): one["answers"]["tip"]["error"] for one in study["runs"]}
+        error = {(one["order"], one["refinement"]): one["answers"]["tip"]["error"] for one in study["runs"]
+                 if not one["accuracy"]}
         for r in (0, 1):
             self.assertLess(error[2, r], 0.3 * error[1, r + 1])
         for row, one in zip(rows, study["runs"]):
@@ -71,6 +72,22 @@ class Cost(unittest.TestCase):
             self.assertEqual(float(row["tip"]), one["answers"]["tip"]["value"])
             self.assertEqual(float(row["tip error"]), one["answers"]["tip"]["error"])
             self.assertEqual(float(row["setup_seconds"]), one["phase_seconds"]["setup"])
+        for row, one in zip(rows, study["runs"]):
+            if one["true_norm"] is not None:  # the estimate beside it, in the norm of the energy
+                self.assertTrue(0.7 < one["estimate"] / one["true_norm"] < 1.5, one)
+                self.assertEqual(float(row["estimate"]), one["estimate"])
+        adaptive = study["runs"][-2:]
+        self.assertEqual([one["accuracy"] for one in adaptive], [0.1, 0.03])
+        for one in adaptive:
+            self.assertLessEqual(one["estimate"], one["accuracy"])
+            self.assertGreater(one["levels"], 1)
+        for order, ahead in zip((1, 2), study["quantities"][1]["next"]):
+            fine, coarse = error[order, 2 if order == 1 else 1], error[order, 1 if order == 1 else 0]
+            self.assertEqual(ahead["order"], order)
+            self.assertEqual(ahead["refinement"], 3)
+            self.assertLess(ahead["error"], error[order, 2])
+            if order == 1:
+                self.assertAlmostEqual(ahead["error"], fine * fine / coarse, delta=1e-12)
         sizes = {(one["order"], one["refinement"]): one["tets"] for one in study["runs"]}
         self.assertEqual(sizes[1, 1], 8 * sizes[1, 0])
         self.assertEqual(sizes[2, 2], 64 * sizes[1, 0])
@@ -80,7 +97,7 @@ class Cost(unittest.TestCase):
     def test_ranks_do_not_change_the_answers(self):
         answers = []
         for ranks in (1, 2):
-            found = json.loads(self.cost("--tolerances", "1e-11", "--refinements", "0,1", "--json", "-", ranks=ranks).stdout)
+            found = json.loads(self.cost("--tolerances", "1e-11", "--refinements", "0,1", "--accuracies", "-", "--json", "-", ranks=ranks).stdout)
             answers.append([one["answers"]["tip"]["value"] for one in found["runs"]])
         for one, two in zip(*answers):
             self.assertAlmostEqual(one, two, delta=1e-9 * abs(one))
@@ -88,13 +105,14 @@ class Cost(unittest.TestCase):
     def test_max_time_leaves_runs_out(self):
         found = json.loads(self.cost(*LADDER, "--max-time", "1e-6", "--json", "-").stdout)
         states = [one["state"] for one in found["runs"]]
-        self.assertEqual(states, ["done"] + 11 * ["not run"])
+        self.assertEqual(states, ["done"] + 13 * ["not run"])
         self.assertTrue(found["runs"][1]["reason"].startswith("about "))
         table = self.cost(*LADDER, "--max-time", "1e-6").stdout
         self.assertEqual(table.count("not run (about "), 11)
+        self.assertEqual(table.count("not run (no time is left)"), 2)
 
     def test_csv_goes_to_standard_output_alone(self):
-        rows = list(csv.DictReader(io.StringIO(self.cost(*LADDER, "--orders", "1", "--refinements", "0", "--csv", "-").stdout)))
+        rows = list(csv.DictReader(io.StringIO(self.cost(*LADDER, "--orders", "1", "--refinements", "0", "--accuracies", "-", "--csv", "-").stdout)))
         self.assertEqual([row["order"] for row in rows], ["1", "1"])
         self.assertEqual(rows[0]["tip error"], "", "the finest answer knows nothing of itself")
 
@@ -139,7 +157,8 @@ class Cost(unittest.TestCase):
         with open(self.path("beam.yaml"), "w") as stream:
             stream.write(CASE.replace("component: z", f"component: z, expected: {expected}, source: a book §7") +
                          "  work: {strain_energy: all, expected: 0.125}\n")
-        finished = self.cost("--tolerances", "1e-8", "--refinements", "0,1", "--csv", "p.csv", "--json", "p.json")
+        finished = self.cost("--tolerances", "1e-8", "--refinements", "0,1", "--accuracies", "-", "--csv", "p.csv",
+                             "--json", "p.json")
         self.assertIn("the formula's value -0.25, a book §7\n", finished.stdout)
         self.assertIn("the formula's value 0.125\n", finished.stdout)
         with open(self.path("p.json")) as stream:
@@ -200,7 +219,8 @@ class Cost(unittest.TestCase):
     def test_all_refused_is_a_failure_with_its_reason(self):
         with open(self.path("beam.yaml"), "a") as stream:
             stream.write("solver: {method: metric, max_iterations: 1}\n")
-        finished = run("beam.yaml", "--orders", "1", "--refinements", "2", "--tolerances", "1e-12", folder=self.folder)
+        finished = run("beam.yaml", "--orders", "1", "--refinements", "2", "--tolerances", "1e-12", "--accuracies", "-",
+                       folder=self.folder)
         self.assertEqual(finished.returncode, 1, finished)
         self.assertIn("1 iteration", finished.stderr)
 
