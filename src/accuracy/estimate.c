@@ -16,7 +16,7 @@
 /* Of |e|_A²: steps end where the last gain is below the first share and what later ones would add, extrapolated,
  * changes the sum by less than the second, at this many at most (of nearly incompressible linear tets, which lock, the
  * first ones find little); gains are taken to fall by no less than this ratio. */
-static const double small_gain = 0.2, settled = 0.06, largest_ratio = 0.75;
+static const double small_gain = 0.2, settled = 0.03, largest_ratio = 0.75;
 enum { most_steps = 24 };
 
 struct OstEstimate {

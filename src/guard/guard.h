@@ -40,6 +40,8 @@ typedef struct OstErrors {
     double displacement; /* over all nodes */
     double reaction;     /* of constrained nodes; over a thousandth of the loads, if that is more: loads may balance */
     double stress;       /* means of the tets, six components */
+    int corrected;       /* was the answer corrected until they were these? Then the residual says nothing beside them:
+                            in stiff directions it is what the rounding of the displacement makes of it */
 } OstErrors;
 
 /* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). */

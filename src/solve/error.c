@@ -19,6 +19,9 @@ static const double large_error = 1e-2;
 
 /* Errors by rounding above the first are corrected, until they are small or the last few steps have not halved one. */
 static const double worth_correcting = 1e-4;
+
+/* Where rounding moves the displacement by more, the rounded stiffness tells too little of the tets' softest modes. */
+static const double past_correcting = 0.5;
 enum { MOST_CORRECTIONS = 40, FEW = 3 };
 
 /* Rounding is the reason for a residual this many times that of the solve. */
@@ -184,18 +187,19 @@ static OstStatus iterate(Search *search, Correction *correction, OstErrors *erro
     return OST_SUCCESS;
 }
 
-/* What the solver finds for a residual is by the rounded stiffness. If a mode is softer by the tets, its error is
- * larger by as much: the Lanczos coefficients show it. Where steps gain nothing more, the residual is the rounding of
- * the tets' forces, and what it is taken for may be small by chance. */
+/* What the solver finds for a residual is by the rounded stiffness, and to a tenth. If a mode is softer by the tets,
+ * its error is larger by as much: the Lanczos coefficients show it. Where steps gain nothing more, the residual is the
+ * rounding of the tets' forces, and what it is taken for may be small by chance. */
 static void allow_for(const OstLanczos *lanczos, int idle, OstErrors *errors)
 {
-    static const double chance = 10.0;
+    static const double caution = 3.0, chance = 10.0;
     double smallest, largest_value;
     ost_lanczos_extremes(lanczos, &smallest, &largest_value);
-    const double factor = (idle ? chance : 1.0) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
+    const double factor = (idle ? chance : caution) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
     errors->displacement *= factor;
     errors->reaction *= factor;
     errors->stress *= factor;
+    errors->corrected = 1;
 }
 
 static OstStatus correct(Search *search, OstErrors *errors)
@@ -239,7 +243,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
         goto done;
     if (largest(errors) > small_error)
         OST_TRY_DONE(measure(&search, 0.1, errors));
-    if (is_rounding && largest(errors) > worth_correcting)
+    if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
         OST_TRY_DONE(correct(&search, errors));
     for (double missing = 1e-3; missing > 1e-8 && errors->known && seem_lost(errors); missing *= 1e-2)
         OST_TRY_DONE(measure(&search, missing, errors));

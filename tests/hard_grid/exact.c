@@ -13,7 +13,7 @@
 /* Refinement ends when a step changes the solution by this, and counts if it came below the second. */
 static const double last_digit = 1e-17, settled = 1e-10;
 
-enum { MOST_STEPS = 60 };
+enum { MOST_STEPS = 400 };
 
 typedef struct Exact {
     const OstScene *scene;
@@ -86,21 +86,22 @@ static void find_residual(Exact *exact)
     }
 }
 
-/* turn = K^-1 residual + beta turn, by the rounded K; and the same of all nodes. */
-static OstStatus turn(Exact *exact, int is_first, int *known)
+/* turn = K^-1 residual + beta turn, by the factors of the rounded K; and the same of all nodes. */
+static OstStatus turn(Exact *exact, int is_first)
 {
     HardDirect *direct = exact->direct;
     double sums[2] = {0.0};
-    OST_TRY(hard_direct_solve(direct, exact->rows, 1e-4, NULL, known));
+    memcpy(direct->r, exact->rows, direct->n * sizeof *direct->r);
+    OST_TRY(hard_direct_apply(direct));
     for (size_t i = 0; i < direct->n; i++) {
-        sums[0] += direct->u[i].high * exact->rows[i];
-        sums[1] += direct->u[i].high * exact->before[i];
+        sums[0] += direct->d[i] * exact->rows[i];
+        sums[1] += direct->d[i] * exact->before[i];
     }
     OST_TRY(ost_sum(direct->ctx, 2, sums));
     const double beta = is_first ? 0.0 : (sums[0] - sums[1]) / exact->weight;
     exact->weight = sums[0];
     for (size_t i = 0; i < direct->n; i++) {
-        exact->turn[i] = direct->u[i].high + beta * exact->turn[i];
+        exact->turn[i] = direct->d[i] + beta * exact->turn[i];
         exact->before[i] = exact->rows[i];
     }
     OST_TRY(ost_system_displacement(direct->system, 0.0, exact->turn, exact->step));
@@ -115,9 +116,8 @@ static OstStatus take_step(Exact *exact, int is_first, double *change)
     HardDirect *direct = exact->direct;
     enum { ENERGY, WORK, SQUARE, SIZE, SUMS };
     double sums[SUMS] = {0.0};
-    int known;
     find_residual(exact);
-    OST_TRY(turn(exact, is_first, &known));
+    OST_TRY(turn(exact, is_first));
     find_internal(exact, exact->turned);
     for (size_t i = 0; i < direct->n; i++)
         sums[WORK] += exact->turn[i] * exact->rows[i];
@@ -130,7 +130,7 @@ static OstStatus take_step(Exact *exact, int is_first, double *change)
     const double length = sums[ENERGY] > 0.0 ? sums[WORK] / sums[ENERGY] : 0.0;
     for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
         exact->u[i] = sum_of(exact->u[i], length * exact->step[i]);
-    *change = known ? fabs(length) * sqrt(sums[SQUARE] / sums[SIZE]) : NAN;
+    *change = sums[ENERGY] > 0.0 ? fabs(length) * sqrt(sums[SQUARE] / sums[SIZE]) : NAN;
     return OST_SUCCESS;
 }
 
@@ -138,7 +138,7 @@ static OstStatus solve(Exact *exact, int *known)
 {
     double change = INFINITY, least = INFINITY;
     int stalls = 0;
-    for (int k = 0; k < MOST_STEPS && stalls < 4 && change > last_digit; k++) {
+    for (int k = 0; k < MOST_STEPS && stalls < 12 && change > last_digit; k++) {
         OST_TRY(take_step(exact, k == 0, &change));
         stalls = change < 0.9 * least ? 0 : stalls + 1;
         least = fmin(least, change);
