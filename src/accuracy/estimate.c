@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "problem/free_body.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,6 +80,7 @@ typedef struct Search {
     size_t rows, all; /* numbers of the rows, and of both */
     double *r, *z, *p, *q, *e;
     double *u, *force; /* of nodes: a displacement, and forces on it */
+    double longer;     /* by what e is short of in its work on the residual, as extrapolated: a factor */
     int failed;        /* is the preconditioner, or the stiffness, not positive definite? */
 } Search;
 
@@ -218,6 +220,7 @@ static OstStatus iterate(Search *search, double *square)
             break;
         OST_TRY(turn(search, gain, &weight));
     }
+    search->longer = sum > 0.0 ? *square / sum : 1.0;
     return OST_SUCCESS;
 }
 
@@ -285,8 +288,19 @@ static OstStatus share(Search *search, double square, double *tet_error)
     return OST_SUCCESS;
 }
 
+/* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual. */
+static OstStatus hand_out(Search *search, double *surplus)
+{
+    const OstProblem *problem = search->estimate->problem;
+    if (problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, search->u));
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        surplus[i] = search->longer * search->u[i];
+    return OST_SUCCESS;
+}
+
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
-                            double *tet_error)
+                            double *tet_error, double *surplus)
 {
     Search search = {0};
     double square = 0.0;
@@ -301,6 +315,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         status = compare(&search, t, u, square, found);
         if (tet_error)
             OST_THEN(share(&search, square, tet_error));
+        if (surplus)
+            OST_THEN(hand_out(&search, surplus));
     }
     close_search(&search);
     return status;

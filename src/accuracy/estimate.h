@@ -18,11 +18,12 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
  * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
+ * NULL. surplus: e at the owned nodes (3 numbers each), lengthened by what the steps that were not taken would add; or
  * NULL. u need not solve the problem's equations well: what is missing there does not count. found->known is 0 where
  * the loads are not known as functions of place (a problem made of nodal forces), and where the solver has no
  * preconditioner that is positive definite. */
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
-                            double *tet_error);
+                            double *tet_error, double *surplus);
 
 void ost_estimate_destroy(OstEstimate **estimate);
 

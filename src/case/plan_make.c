@@ -74,6 +74,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
                         ost_plan_writes(c, OST_FIELD_ENERGY);
     facts.asks_error = c->asks_error && c->path_steps == 0;
+    facts.watches = c->watch_count;
     facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
     facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
     ost_effects_find(&facts, &plan->effects);

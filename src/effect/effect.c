@@ -208,12 +208,14 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
 }
 
 /* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers
- * in the tets. */
+ * in the tets; the surplus of the nodes for quantities of interest. */
 static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
 {
     const double faces = f->quadratic ? 2.0 * f->tets : 0.0;
     if (f->error_field || f->asks_error)
-        on(state, 240.0 * (f->edges + faces) + 168.0 * f->nodes + (f->quadratic ? 40.0 : 24.0) * f->tets,
+        on(state,
+           240.0 * (f->edges + faces) + (f->watches > 0 ? 192.0 : 168.0) * f->nodes +
+               (f->quadratic ? 40.0 : 24.0) * f->tets,
            f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
     else
         off(state, "the output does not hold the error of the answer");

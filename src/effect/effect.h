@@ -29,7 +29,7 @@
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
     X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)                                     \
-    X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                           \
+    X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                            \
     X(OST_EFFECT_ADAPTIVITY, "adaptive refinement", adaptivity)
 
 #define OST_EFFECT_ENUM(name, label, rule) name,
@@ -63,6 +63,7 @@ typedef struct OstEffectFacts {
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
     int error_field; /* is the error of the answer among them? */
+    int watches;     /* quantities of interest */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */
     double nodes, tets, regions; /* of the mesh */
     double vertices, edges;      /* of its tets */

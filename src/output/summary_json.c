@@ -164,8 +164,9 @@ static json_t *watched_json(const OstWatchedValue *watched, int count)
     json_t *values = json_object();
     for (int w = 0; w < count; w++)
         json_object_set_new(values, watched[w].name,
-                            json_pack("{s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
-                                      ost_json_number(watched[w].expected)));
+                            json_pack("{s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
+                                      ost_json_number(watched[w].expected), "error",
+                                      ost_json_number(watched[w].error)));
     return values;
 }
 

@@ -41,6 +41,7 @@ struct OstResult {
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
+    double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;
     double largest_displacement;
@@ -50,16 +51,17 @@ struct OstResult {
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     OstAnswerError answer; /* the error that the mesh makes */
-    int reached;        /* is there a displacement? Not if no solver could be made */
-    int unfinished;     /* did the solver stop short of the requested residual? */
-    OstVerdict verdict; /* no objections: the result is an answer */
+    int reached;           /* is there a displacement? Not if no solver could be made */
+    int unfinished;        /* did the solver stop short of the requested residual? */
+    OstVerdict verdict;    /* no objections: the result is an answer */
 };
 
 /* A quantity of interest, as the answer has it. */
 typedef struct OstWatchedValue {
     const char *name;
     double value;
-    double expected; /* NAN if not known */
+    double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
+    double error;
 } OstWatchedValue;
 
 #endif

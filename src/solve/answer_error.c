@@ -40,19 +40,35 @@ static OstStatus find_worst(const OstResult *result, double *share, OstAnswerErr
     return OST_MPI(ctx, MPI_Bcast(answer->place, 3, MPI_DOUBLE, most.rank, ost_comm(ctx)));
 }
 
-static OstStatus estimate_tets(OstEstimate *estimate, OstSolver *solver, double t, OstResult *result)
+OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
+{
+    const OstMesh *mesh = result->mesh;
+    const int is_watched = problem->scene && problem->scene->c->watch_count > 0;
+    OstStatus status = OST_SUCCESS;
+    if (!result->tet_error)
+        status = OST_NEW(result->ctx, &result->tet_error, mesh->owned_tets);
+    if (is_watched && !result->surplus)
+        OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->owned_nodes));
+    return ost_agree(result->ctx, status);
+}
+
+static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     OstContext *ctx = result->ctx;
+    const OstLinear *linear = analysis->work;
     double *share = NULL;
-    OstStatus status = result->tet_error ? OST_SUCCESS : OST_NEW(ctx, &result->tet_error, result->mesh->owned_tets);
+    OstStatus status = ost_result_allow_error(analysis->problem, result);
     OST_THEN(OST_NEW(ctx, &share, result->mesh->regions.count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (!result->answer.known) /* the solve may have been stopped by it */
-        OST_TRY_DONE(ost_estimate_find(estimate, solver, t, result->displacement, &result->answer, result->tet_error));
+        OST_TRY_DONE(ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &result->answer,
+                                       result->tet_error, result->surplus));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
-    else
+    if (!result->answer.known) {
         OST_FREE(result->tet_error);
+        OST_FREE(result->surplus);
+    }
     for (OstLocal tet = 0; tet < result->mesh->owned_tets && result->answer.known; tet++)
         result->tet_error[tet] = sqrt(fmax(result->tet_error[tet], 0.0));
 done:
@@ -62,11 +78,10 @@ done:
 
 OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result)
 {
-    const OstLinear *linear = analysis->work;
     OstEstimate *estimate = NULL;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
-    OST_THEN(estimate_tets(estimate, linear->stiffness.solver, t, result));
+    OST_THEN(estimate_tets(analysis, estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;

@@ -140,9 +140,9 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     const OstProblem *problem = analysis->problem;
     const OstLinear *linear = analysis->work;
     OstSolveStop stop;
-    OST_TRY(ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &result->tet_error, problem->mesh->owned_tets)));
+    OST_TRY(ost_result_allow_error(problem, result));
     OST_TRY(ost_solve_stop_open(problem, linear->stiffness.solver, analysis->options.algebraic_fraction,
-                                result->tet_error, &result->answer, &stop));
+                                result->tet_error, result->surplus, &result->answer, &stop));
     const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
     ost_solve_stop_close(&stop);
     return solved;

@@ -40,6 +40,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->strain_energy_density);
     OST_FREE((*result)->node_stress);
     OST_FREE((*result)->tet_error);
+    OST_FREE((*result)->surplus);
     OST_FREE(*result);
 }
 

@@ -49,6 +49,9 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
  * its stiffness lives. OST_EFFECT_ERROR_ESTIMATE. */
 OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result);
 
+/* Collective. Makes room for what the estimate says of tets and, where the case watches something, of nodes. */
+OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result);
+
 /* Local. Marks a result that the solver left unfinished, with its words. */
 void ost_result_take_outcome(OstResult *result, OstStatus solved);
 

@@ -34,25 +34,31 @@ OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
     return OST_SUCCESS;
 }
 
-static void take(const double vector[3], int component, OstWatched *watched)
+static double component_of(const double vector[3], int component)
 {
-    watched->value = component == OST_WATCH_LENGTH ? ost_norm3(vector) : vector[component];
+    return component == OST_WATCH_LENGTH ? ost_norm3(vector) : vector[component];
 }
 
 static OstStatus displacement(const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     const OstMesh *mesh = result->mesh;
     OstNearest vertex;
-    double u[3] = {0.0};
+    double pair[6] = {0.0}; /* the vertex's displacement; then that with what the estimate adds */
     OST_TRY(ost_mesh_nearest(mesh, watch->on.point, &vertex));
     if (vertex.node >= 0)
-        memcpy(u, result->displacement + 3 * (size_t)vertex.node, sizeof u);
-    OST_TRY(OST_MPI(mesh->ctx, MPI_Bcast(u, 3, MPI_DOUBLE, vertex.owner, ost_comm(mesh->ctx))));
-    take(u, watch->component, watched);
+        memcpy(pair, result->displacement + 3 * (size_t)vertex.node, 3 * sizeof *pair);
+    if (vertex.node >= 0 && result->surplus)
+        memcpy(pair + 3, result->surplus + 3 * (size_t)vertex.node, 3 * sizeof *pair);
+    OST_TRY(OST_MPI(mesh->ctx, MPI_Bcast(pair, 6, MPI_DOUBLE, vertex.owner, ost_comm(mesh->ctx))));
+    for (int i = 0; i < 3; i++)
+        pair[3 + i] += pair[i];
+    watched->value = component_of(pair, watch->component);
+    watched->error = result->surplus ? component_of(pair + 3, watch->component) - watched->value : NAN;
     watched->scale = result->largest_displacement;
     return OST_SUCCESS;
 }
 
+/* The surplus says little of reactions: what few steps leave out of balance in the body is of their errors' size. */
 static OstStatus reaction(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     OstContext *ctx = scene->ctx;
@@ -65,7 +71,8 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
             sum[i] += result->reaction[3 * (size_t)nodes[n] + (size_t)i];
     OST_FREE(nodes);
     OST_TRY(ost_sum(ctx, 3, sum));
-    take(sum, watch->component, watched);
+    watched->value = component_of(sum, watch->component);
+    watched->error = NAN;
     watched->scale = ost_norm3(sum);
     return OST_SUCCESS;
 }
@@ -91,6 +98,20 @@ OstStatus ost_energy_scale(const OstResult *result, double *scale)
     return OST_SUCCESS;
 }
 
+/* A body that loads alone strain has less energy than the exact answer, by half the square of the error; one that
+ * displacements alone strain has more. Where both act, or an eigenstrain, or springs, there is no such rule. */
+static double energy_error(const OstScene *scene, const OstResult *result)
+{
+    const OstEffects *effects = &scene->plan.effects;
+    const int is_moved = ost_effect_on(effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
+    const int is_other = ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN) || scene->c->spring_count > 0;
+    if (!result->answer.known || result->formulation != OST_FORMULATION_LINEAR || is_other ||
+        (is_moved && scene->c->load_count > 0))
+        return NAN;
+    const double half = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
+    return is_moved ? -half : half;
+}
+
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     switch (watch->kind) {
@@ -100,6 +121,7 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
         return reaction(scene, result, watch, watched);
     case OST_WATCH_STRAIN_ENERGY:
         watched->value = result->checks.strain_energy;
+        watched->error = energy_error(scene, result);
         return ost_energy_scale(result, &watched->scale);
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
@@ -152,7 +174,7 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
-        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected};
+        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error};
     }
     return OST_SUCCESS;
 }
@@ -160,8 +182,12 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
 void ost_watch_print(const OstWatchedValue *values, int count)
 {
     for (int w = 0; w < count; w++) {
-        const double expected = values[w].expected;
+        const double expected = values[w].expected, error = fabs(values[w].error);
         printf("%-22s %.10g", values[w].name, values[w].value);
+        if (!isnan(error))
+            printf(" +- %.2g", error);
+        if (error <= fabs(values[w].value) && values[w].value != 0.0)
+            printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
         if (!isnan(expected) && expected != 0.0)
             printf(", expected %.10g: %.2g %% off", expected, 100.0 * fabs(values[w].value / expected - 1.0));
         puts("");

@@ -9,6 +9,7 @@
 typedef struct OstWatched {
     double value;
     double scale;
+    double error; /* by how much the exact value is larger, as estimated; NAN: not estimated */
 } OstWatched;
 
 /* Collective. Moves the point of a displacement to the nearest vertex of this mesh (not a mid-edge node), so that it

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "orthostat/analysis.h"
 #include "problem/scene_data.h"
+#include "study/watch.h"
 
 /* The estimated error of an answer against the true one, which a far finer one knows: where nothing is moved,
  * |u - u_h|² = 2 (energy of u - energy of u_h). */
@@ -105,6 +106,74 @@ static void true_errors_are_estimated(void **state)
     }
 }
 
+/* --- quantities of interest --- */
+
+enum { WATCHES = 3 };
+#define WATCHED                                                                                     \
+    "large_rotation: off\naccuracy: {relative_residual: 1e-8}\noutput: {fields: [error]}\nwatch:\n" \
+    "  tip: {displacement: {nearest: [20, 2, 2]}, component: y}\n"                                  \
+    "  middle: {displacement: {nearest: [10, 0, 0]}, component: length}\n"                          \
+    "  energy: strain_energy\n"                                                                     \
+    "  held: {reaction: {boundary: xmin}, component: y}\n"
+
+static void read_watches(const Answer *answer, OstWatchedValue watched[WATCHES + 1])
+{
+    OstWatchedValue *values = NULL;
+    assert_success(ost_watch_evaluate_all(answer->scene, answer->result, &values));
+    memcpy(watched, values, (WATCHES + 1) * sizeof *watched);
+    OST_FREE(values);
+}
+
+/* Displacements and energy, against those of a finer mesh and what this one still lacks. */
+static void errors_of_watches_are_estimated(void **state)
+{
+    (void)state;
+    static const char *const bodies[] = {BEAM STEEL HELD SIDEWAYS WATCHED, BEAM FIBRES HELD SIDEWAYS WATCHED};
+    for (size_t b = 0; b < 2; b++)
+        for (int order = 1; order <= 2; order++) {
+            OstWatchedValue found[WATCHES + 1], better[WATCHES + 1];
+            Answer coarse = solve(bodies[b], order, 0), fine = solve(bodies[b], 2, 1);
+            read_watches(&coarse, found);
+            read_watches(&fine, better);
+            for (int w = 0; w < WATCHES; w++) {
+                const double ratio = found[w].error / (better[w].value + better[w].error - found[w].value);
+                print_message("body %d, order %d, %s: %.3f\n", (int)b, order, found[w].name, ratio);
+                if (!(ratio > 0.5 && ratio < 2.0))
+                    fail_msg("body %d, order %d, %s: estimated over true error is %g", (int)b, order, found[w].name,
+                             ratio);
+            }
+            assert_true(isnan(found[WATCHES].error)); /* of a reaction */
+            release(&coarse);
+            release(&fine);
+        }
+}
+
+/* What moves a body alone makes too much energy; beside loads, or with an eigenstrain, nobody knows. */
+static void energy_errors_have_a_sign(void **state)
+{
+    (void)state;
+#define MOVED                                                                                                     \
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: xmax}, displacement: [1, 2, " \
+    "0]}]\n"
+#define ENERGY "watch: {energy: strain_energy}\n"
+    Answer coarse = solve(CUBE STEEL MOVED ENERGY FINE, 1, 0), fine = solve(CUBE STEEL MOVED ENERGY FINE, 2, 1);
+    OstWatchedValue *found = NULL, *better = NULL;
+    assert_success(ost_watch_evaluate_all(coarse.scene, coarse.result, &found));
+    assert_success(ost_watch_evaluate_all(fine.scene, fine.result, &better));
+    const double truth = better->value + better->error - found->value;
+    assert_true(truth < 0.0);
+    assert_close(found->error, truth, 0.5 * fabs(truth));
+    OST_FREE(found);
+    OST_FREE(better);
+    release(&coarse);
+    release(&fine);
+    Answer both = solve(CUBE STEEL MOVED HEAVY ENERGY FINE, 1, 0);
+    assert_success(ost_watch_evaluate_all(both.scene, both.result, &found));
+    assert_true(isnan(found->error));
+    OST_FREE(found);
+    release(&both);
+}
+
 /* A beam whose end turns by 30 degrees: how far is it still to go? */
 static void large_rotations_are_estimated(void **state)
 {
@@ -171,29 +240,44 @@ static void shares_add_up(void **state)
     }
 }
 
+static double error_of_watch(const Answer *answer)
+{
+    OstWatchedValue *values = NULL;
+    assert_success(ost_watch_evaluate_all(answer->scene, answer->result, &values));
+    const double error = values[0].error;
+    OST_FREE(values);
+    return error;
+}
+
 /* With factors, which do not depend on the partition, the estimate is that of one rank. */
 static void ranks_agree(void **state)
 {
     (void)state;
-    static const char text[] = CUBE JUMPS HELD HEAVY FINE "solver: {method: direct}\n";
+    static const char text[] = CUBE JUMPS HELD HEAVY FINE
+        "solver: {method: direct}\nwatch: {corner: {displacement: {nearest: [1, 1, 1]}, component: y}}\n";
     OstContext *const world = ctx;
     for (int order = 1; order <= 2; order++) {
         Answer shared = solve(text, order, 0);
-        const double found = ost_result_answer_error(shared.result)->energy_norm;
+        const double found = ost_result_answer_error(shared.result)->energy_norm, corner = error_of_watch(&shared);
         release(&shared);
         assert_int_equal(ost_context_create(MPI_COMM_SELF, &ctx), OST_SUCCESS);
         ost_log_set_level(ctx, OST_LOG_QUIET);
         Answer alone = solve(text, order, 0);
         const double expected = ost_result_answer_error(alone.result)->energy_norm;
+        const double same_corner = error_of_watch(&alone);
         release(&alone);
         ost_context_destroy(&ctx);
         ctx = world;
         assert_close(found, expected, 1e-6 * expected);
+        assert_true(same_corner != 0.0);
+        assert_close(corner, same_corner, 1e-6 * fabs(same_corner));
     }
 }
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(true_errors_are_estimated),
+    cmocka_unit_test(errors_of_watches_are_estimated),
+    cmocka_unit_test(energy_errors_have_a_sign),
     cmocka_unit_test(large_rotations_are_estimated),
     cmocka_unit_test(exact_answers_have_no_error),
     cmocka_unit_test(shares_add_up),

@@ -44,6 +44,29 @@ def is_printed_and_in_json(ranks):
     check("expected" not in printed["held"], f"nothing was expected of the reaction: {printed['held']}")
 
 
+def errors_are_stated():
+    """A clamped beam is too stiff: the exact tip goes further, its energy is larger; of reactions nothing is known."""
+    bent = CASE[:CASE.index("constraints:")] + """constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
+large_rotation: off
+watch:
+  tip: {displacement: {nearest: [4, 0, 0]}, component: z}
+  held: {reaction: {boundary: xmin}, component: z}
+  work: strain_energy
+"""
+    finished, report, _ = solve(bent)
+    check(finished.exit_code == 0, finished.errors)
+    watched = report["watched"]
+    printed = {line.split()[0]: line for line in finished.output.splitlines() if line.split()}
+    for name in ("tip", "work"):
+        error, value = watched[name]["error"], watched[name]["value"]
+        check(0.1 * value < error < value, f"{name}: {watched[name]}")
+        check(f"+- {error:.2g} ({100 * error / value:.2g} %)" in printed[name], f"{name}: {printed[name]}")
+    check(watched["held"]["error"] is None and "+-" not in printed["held"], f"held: {watched['held']}, {printed['held']}")
+    _, report, _ = solve(bent + "output: {fields: [stress]}\n")
+    check(all(entry["error"] is None for entry in report["watched"].values()), f"not asked for: {report['watched']}")
+
+
 def nothing_watched_is_nothing_in_json():
     _, report, _ = solve(CASE[:CASE.index("watch:")])
     check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
@@ -75,6 +98,7 @@ def verify_section(boundary):
 def main():
     for ranks in (1, 2):
         is_printed_and_in_json(ranks)
+    errors_are_stated()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
             ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])
