@@ -13,10 +13,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Of |e|_A²: steps end where the last gain is below the first share and what later ones would add, extrapolated,
- * changes the sum by less than the second, at this many at most (of nearly incompressible linear tets, which lock, the
- * first ones find little); gains are taken to fall by no less than this ratio. */
-static const double small_gain = 0.2, settled = 0.03, largest_ratio = 0.75;
+/* Of |e|_A²: steps end where the last gain is below the first share, or below the second if gains have not fallen by
+ * the third in two steps (as those of nearly incompressible linear tets, which lock), and where what is to come changes
+ * the sum by less than the fourth. Gains are taken to fall by no less than the ratio. */
+static const double small_gain = 0.2, lasting_gain = 0.05, fallen = 0.4, settled = 0.03, largest_ratio = 0.75;
 enum { most_steps = 24 };
 
 struct OstEstimate {
@@ -206,17 +206,19 @@ static double gains_to_come(double gain, double last)
 static OstStatus iterate(Search *search, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    double weight = 0.0, gain = 0.0, sum = 0.0;
+    double weight = 0.0, gain = 0.0, last = 0.0, sum = 0.0;
     *square = 0.0;
     OST_TRY(turn(search, 0.0, &weight));
     for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
-        const double last = gain, before = *square;
+        const double before_last = last, before = *square;
+        last = gain;
         OST_TRY(go_on(search, weight, &gain));
         sum += gain;
         *square = sum + gains_to_come(gain, last);
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", k + 1, sqrt(sum),
                 sqrt(*square - sum));
-        if (search->failed || (k > 0 && gain <= small_gain * sum && fabs(*square - before) <= settled * *square))
+        const double small = gain < fallen * before_last ? small_gain : lasting_gain;
+        if (search->failed || (k > 0 && gain <= small * sum && fabs(*square - before) <= settled * *square))
             break;
         OST_TRY(turn(search, gain, &weight));
     }
