@@ -164,8 +164,10 @@ OstStatus ost_effect_study(const OstCase *c, OstEffectStudy *study)
     OstScene *scene = NULL;
     Pose base = {0, NULL};
     OstStatus status = OST_SUCCESS;
+    OstCase exact = *c; /* small changes must not drown in what a stopped solve leaves */
+    exact.solver.algebraic_fraction = 0.0;
     *study = (OstEffectStudy){.ctx = ctx, .c = c};
-    OST_TRY_DONE(solve(c, &study->base, &base, &scene));
+    OST_TRY_DONE(solve(&exact, &study->base, &base, &scene));
     for (int v = 0; v < OST_VARIANT_COUNT; v++) {
         ost_progress(ctx, ost_variant_label[v], (double)(v + 1) / (OST_VARIANT_COUNT + 1));
         if (ost_variant_applies(study, &scene->plan.effects, (OstVariant)v))
