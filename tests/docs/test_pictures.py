@@ -89,7 +89,8 @@ check_drawn("stability-region.png", pictures.numbers_of_region(os.path.join(fold
 for name, case in pictures.COSTS.items():
     if name == "tube":
         continue
-    finished = run("cost", os.path.join(SOURCE, case), "-q", "--refinements", "0", "--json", "cost.json", folder=folder)
+    finished = run("cost", os.path.join(SOURCE, case), "-q", "--refinements", "0", "--accuracies", "-", "--json", "cost.json",
+                   folder=folder)
     check(finished.exit_code == 0, finished.errors)
     found = pictures.numbers_of_cost(report_of("cost.json"))
     old = record[f"cost-{name}.png"]["numbers"]
