@@ -344,7 +344,8 @@ static void a_body_afloat_is_refused(void **state)
     (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
-    assert_not_converged(&problem, OST_METHOD_DIRECT, "rounding leaves the displacement less than one digit");
+    /* by its residual or by its displacement: that depends on the machine */
+    assert_not_converged(&problem, OST_METHOD_DIRECT, "rounding ");
     assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite");
     elastic_destroy(&problem);
 }
