@@ -320,8 +320,8 @@ static void one_solver_solves_for_many_forces(void **state)
     elastic_destroy(&problem);
 }
 
-/* Raises status OST_NOT_CONVERGED, be it in create or in solve. */
-static void assert_not_converged(const ElasticProblem *problem, OstMethod method, const char *words)
+/* Raises status OST_NOT_CONVERGED, be it in create or in solve, with one reason or the other. */
+static void assert_not_converged(const ElasticProblem *problem, OstMethod method, const char *words, const char *others)
 {
     const OstSolverOptions options = options_for(method, 1e-8);
     OstSolver *solver = NULL;
@@ -332,9 +332,9 @@ static void assert_not_converged(const ElasticProblem *problem, OstMethod method
     if (status == OST_SUCCESS) {
         status = ost_solver_solve(solver, problem->force, u, &report);
         assert_int_equal(report.steps, 1);
-        assert_non_null(strstr(report.step[0].outcome, words));
+        assert_true(strstr(report.step[0].outcome, words) || strstr(report.step[0].outcome, others));
     }
-    assert_failure(status, OST_NOT_CONVERGED, words);
+    assert_failure(status, OST_NOT_CONVERGED, strstr(ost_error_text(ctx), words) ? words : others);
     ost_solver_destroy(&solver);
     OST_FREE(u);
 }
@@ -344,9 +344,10 @@ static void a_body_afloat_is_refused(void **state)
     (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
-    /* by its residual or by its displacement: that depends on the machine */
-    assert_not_converged(&problem, OST_METHOD_DIRECT, "rounding ");
-    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite");
+    /* Rounding decides which sign its softest modes have. */
+    assert_not_converged(&problem, OST_METHOD_DIRECT, "rounding leaves the displacement less than one digit",
+                         "rounding in double precision allows");
+    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite", "rounding in double precision allows");
     elastic_destroy(&problem);
 }
 
@@ -360,8 +361,8 @@ static void an_indefinite_matrix_is_refused(void **state)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
             for (size_t c = 0; c < 9 && k != matrix->diagonal[i]; c++)
                 matrix->value[9 * (size_t)k + c] *= 3.0;
-    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite");
-    assert_not_converged(&problem, OST_METHOD_DIRECT, "not positive definite");
+    assert_not_converged(&problem, OST_METHOD_PLAIN, "not positive definite", "not positive definite");
+    assert_not_converged(&problem, OST_METHOD_DIRECT, "not positive definite", "not positive definite");
     elastic_destroy(&problem);
 }
 
