@@ -79,6 +79,7 @@ materials: [{region: all, youngs_modulus: 2e11, poissons_ratio: 0.3}]
 constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
 loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
 solver: {factor_memory: MEMORY}
+accuracy: {relative_residual: 1e-8}
 """
 
 
