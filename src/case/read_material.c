@@ -221,8 +221,10 @@ static OstStatus take_field(const OstYaml *yaml, const OstYamlNode *node, int di
     OST_TRY(ost_read_string(yaml, node, name));
     const int known = ost_case_find_field(c, *name);
     if (known >= 0 && c->fields[known].directions != directions)
-        return ost_yaml_raise(yaml, node, "the field '%.80s' stands for directions here or in line %d, and for numbers in "
-                              "the other place", *name, c->fields[known].place.line);
+        return ost_yaml_raise(yaml, node,
+                              "the field '%.80s' stands for directions here or in line %d, and for numbers in "
+                              "the other place",
+                              *name, c->fields[known].place.line);
     if (known < 0 && c->field_count == OST_MOST_TET_FIELDS)
         return ost_yaml_raise(yaml, node, "a case reads %d fields of the mesh file at most", OST_MOST_TET_FIELDS);
     if (known < 0)

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "cli/installed.h"
 #include "cli/mesh_report.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "formats/export/export.h"
 #include "formats/serial/chunk_tidy.h"
 #include "formats/serial/formats.h"
@@ -40,8 +42,9 @@ static error_t parse(int key, char *value, struct argp_state *state)
         return 0;
     }
     if (key == ARGP_KEY_ARG || (key == ARGP_KEY_END && !request->in)) {
-        argp_error(state, key == ARGP_KEY_END ? "which mesh? Give the path of its file"
-                                              : "one mesh to read, and one to write at most: '%s' is too many",
+        argp_error(state,
+                   key == ARGP_KEY_END ? "which mesh? Give the path of its file"
+                                       : "one mesh to read, and one to write at most: '%s' is too many",
                    value);
         return EINVAL;
     }
@@ -130,6 +133,45 @@ static OstStatus report(const Request *request, const OstMesh *mesh)
     return ost_agree(ctx, status);
 }
 
+/* --- the picture --- */
+
+static json_t *numbers_json(size_t count, const OstGlobal *numbers)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(list, json_integer(numbers[i]));
+    return list;
+}
+
+/* What scripts/plot-mesh draws: places of the vertices, vertices and region of the tets. */
+static OstStatus write_drawing(const void *study, const char *path)
+{
+    const OstMeshChunk *whole = study;
+    json_t *points = json_array(), *tets = json_array(), *regions = json_array(), *names = json_array();
+    for (size_t i = 0; i < 3 * (size_t)whole->node_count; i++)
+        json_array_append_new(points, json_real(whole->coordinates[i]));
+    for (size_t t = 0; t < (size_t)whole->tet_count; t++) {
+        json_array_append_new(tets, numbers_json(4, whole->tet_nodes + t * (size_t)whole->nodes_per_tet));
+        json_array_append_new(regions, json_integer(whole->tet_region[t]));
+    }
+    for (int r = 0; r < whole->regions.count; r++)
+        json_array_append_new(names, ost_json_text(whole->regions.name[r]));
+    json_t *root =
+        json_pack("{s:o, s:o, s:o, s:o}", "points", points, "tets", tets, "region", regions, "regions", names);
+    return root
+               ? ost_json_write(whole->ctx, root, path)
+               : OST_RAISE(whole->ctx, OST_LIBRARY_FAILED, "the mesh cannot be written as JSON (are its names UTF-8?)");
+}
+
+static OstStatus draw(const OstMesh *mesh, const char *picture)
+{
+    OstMeshChunk *whole = NULL;
+    OST_TRY(ost_mesh_gather(mesh, &whole));
+    const OstStatus status = ost_cli_draw(mesh->ctx, "plot-mesh", write_drawing, whole, picture);
+    ost_chunk_destroy(&whole);
+    return ost_agree(mesh->ctx, status);
+}
+
 static OstStatus work(OstContext *ctx, void *input)
 {
     const Request *request = input;
@@ -143,6 +185,8 @@ static OstStatus work(OstContext *ctx, void *input)
     OST_TRY_DONE(ost_mesh_distribute(ctx, &chunk, &mesh));
     OST_TRY_DONE(change(request, &mesh));
     OST_TRY_DONE(report(request, mesh));
+    if (request->text['p'])
+        OST_TRY_DONE(draw(mesh, request->text['p']));
     if (request->out) {
         OST_TRY_DONE(ost_mesh_export(mesh, request->out));
         ost_log(ctx, OST_LOG_NORMAL, "wrote %s", request->out);

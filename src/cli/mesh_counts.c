@@ -49,7 +49,8 @@ static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshCounts *counts)
     counts->region_volume[mesh->tet_region[tet]] += volume;
     counts->mean_quality += quality / (double)mesh->global_tets;
     counts->bins[bin < 0 ? 0 : bin >= OST_QUALITY_BINS ? OST_QUALITY_BINS - 1 : bin]++;
-    if (quality < counts->least_quality || (quality == counts->least_quality && mesh->tet_label[tet] < counts->worst_tet)) {
+    if (quality < counts->least_quality ||
+        (quality == counts->least_quality && mesh->tet_label[tet] < counts->worst_tet)) {
         counts->least_quality = quality;
         counts->worst_tet = mesh->tet_label[tet];
     }

@@ -70,10 +70,10 @@ static json_t *parts_json(const OstComponents *parts)
     json_t *list = json_array();
     for (OstLocal c = 0; c < parts->count; c++) {
         const OstComponent *part = &parts->component[c];
-        json_array_append_new(list, json_pack("{s:I, s:I, s:[fff], s:[fff]}", "tets", (json_int_t)part->tets,
-                                              "first_tet", (json_int_t)part->first_tet, "low", part->low[0],
-                                              part->low[1], part->low[2], "high", part->high[0], part->high[1],
-                                              part->high[2]));
+        json_array_append_new(list,
+                              json_pack("{s:I, s:I, s:[fff], s:[fff]}", "tets", (json_int_t)part->tets, "first_tet",
+                                        (json_int_t)part->first_tet, "low", part->low[0], part->low[1], part->low[2],
+                                        "high", part->high[0], part->high[1], part->high[2]));
     }
     return list;
 }
@@ -91,9 +91,9 @@ OstStatus ost_mesh_counts_json(const OstMesh *mesh, const OstMeshCounts *counts,
 {
     json_t *regions = json_array(), *boundaries = json_array();
     for (int r = 0; r < mesh->regions.count; r++)
-        json_array_append_new(regions, json_pack("{s:o, s:I, s:f}", "name", ost_json_text(mesh->regions.name[r]), "tets",
-                                                 (json_int_t)counts->region_tets[r], "volume",
-                                                 counts->region_volume[r]));
+        json_array_append_new(regions,
+                              json_pack("{s:o, s:I, s:f}", "name", ost_json_text(mesh->regions.name[r]), "tets",
+                                        (json_int_t)counts->region_tets[r], "volume", counts->region_volume[r]));
     for (int b = 0; b < mesh->boundary_count; b++)
         json_array_append_new(boundaries,
                               json_pack("{s:o, s:s, s:I, s:f}", "name", ost_json_text(mesh->boundaries[b].name), "of",
@@ -102,13 +102,14 @@ OstStatus ost_mesh_counts_json(const OstMesh *mesh, const OstMeshCounts *counts,
     json_t *root = json_pack(
         "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:o}", "file",
         ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "order",
-        mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0], counts->low[1],
-        counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume", counts->volume,
-        "shortest_edge", counts->shortest, "longest_edge", counts->longest, "quality", quality_json(counts), "regions",
-        regions, "boundaries", boundaries, "components", parts_json(counts->components), "coincident_vertices",
-        (json_int_t)counts->coincident, "coincident_within", counts->tolerance, "warnings", ost_json_warnings(mesh->ctx));
+        mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
+        counts->low[1], counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume",
+        counts->volume, "shortest_edge", counts->shortest, "longest_edge", counts->longest, "quality",
+        quality_json(counts), "regions", regions, "boundaries", boundaries, "components",
+        parts_json(counts->components), "coincident_vertices", (json_int_t)counts->coincident, "coincident_within",
+        counts->tolerance, "warnings", ost_json_warnings(mesh->ctx));
     if (!root)
-        return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED, "%s: what was found cannot be written as JSON (are its names UTF-8?)",
-                         path);
+        return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED,
+                         "%s: what was found cannot be written as JSON (are its names UTF-8?)", path);
     return ost_json_write(mesh->ctx, root, json);
 }

@@ -17,10 +17,10 @@ typedef struct OstMeshCounts {
     OstGlobal coincident;
     double tolerance; /* within which they coincide */
     double surface_faces;
-    OstGlobal *region_tets;      /* of each region */
+    OstGlobal *region_tets; /* of each region */
     double *region_volume;
-    OstGlobal *boundary_items;   /* of each boundary */
-    double *boundary_area;       /* of those of faces */
+    OstGlobal *boundary_items; /* of each boundary */
+    double *boundary_area;     /* of those of faces */
     OstComponents *components;
 } OstMeshCounts;
 

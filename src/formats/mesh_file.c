@@ -180,9 +180,10 @@ OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char
     if (format->parallel)
         return ost_vtkhdf_read_field(ctx, path, name, chunk);
     if (!format->read_field)
-        return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "%s: no fields are read from a %s file, and '%s' is asked for; use .vtu, .vtk, .msh or .vtkhdf",
-                         path, format->ending, name);
+        return OST_RAISE(
+            ctx, OST_INVALID_INPUT,
+            "%s: no fields are read from a %s file, and '%s' is asked for; use .vtu, .vtk, .msh or .vtkhdf", path,
+            format->ending, name);
     OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? read_field_alone(ctx, format, path, name, use, chunk) : OST_SUCCESS));
     OST_TRY(broadcast(ctx, &chunk->fields, sizeof chunk->fields));
     return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));

@@ -12,10 +12,10 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
     for (int f = 0; f < c->field_count; f++) {
         const OstCaseField *asked = &c->fields[f];
         if (c->mesh_kind != OST_MESH_FILE)
-            return ost_case_located(c, asked->place,
-                                    OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                                              "the field '%s' is read from the mesh file, and this mesh comes from none",
-                                              asked->name));
+            return ost_case_located(
+                c, asked->place,
+                OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                          "the field '%s' is read from the mesh file, and this mesh comes from none", asked->name));
         OST_TRY(ost_case_located(
             c, asked->place,
             ost_mesh_file_read_field(c->ctx, c->mesh_file, asked->name,

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh, meshio, VTK, TetGen and Abaqus/CAE write it (exchange/README.md). The
- * left cube is one region and the right one another; four faces, or those of TetGen, lie at x = 0. */
+/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh, meshio, VTK, TetGen and Abaqus/CAE write it (exchange/README.md).
+ * The left cube is one region and the right one another; four faces, or those of TetGen, lie at x = 0. */
 static const struct {
     const char *name;
     int nodes, tets, boundaries, warnings;
@@ -170,7 +170,8 @@ static void fields_are_read_tet_by_tet(void **state)
         assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));
         assert_success(ost_mesh_file_read_field(ctx, path, "density", OST_FIELD_OF_NUMBERS, chunk));
         assert_success(ost_mesh_file_read_field(ctx, path, "direction", OST_FIELD_OF_DIRECTIONS, chunk));
-        assert_int_equal(ost_mesh_file_read_field(ctx, path, "modulos", OST_FIELD_OF_NUMBERS, chunk), OST_INVALID_INPUT);
+        assert_int_equal(ost_mesh_file_read_field(ctx, path, "modulos", OST_FIELD_OF_NUMBERS, chunk),
+                         OST_INVALID_INPUT);
         assert_int_equal(chunk->fields.count, 3);
         assert_int_equal(ost_tet_fields_width(&chunk->fields), 5);
         for (OstLocal t = 0; t < chunk->tet_count; t++) {
@@ -210,8 +211,10 @@ static void mistakes_are_named_with_file_and_line(void **state)
     } wrong[] = {
         {"a.inp", "*NODE\n1, 0, 0\n2, x, 0, 0\n", "a.inp:3: a coordinate is 'x', expected a number"},
         {"a.inp", "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n", "1 solid elements that are no tets"},
-        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3\n*NSET, NSET=A\n", "element 7 has 3 nodes, expected 4"},
-        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n", "element 7 uses node 2, which the file does not"},
+        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3\n*NSET, NSET=A\n",
+         "element 7 has 3 nodes, expected 4"},
+        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n",
+         "element 7 uses node 2, which the file does not"},
         {"a.inp", "*ELEMENT\n1, 2\n", "*ELEMENT without TYPE"},
         {"a.inp", "*NSET, NSET=A\nB\n", "'B' found, expected a number or the name of a set before"},
         {"a.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: cannot be read"},
@@ -237,8 +240,7 @@ static void mistakes_are_named_with_file_and_line(void **state)
         expect_refusal(wrong[w].name, wrong[w].content, strlen(wrong[w].content), wrong[w].words);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(stored_files_hold_two_cubes),
-                                          cmocka_unit_test(quadratic_meshes_pass_the_checks_of_the_body),
-                                          cmocka_unit_test(fields_are_read_tet_by_tet),
-                                          cmocka_unit_test(mistakes_are_named_with_file_and_line)};
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(stored_files_hold_two_cubes), cmocka_unit_test(quadratic_meshes_pass_the_checks_of_the_body),
+    cmocka_unit_test(fields_are_read_tet_by_tet), cmocka_unit_test(mistakes_are_named_with_file_and_line)};
 OST_TEST_MAIN(tests)

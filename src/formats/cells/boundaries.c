@@ -42,7 +42,8 @@ static OstStatus name_of(const OstCells *cells, const char *wanted, int dimensio
 }
 
 /* The boundary of a name and dimension: a new one if there is none. */
-static OstStatus boundary_of(OstCells *cells, const char *wanted, int dimension, int nodes_per_item, OstBoundary **found)
+static OstStatus boundary_of(OstCells *cells, const char *wanted, int dimension, int nodes_per_item,
+                             OstBoundary **found)
 {
     OstMeshChunk *chunk = cells->chunk;
     char name[256];
@@ -50,8 +51,8 @@ static OstStatus boundary_of(OstCells *cells, const char *wanted, int dimension,
     int number = find_boundary(chunk, name);
     if (number < 0) {
         if (chunk->boundary_count == MOST_BOUNDARIES)
-            return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED, "%s: more than %d groups and sets, too many for boundaries",
-                             cells->path, MOST_BOUNDARIES);
+            return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
+                             "%s: more than %d groups and sets, too many for boundaries", cells->path, MOST_BOUNDARIES);
         OST_TRY(OST_RESIZE(cells->ctx, &chunk->boundaries, chunk->boundary_count + 1));
         number = chunk->boundary_count++;
         chunk->boundaries[number] = (OstBoundary){.dimension = dimension, .nodes_per_item = nodes_per_item};
@@ -221,10 +222,11 @@ static OstStatus check_order(OstCells *cells, OstCellKind tets)
         ost_cells_skip(cells, 1, "a line of another order than the tets'");
     if (triangles->count == 0)
         return OST_SUCCESS;
-    return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                     "%s: holds %d triangles of %d nodes beside tets of %d nodes, expected %d nodes; mesh the whole body "
-                     "in one order",
-                     cells->path, triangles->count, quadratic ? 3 : 6, quadratic ? 10 : 4, quadratic ? 6 : 3);
+    return OST_RAISE(
+        cells->ctx, OST_INVALID_INPUT,
+        "%s: holds %d triangles of %d nodes beside tets of %d nodes, expected %d nodes; mesh the whole body "
+        "in one order",
+        cells->path, triangles->count, quadratic ? 3 : 6, quadratic ? 10 : 4, quadratic ? 6 : 3);
 }
 
 /* Faces first: of names that are given twice, theirs stay. */

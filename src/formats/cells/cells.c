@@ -13,8 +13,8 @@
 enum { FIRST_ROOM = 64 };
 
 const OstCellFacts ost_cell_facts[OST_CELL_KINDS] = {
-    [OST_CELL_POINT] = {0, 1},     [OST_CELL_LINE2] = {1, 2},     [OST_CELL_LINE3] = {1, 3}, [OST_CELL_TRIANGLE3] = {2, 3},
-    [OST_CELL_TRIANGLE6] = {2, 6}, [OST_CELL_TET4] = {3, 4}, [OST_CELL_TET10] = {3, 10},
+    [OST_CELL_POINT] = {0, 1},     [OST_CELL_LINE2] = {1, 2}, [OST_CELL_LINE3] = {1, 3},  [OST_CELL_TRIANGLE3] = {2, 3},
+    [OST_CELL_TRIANGLE6] = {2, 6}, [OST_CELL_TET4] = {3, 4},  [OST_CELL_TET10] = {3, 10},
 };
 
 OstStatus ost_cells_open(OstContext *ctx, const char *path, OstCells *cells)
@@ -49,8 +49,9 @@ OstStatus ost_cells_grow(const OstCells *cells, OstLocal count, OstLocal *room)
 {
     const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
     if (grown > INT_MAX)
-        return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED, "%s: more than %d nodes or elements, too many for a serial file",
-                         cells->path, INT_MAX / 3 * 2);
+        return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
+                         "%s: more than %d nodes or elements, too many for a serial file", cells->path,
+                         INT_MAX / 3 * 2);
     *room = (OstLocal)grown;
     return OST_SUCCESS;
 }

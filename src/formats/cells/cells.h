@@ -88,8 +88,8 @@ OstStatus ost_cells_set(OstCells *cells, OstSetKind kind, const char *name, int 
 int ost_cells_find_set(const OstCells *cells, OstSetKind kind, const char *name);
 OstStatus ost_cells_put(OstCells *cells, int set, OstGlobal item);
 
-/* Local. Keeps each item of a set once. Puts the items of one set into another, each once; or those of the numbers first, first + step, ... last that
- * nodes or cells have. */
+/* Local. Keeps each item of a set once. Puts the items of one set into another, each once; or those of the numbers
+ * first, first + step, ... last that nodes or cells have. */
 void ost_cells_keep_once(OstCells *cells, int set);
 OstStatus ost_cells_put_set(OstCells *cells, int set, int from);
 OstStatus ost_cells_put_range(OstCells *cells, int set, OstGlobal first, OstGlobal last, OstGlobal step);

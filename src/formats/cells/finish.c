@@ -46,8 +46,8 @@ static OstStatus find_nodes(const OstCells *cells, const OstCellList *list, size
         const OstGlobal position = ost_label_index_find(&cells->nodes, list->nodes[i]);
         if (position < 0)
             return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                             "%s: element %" PRId64 " uses node %" PRId64 ", which the file does not define", cells->path,
-                             list->label[i / width], list->nodes[i]);
+                             "%s: element %" PRId64 " uses node %" PRId64 ", which the file does not define",
+                             cells->path, list->label[i / width], list->nodes[i]);
         list->nodes[i] = position;
     }
     return OST_SUCCESS;
@@ -117,7 +117,8 @@ static OstStatus build(OstCells *cells)
     OST_TRY(ost_cells_make_boundaries(cells, tets));
     take_tets(cells, tets);
     if (cells->others > 0)
-        ost_warn(cells->ctx, "%s: %" PRId64 " elements that neither are tets nor bound them are left out, the first of them %s",
+        ost_warn(cells->ctx,
+                 "%s: %" PRId64 " elements that neither are tets nor bound them are left out, the first of them %s",
                  cells->path, cells->others, cells->other);
     if (cells->missing > 0)
         ost_warn(cells->ctx, "%s: sets name %" PRId64 " nodes or elements that are no part of the body; left out",

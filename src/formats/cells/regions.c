@@ -27,8 +27,8 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The most tets first; of as many, what the file has last comes last, and so counts: sets that the user made follow those
- * of the program. */
+/* The most tets first; of as many, what the file has last comes last, and so counts: sets that the user made follow
+ * those of the program. */
 static int compare_candidates(const void *a, const void *b)
 {
     const Candidate *x = a, *y = b;
@@ -40,10 +40,11 @@ static int compare_candidates(const void *a, const void *b)
 static OstStatus add_candidate(const OstCells *cells, int *count, Candidate **list, Candidate one)
 {
     if (*count == MOST_REGIONS)
-        return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
-                         "%s: its tets are in more than %d groups, too many for regions; a number of each tet is a field "
-                         "(youngs_modulus: {field: NAME}), not a region",
-                         cells->path, MOST_REGIONS);
+        return OST_RAISE(
+            cells->ctx, OST_LIMIT_EXCEEDED,
+            "%s: its tets are in more than %d groups, too many for regions; a number of each tet is a field "
+            "(youngs_modulus: {field: NAME}), not a region",
+            cells->path, MOST_REGIONS);
     OST_TRY(OST_RESIZE(cells->ctx, list, *count + 1));
     one.order = *count;
     (*list)[(*count)++] = one;

@@ -25,13 +25,13 @@ static const struct {
     OstCellKind kind; /* OST_CELL_KINDS: not a kind that is read */
     int dimension;
 } types[] = {
-    {"C3D4", OST_CELL_TET4, 3},        {"DC3D4", OST_CELL_TET4, 3},        {"C3D10", OST_CELL_TET10, 3},
-    {"DC3D10", OST_CELL_TET10, 3},     {"STRI65", OST_CELL_TRIANGLE6, 2},  {"M3D6", OST_CELL_TRIANGLE6, 2},
-    {"SFM3D6", OST_CELL_TRIANGLE6, 2}, {"CPS6", OST_CELL_TRIANGLE6, 2},    {"CPE6", OST_CELL_TRIANGLE6, 2},
-    {"S6", OST_CELL_TRIANGLE6, 2},     {"STRI3", OST_CELL_TRIANGLE3, 2},   {"S3", OST_CELL_TRIANGLE3, 2},
-    {"M3D3", OST_CELL_TRIANGLE3, 2},   {"SFM3D3", OST_CELL_TRIANGLE3, 2},  {"R3D3", OST_CELL_TRIANGLE3, 2},
-    {"CPS3", OST_CELL_TRIANGLE3, 2},   {"CPE3", OST_CELL_TRIANGLE3, 2},    {"DS3", OST_CELL_TRIANGLE3, 2},
-    {"C3D", OST_CELL_KINDS, 3},        {"DC3D", OST_CELL_KINDS, 3},        {"SC", OST_CELL_KINDS, 3},
+    {"C3D4", OST_CELL_TET4, 3},        {"DC3D4", OST_CELL_TET4, 3},       {"C3D10", OST_CELL_TET10, 3},
+    {"DC3D10", OST_CELL_TET10, 3},     {"STRI65", OST_CELL_TRIANGLE6, 2}, {"M3D6", OST_CELL_TRIANGLE6, 2},
+    {"SFM3D6", OST_CELL_TRIANGLE6, 2}, {"CPS6", OST_CELL_TRIANGLE6, 2},   {"CPE6", OST_CELL_TRIANGLE6, 2},
+    {"S6", OST_CELL_TRIANGLE6, 2},     {"STRI3", OST_CELL_TRIANGLE3, 2},  {"S3", OST_CELL_TRIANGLE3, 2},
+    {"M3D3", OST_CELL_TRIANGLE3, 2},   {"SFM3D3", OST_CELL_TRIANGLE3, 2}, {"R3D3", OST_CELL_TRIANGLE3, 2},
+    {"CPS3", OST_CELL_TRIANGLE3, 2},   {"CPE3", OST_CELL_TRIANGLE3, 2},   {"DS3", OST_CELL_TRIANGLE3, 2},
+    {"C3D", OST_CELL_KINDS, 3},        {"DC3D", OST_CELL_KINDS, 3},       {"SC", OST_CELL_KINDS, 3},
     {"CSS8", OST_CELL_KINDS, 3},       {"COH3D", OST_CELL_KINDS, 3},
 };
 
@@ -145,7 +145,8 @@ static OstStatus begin_nodes(OstInp *inp, const OstInpKeyword *keyword)
 {
     const char *set = ost_inp_value(keyword, "NSET"), *system = ost_inp_value(keyword, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return OST_RAISE_LINE(inp->lines, "nodes in the coordinate system '%s'; only rectangular ones are read", system);
+        return OST_RAISE_LINE(inp->lines, "nodes in the coordinate system '%s'; only rectangular ones are read",
+                              system);
     inp->block = OST_INP_NODES;
     return set ? ost_cells_set(&inp->cells, OST_SET_OF_NODES, set, &inp->set) : OST_SUCCESS;
 }
@@ -167,9 +168,9 @@ static OstStatus begin_instance(OstInp *inp)
     inp->block = OST_INP_INSTANCE;
     inp->instance_lines = 0;
     if (++inp->instances > 1)
-        return OST_RAISE_LINE(inp->lines,
-                              "a second instance; each has its own numbers. Write the model without parts and "
-                              "assemblies (in CAE: model attributes, 'Do not use parts and assemblies in input files')");
+        return OST_RAISE_LINE(
+            inp->lines, "a second instance; each has its own numbers. Write the model without parts and "
+                        "assemblies (in CAE: model attributes, 'Do not use parts and assemblies in input files')");
     return OST_SUCCESS;
 }
 
@@ -202,7 +203,8 @@ static OstStatus include(OstInp *inp, const OstInpKeyword *keyword, int depth)
     OstLineReader *outer = inp->lines, lines;
     const char *name = ost_inp_value(keyword, "INPUT");
     if (!name || depth == MOST_INCLUDES)
-        return OST_RAISE_LINE(inp->lines, name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
+        return OST_RAISE_LINE(inp->lines,
+                              name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
     join_path(outer->path, name, path);
     OST_TRY(ost_lines_open(inp->ctx, path, &lines));
     const OstStatus status = read_lines(inp, &lines, depth + 1);
@@ -293,8 +295,10 @@ static void choose_regions(OstInp *inp)
     for (int s = 0; s < inp->cells.set_count && inp->sections; s++)
         inp->cells.set[s].is_region = inp->cells.set[s].is_region == 2;
     if (inp->left_out > 0)
-        ost_warn(inp->ctx, "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S4, SPOS or SNEG) of tets or triangles, and "
-                 "are left out", inp->cells.path, inp->left_out);
+        ost_warn(inp->ctx,
+                 "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S4, SPOS or SNEG) of tets or triangles, and "
+                 "are left out",
+                 inp->cells.path, inp->left_out);
 }
 
 static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)

@@ -36,8 +36,9 @@ static OstStatus read_range(OstInp *inp)
     if (!ost_lines_ended(inp->lines))
         OST_TRY(ost_lines_integer(inp->lines, "the step of a range", &step));
     if (first < 0 || last < first || last > OST_LARGEST_LABEL || step < 1)
-        return OST_RAISE_LINE(inp->lines, "the range %" PRId64 " to %" PRId64 " in steps of %" PRId64
-                              " found, expected it to ascend", first, last, step);
+        return OST_RAISE_LINE(
+            inp->lines, "the range %" PRId64 " to %" PRId64 " in steps of %" PRId64 " found, expected it to ascend",
+            first, last, step);
     return ost_cells_put_range(&inp->cells, inp->set, first, last, step);
 }
 

@@ -13,26 +13,20 @@
 
 typedef struct Keyword {
     const char *word;
-    int code;          /* in bytes */
-    OstCellKind kind;  /* OST_CELL_KINDS: of no kind that is read */
-    int numbers;       /* integers of an item, its reference among them */
-    int dimension;     /* of a shape; -1: no shape */
+    int code;         /* in bytes */
+    OstCellKind kind; /* OST_CELL_KINDS: of no kind that is read */
+    int numbers;      /* integers of an item, its reference among them */
+    int dimension;    /* of a shape; -1: no shape */
 } Keyword;
 
 /* Quadratic shapes follow linear ones. */
 static const Keyword keywords[] = {
-    {"Edges", 5, OST_CELL_LINE2, 3, 1},
-    {"EdgesP2", 25, OST_CELL_LINE3, 4, 1},
-    {"Triangles", 6, OST_CELL_TRIANGLE3, 4, 2},
-    {"TrianglesP2", 24, OST_CELL_TRIANGLE6, 7, 2},
-    {"Tetrahedra", 8, OST_CELL_TET4, 5, 3},
-    {"TetrahedraP2", 30, OST_CELL_TET10, 11, 3},
-    {"Quadrilaterals", 7, OST_CELL_KINDS, 5, 2},
-    {"Hexahedra", 10, OST_CELL_KINDS, 9, 3},
-    {"Hexaedra", 0, OST_CELL_KINDS, 9, 3},
-    {"Prisms", 9, OST_CELL_KINDS, 7, 3},
-    {"Pentahedra", 0, OST_CELL_KINDS, 7, 3},
-    {"Pyramids", 49, OST_CELL_KINDS, 6, 3},
+    {"Edges", 5, OST_CELL_LINE2, 3, 1},          {"EdgesP2", 25, OST_CELL_LINE3, 4, 1},
+    {"Triangles", 6, OST_CELL_TRIANGLE3, 4, 2},  {"TrianglesP2", 24, OST_CELL_TRIANGLE6, 7, 2},
+    {"Tetrahedra", 8, OST_CELL_TET4, 5, 3},      {"TetrahedraP2", 30, OST_CELL_TET10, 11, 3},
+    {"Quadrilaterals", 7, OST_CELL_KINDS, 5, 2}, {"Hexahedra", 10, OST_CELL_KINDS, 9, 3},
+    {"Hexaedra", 0, OST_CELL_KINDS, 9, 3},       {"Prisms", 9, OST_CELL_KINDS, 7, 3},
+    {"Pentahedra", 0, OST_CELL_KINDS, 7, 3},     {"Pyramids", 49, OST_CELL_KINDS, 6, 3},
 };
 
 enum { DIMENSION = 3, VERTICES = 4, END = 54, MOST_NUMBERS = 11, LONGEST_WORD = 64, FEWEST_BYTES = 2 };
@@ -125,7 +119,8 @@ static int words_of_line(Medit *medit)
 static const Keyword *quadratic_if_longer(Medit *medit, const Keyword *linear)
 {
     const Keyword *next = linear + 1;
-    const int may_be = linear->kind == OST_CELL_LINE2 || linear->kind == OST_CELL_TRIANGLE3 || linear->kind == OST_CELL_TET4;
+    const int may_be =
+        linear->kind == OST_CELL_LINE2 || linear->kind == OST_CELL_TRIANGLE3 || linear->kind == OST_CELL_TET4;
     return may_be && !medit->cursor.binary && words_of_line(medit) == next->numbers ? next : linear;
 }
 
@@ -141,7 +136,8 @@ static OstStatus read_cells(Medit *medit, const Keyword *keyword)
         if (keyword->kind == OST_CELL_KINDS)
             ost_cells_skip(&medit->cells, keyword->dimension, keyword->word);
         else
-            OST_TRY(ost_cells_add(&medit->cells, keyword->kind, i + 1, reference == 0 ? OST_NO_GROUP : reference, numbers));
+            OST_TRY(
+                ost_cells_add(&medit->cells, keyword->kind, i + 1, reference == 0 ? OST_NO_GROUP : reference, numbers));
     }
     return OST_SUCCESS;
 }
@@ -151,8 +147,7 @@ static OstStatus check_dimension(Medit *medit)
     int dimension = 0;
     skip_comments(&medit->cursor);
     OST_TRY(ost_msh_int(&medit->cursor, "the dimension", &dimension));
-    return dimension == 3 ? OST_SUCCESS
-                          : OST_RAISE_MSH(&medit->cursor, "dimension %d found, expected 3", dimension);
+    return dimension == 3 ? OST_SUCCESS : OST_RAISE_MSH(&medit->cursor, "dimension %d found, expected 3", dimension);
 }
 
 /* --- words --- */

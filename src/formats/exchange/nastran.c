@@ -95,7 +95,8 @@ static OstStatus take_integer(Nastran *nastran, const char *what, int number, Os
     nastran->cursor.place = nastran->line;
     return ost_fortran_integer(text, strlen(text), value)
                ? OST_SUCCESS
-               : OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", number + 1, nastran->name, text, what);
+               : OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", number + 1, nastran->name, text,
+                               what);
 }
 
 /* --- what is read of them --- */
@@ -108,8 +109,9 @@ static OstStatus read_grid(Nastran *nastran)
     if (field_of(nastran, 1)[0])
         OST_TRY(take_integer(nastran, "a coordinate system", 1, &system));
     if (system != 0)
-        return OST_RAISE_MSH(&nastran->cursor, "node %" PRId64 " is in coordinate system %" PRId64
-                             "; only the basic one is read", label, system);
+        return OST_RAISE_MSH(&nastran->cursor,
+                             "node %" PRId64 " is in coordinate system %" PRId64 "; only the basic one is read", label,
+                             system);
     for (int d = 0; d < 3; d++) {
         const char *text = field_of(nastran, 2 + d);
         nastran->cursor.place = nastran->line;
@@ -193,9 +195,9 @@ static OstStatus end_card(Nastran *nastran)
     static const struct {
         const char *name;
         int dimension;
-    } others[] = {{"CHEXA", 3}, {"CPENTA", 3}, {"CPYRAM", 3}, {"CHEXA8", 3},  {"CHEXA20", 3}, {"CQUAD4", 2},
-                  {"CQUAD8", 2}, {"CQUADR", 2}, {"CQUAD", 2}, {"CSHEAR", 2}, {"CBAR", 1},   {"CBEAM", 1},
-                  {"CROD", 1},   {"CTUBE", 1},  {"CONROD", 1}};
+    } others[] = {{"CHEXA", 3},  {"CPENTA", 3}, {"CPYRAM", 3}, {"CHEXA8", 3}, {"CHEXA20", 3},
+                  {"CQUAD4", 2}, {"CQUAD8", 2}, {"CQUADR", 2}, {"CQUAD", 2},  {"CSHEAR", 2},
+                  {"CBAR", 1},   {"CBEAM", 1},  {"CROD", 1},   {"CTUBE", 1},  {"CONROD", 1}};
     const char *name = nastran->name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);

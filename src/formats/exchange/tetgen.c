@@ -21,9 +21,9 @@ typedef struct TetGen {
     OstContext *ctx;
     OstCells cells;
     OstLineReader lines;
-    int width;       /* nodes of a tet */
-    int node_marks;  /* the set of marked points, or -1 */
-    OstGlobal flat;  /* faces left out: of 3 nodes beside tets of 10 */
+    int width;      /* nodes of a tet */
+    int node_marks; /* the set of marked points, or -1 */
+    OstGlobal flat; /* faces left out: of 3 nodes beside tets of 10 */
 } TetGen;
 
 /* --- lines --- */

@@ -86,8 +86,8 @@ static OstStatus want_numbers(Unv *unv, int count, const char *what)
 {
     if (unv->numbers >= count && !unv->ended)
         return OST_SUCCESS;
-    return OST_RAISE_MSH(&unv->cursor, "%d whole numbers found, expected %d of %s", unv->ended ? 0 : unv->numbers, count,
-                         what);
+    return OST_RAISE_MSH(&unv->cursor, "%d whole numbers found, expected %d of %s", unv->ended ? 0 : unv->numbers,
+                         count, what);
 }
 
 /* --- nodes --- */

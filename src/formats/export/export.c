@@ -28,13 +28,13 @@ OstStatus ost_mesh_export_check(OstContext *ctx, const char *path)
             return OST_SUCCESS;
     return ends_with(path, ".vtkhdf")
                ? OST_SUCCESS
-               : OST_RAISE(ctx, OST_INVALID_USAGE,
-                           "'%s': a mesh is written as .msh (Gmsh, which converts it further), .inp (Abaqus) or .vtkhdf",
-                           path);
+               : OST_RAISE(
+                     ctx, OST_INVALID_USAGE,
+                     "'%s': a mesh is written as .msh (Gmsh, which converts it further), .inp (Abaqus) or .vtkhdf",
+                     path);
 }
 
-static OstStatus write_alone(const OstMesh *mesh, const char *path,
-                             OstStatus (*write)(FILE *file, const void *whole))
+static OstStatus write_alone(const OstMesh *mesh, const char *path, OstStatus (*write)(FILE *file, const void *whole))
 {
     OstMeshChunk *whole = NULL;
     OST_TRY(ost_mesh_gather(mesh, &whole));

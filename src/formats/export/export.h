@@ -6,9 +6,9 @@
 
 #include <stdio.h>
 
-/* Collective. Writes a mesh with its labels, regions and boundaries in the format of the file's ending: .msh (Gmsh 4.1),
- * .inp (Abaqus), .vtkhdf. Raises OST_INVALID_USAGE for another one. The first two are written by rank 0, which then holds
- * the whole mesh. */
+/* Collective. Writes a mesh with its labels, regions and boundaries in the format of the file's ending: .msh
+ * (Gmsh 4.1), .inp (Abaqus), .vtkhdf. Raises OST_INVALID_USAGE for another one. The first two are written by rank 0,
+ * which then holds the whole mesh. */
 OstStatus ost_mesh_export(const OstMesh *mesh, const char *path);
 
 /* Local. Is a mesh written to a file of this name? Raises OST_INVALID_USAGE if not. */

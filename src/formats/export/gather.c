@@ -5,6 +5,7 @@
 #include "formats/export/export.h"
 #include "formats/serial/label_index.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Items of this rank, which all go to rank 0. */
@@ -87,8 +88,10 @@ static OstStatus copy_names(const OstMesh *mesh, OstMeshChunk *whole)
 
 /* --- the order of labels --- */
 
-/* The position of each item when all are in the order of their labels; and, the other way round, which item is where. */
-static OstStatus find_order(OstContext *ctx, OstLocal count, const OstGlobal *label, OstGlobal **place, OstGlobal **item)
+/* The position of each item when all are in the order of their labels; and, the other way round, which item is where.
+ */
+static OstStatus find_order(OstContext *ctx, OstLocal count, const OstGlobal *label, OstGlobal **place,
+                            OstGlobal **item)
 {
     OstLabelIndex index = {0};
     OstStatus status = ost_label_index_create(ctx, count, label, &index);
@@ -133,6 +136,28 @@ static OstStatus order_nodes(OstMeshChunk *whole)
     return status;
 }
 
+/* By their nodes, one after the other; `width` points to how many they are. */
+static int compare_items(const void *a, const void *b, void *width)
+{
+    const OstGlobal *x = a, *y = b;
+    int k = 0;
+    while (k < *(const int *)width - 1 && x[k] == y[k])
+        k++;
+    return (x[k] > y[k]) - (x[k] < y[k]);
+}
+
+/* The order in which ranks have them says nothing. */
+static void order_items(OstMeshChunk *whole)
+{
+    for (int b = 0; b < whole->boundary_count; b++) {
+        OstBoundary *boundary = &whole->boundaries[b];
+        if (boundary->count > 0)
+            qsort_r(boundary->nodes, (size_t)boundary->count,
+                    (size_t)boundary->nodes_per_item * sizeof *boundary->nodes, compare_items,
+                    &boundary->nodes_per_item);
+    }
+}
+
 static OstStatus order_tets(OstMeshChunk *whole)
 {
     OstContext *ctx = whole->ctx;
@@ -166,6 +191,7 @@ OstStatus ost_mesh_gather(const OstMesh *mesh, OstMeshChunk **whole)
         OST_TRY_DONE(gather_boundary(mesh, &mesh->boundaries[b], &made->boundaries[b]));
     status = order_nodes(made);
     OST_THEN(order_tets(made));
+    order_items(made);
     OST_TRY_DONE(ost_agree(ctx, status));
     *whole = made;
     return OST_SUCCESS;

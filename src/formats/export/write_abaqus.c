@@ -3,8 +3,8 @@
 
 #include <inttypes.h>
 
-/* Abaqus's input: an element set for each region, triangles in a set for each boundary of faces, sets of nodes for those
- * of curves and points. */
+/* Abaqus's input: an element set for each region, triangles in a set for each boundary of faces, sets of nodes for
+ * those of curves and points. */
 
 enum { NUMBERS_A_LINE = 16 };
 

@@ -5,8 +5,8 @@
 #include <inttypes.h>
 #include <math.h>
 
-/* Gmsh's format 4.1 as text. Each region is a volume and each boundary a surface, curve or point of the same number, in a
- * physical group of that number; all nodes lie in the first volume. */
+/* Gmsh's format 4.1 as text. Each region is a volume and each boundary a surface, curve or point of the same number, in
+ * a physical group of that number; all nodes lie in the first volume. */
 
 static const int volume = 3;
 

@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* $ElementData and $NodeData, by Gmsh's manual: strings, the first of which is the name; numbers, the first the time; integers, the
- * step, the components and the elements; then a line, or record, for each element or node: its tag and the components. */
+/* $ElementData and $NodeData, by Gmsh's manual: strings, the first of which is the name; numbers, the first the time;
+ * integers, the step, the components and the elements; then a line, or record, for each element or node: its tag and
+ * the components. */
 
 typedef struct Field {
     OstMsh msh; /* its cursor and version alone are used */

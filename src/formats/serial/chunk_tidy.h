@@ -11,8 +11,8 @@ OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path);
  */
 void ost_tets_turn(OstMeshChunk *chunk, const char *path);
 
-/* Local. Reorders the vertices of each tet that is inverted; returns how many were. Raises OST_INVALID_INPUT if nodes of
- * this rank's tets are on other ranks (.vtkhdf on several). */
+/* Local. Reorders the vertices of each tet that is inverted; returns how many were. Raises OST_INVALID_INPUT if nodes
+ * of this rank's tets are on other ranks (.vtkhdf on several). */
 OstStatus ost_tets_orient(OstMeshChunk *chunk, const char *path, OstLocal *turned);
 
 /* Local. Keeps one of the tets of a whole mesh that have the same vertices and lie in several regions: it goes to the

@@ -17,8 +17,8 @@ typedef struct OstFileMaterials {
 /* Collective. As ost_chunk_read, with the materials of the file. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
-/* What a field says of a tet: numbers, or a direction that has no sense (a fibre), of which those of a tet's vertices are
- * turned alike before their mean is taken. */
+/* What a field says of a tet: numbers, or a direction that has no sense (a fibre), of which those of a tet's vertices
+ * are turned alike before their mean is taken. */
 typedef enum { OST_FIELD_OF_NUMBERS, OST_FIELD_OF_DIRECTIONS } OstFieldUse;
 
 /* Collective. Adds to the chunk that was read from the file a field, by its name, as further columns of its

@@ -21,8 +21,8 @@ OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *n
     double *table = NULL;
     OST_TRY(ost_tet_field_check(chunk->ctx, path, name, width));
     if (fields->count == OST_MOST_TET_FIELDS)
-        return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED, "%s: '%s' is one field too many; a case reads %d at most", path,
-                         name, OST_MOST_TET_FIELDS);
+        return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED, "%s: '%s' is one field too many; a case reads %d at most",
+                         path, name, OST_MOST_TET_FIELDS);
     OST_TRY(OST_NEW(chunk->ctx, &table, after * (size_t)chunk->tet_count));
     for (size_t t = 0; t < (size_t)chunk->tet_count; t++) {
         if (before > 0)

@@ -12,12 +12,12 @@
 #include <string.h>
 #include <strings.h>
 
-/* Names of cell arrays that say which region or boundary a cell is in, as programs write them; the first that a file has
- * counts. */
-static const char *const region_names[] = {"region",     "regions",       "gmsh:physical", "medit:ref",  "CellEntityIds",
-                                           "cell_tags",  "MaterialIDs",   "MaterialID",    "material",   "mat",
-                                           "attribute",  "attributes",    "physical",      "PartID",     "part",
-                                           "label",      "labels",        "GeometryIds",   "ElementBlockIds"};
+/* Names of cell arrays that say which region or boundary a cell is in, as programs write them; the first that a file
+ * has counts. */
+static const char *const region_names[] = {
+    "region",     "regions",  "gmsh:physical", "medit:ref",   "CellEntityIds",  "cell_tags", "MaterialIDs",
+    "MaterialID", "material", "mat",           "attribute",   "attributes",     "physical",  "PartID",
+    "part",       "label",    "labels",        "GeometryIds", "ElementBlockIds"};
 enum { REGION_NAMES = sizeof region_names / sizeof *region_names };
 
 /* What VTK's cell types are here. */
@@ -27,22 +27,18 @@ typedef struct CellType {
     int nodes, dimension;
 } CellType;
 static const CellType cell_types[VTK_TYPES] = {
-    [1] = {OST_CELL_POINT, 1, 0},
-    [3] = {OST_CELL_LINE2, 2, 1},
-    [5] = {OST_CELL_TRIANGLE3, 3, 2},
-    [10] = {OST_CELL_TET4, 4, 3},
-    [21] = {OST_CELL_LINE3, 3, 1},
-    [22] = {OST_CELL_TRIANGLE6, 6, 2},
-    [24] = {OST_CELL_TET10, 10, 3},
-    [68] = {OST_CELL_LINE3, 3, 1},     /* Lagrange's, of second order */
-    [69] = {OST_CELL_TRIANGLE6, 6, 2},
-    [71] = {OST_CELL_TET10, 10, 3},
-    [11] = {.dimension = 3}, [12] = {.dimension = 3}, [13] = {.dimension = 3}, [14] = {.dimension = 3},
-    [15] = {.dimension = 3}, [16] = {.dimension = 3}, [25] = {.dimension = 3}, [26] = {.dimension = 3},
-    [27] = {.dimension = 3}, [29] = {.dimension = 3}, [31] = {.dimension = 3}, [32] = {.dimension = 3},
-    [33] = {.dimension = 3}, [37] = {.dimension = 3}, [41] = {.dimension = 3}, [42] = {.dimension = 3},
-    [72] = {.dimension = 3}, [73] = {.dimension = 3}, [74] = {.dimension = 3}, [78] = {.dimension = 3},
-    [79] = {.dimension = 3}, [80] = {.dimension = 3}, [81] = {.dimension = 3},
+    [1] = {OST_CELL_POINT, 1, 0},      [3] = {OST_CELL_LINE2, 2, 1},   [5] = {OST_CELL_TRIANGLE3, 3, 2},
+    [10] = {OST_CELL_TET4, 4, 3},      [21] = {OST_CELL_LINE3, 3, 1},  [22] = {OST_CELL_TRIANGLE6, 6, 2},
+    [24] = {OST_CELL_TET10, 10, 3},    [68] = {OST_CELL_LINE3, 3, 1}, /* Lagrange's, of second order */
+    [69] = {OST_CELL_TRIANGLE6, 6, 2}, [71] = {OST_CELL_TET10, 10, 3}, [11] = {.dimension = 3},
+    [12] = {.dimension = 3},           [13] = {.dimension = 3},        [14] = {.dimension = 3},
+    [15] = {.dimension = 3},           [16] = {.dimension = 3},        [25] = {.dimension = 3},
+    [26] = {.dimension = 3},           [27] = {.dimension = 3},        [29] = {.dimension = 3},
+    [31] = {.dimension = 3},           [32] = {.dimension = 3},        [33] = {.dimension = 3},
+    [37] = {.dimension = 3},           [41] = {.dimension = 3},        [42] = {.dimension = 3},
+    [72] = {.dimension = 3},           [73] = {.dimension = 3},        [74] = {.dimension = 3},
+    [78] = {.dimension = 3},           [79] = {.dimension = 3},        [80] = {.dimension = 3},
+    [81] = {.dimension = 3},
 };
 
 void ost_vtk_clear(OstVtkGrid *grid)
@@ -160,8 +156,9 @@ static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal grou
         return OST_SUCCESS;
     }
     if (count != facts->nodes)
-        return OST_RAISE(grid->ctx, OST_INVALID_INPUT, "%s: cell %" PRId64 " of VTK's type %d has %" PRId64
-                         " points, expected %d", grid->path, cell, type, count, facts->nodes);
+        return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
+                         "%s: cell %" PRId64 " of VTK's type %d has %" PRId64 " points, expected %d", grid->path, cell,
+                         type, count, facts->nodes);
     for (OstGlobal i = 0; i < count; i++)
         nodes[i] = grid->connectivity[start + i] + 1;
     return ost_cells_add(cells, facts->kind, cell + 1, group, nodes);
@@ -185,8 +182,8 @@ static OstStatus check_grid(const OstVtkGrid *grid)
     for (OstGlobal c = 0; c < grid->cells; c++)
         if (grid->end[c] < (c > 0 ? grid->end[c - 1] : 0) || grid->end[c] > grid->connections)
             return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
-                             "%s: cell %" PRId64 " ends at entry %" PRId64 " of a connectivity of %" PRId64, grid->path, c,
-                             grid->end[c], grid->connections);
+                             "%s: cell %" PRId64 " ends at entry %" PRId64 " of a connectivity of %" PRId64, grid->path,
+                             c, grid->end[c], grid->connections);
     return OST_SUCCESS;
 }
 
@@ -235,9 +232,11 @@ static OstStatus take_field(const OstVtkGrid *grid, const OstMeshChunk *chunk, O
     OST_TRY(OST_NEW(grid->ctx, &field->values, (size_t)count * width));
     for (OstGlobal i = 0; i < count; i++) {
         if (label[i] < 1 || label[i] > array->tuples)
-            return OST_RAISE(grid->ctx, OST_INVALID_INPUT, "%s: '%s' has %" PRId64 " entries, and entry %" PRId64
-                             " is asked for", grid->path, array->name, array->tuples, label[i]);
-        memcpy(field->values + (size_t)i * width, array->values + (size_t)(label[i] - 1) * width, width * sizeof(double));
+            return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
+                             "%s: '%s' has %" PRId64 " entries, and entry %" PRId64 " is asked for", grid->path,
+                             array->name, array->tuples, label[i]);
+        memcpy(field->values + (size_t)i * width, array->values + (size_t)(label[i] - 1) * width,
+               width * sizeof(double));
     }
     return OST_SUCCESS;
 }

@@ -46,16 +46,26 @@ static OstStatus read_type(Legacy *legacy, const char *word, OstVtkType *type)
         const char *word;
         OstVtkType type;
     } types[] = {
-        {"double", {OST_VTK_FLOAT, 8}},         {"float", {OST_VTK_FLOAT, 4}},
-        {"int", {OST_VTK_SIGNED, 4}},           {"vtkidtype", {OST_VTK_SIGNED, 4}},
-        {"long", {OST_VTK_SIGNED, 8}},          {"vtktypeint64", {OST_VTK_SIGNED, 8}},
-        {"unsigned_int", {OST_VTK_UNSIGNED, 4}}, {"unsigned_long", {OST_VTK_UNSIGNED, 8}},
-        {"short", {OST_VTK_SIGNED, 2}},         {"unsigned_short", {OST_VTK_UNSIGNED, 2}},
-        {"char", {OST_VTK_SIGNED, 1}},          {"unsigned_char", {OST_VTK_UNSIGNED, 1}},
-        {"vtktypeuint64", {OST_VTK_UNSIGNED, 8}}, {"vtktypeint32", {OST_VTK_SIGNED, 4}},
-        {"vtktypeuint32", {OST_VTK_UNSIGNED, 4}}, {"vtktypeint16", {OST_VTK_SIGNED, 2}},
-        {"vtktypeint8", {OST_VTK_SIGNED, 1}},     {"vtktypeuint8", {OST_VTK_UNSIGNED, 1}},
-        {"vtktypefloat64", {OST_VTK_FLOAT, 8}},   {"vtktypefloat32", {OST_VTK_FLOAT, 4}},
+        {"double", {OST_VTK_FLOAT, 8}},
+        {"float", {OST_VTK_FLOAT, 4}},
+        {"int", {OST_VTK_SIGNED, 4}},
+        {"vtkidtype", {OST_VTK_SIGNED, 4}},
+        {"long", {OST_VTK_SIGNED, 8}},
+        {"vtktypeint64", {OST_VTK_SIGNED, 8}},
+        {"unsigned_int", {OST_VTK_UNSIGNED, 4}},
+        {"unsigned_long", {OST_VTK_UNSIGNED, 8}},
+        {"short", {OST_VTK_SIGNED, 2}},
+        {"unsigned_short", {OST_VTK_UNSIGNED, 2}},
+        {"char", {OST_VTK_SIGNED, 1}},
+        {"unsigned_char", {OST_VTK_UNSIGNED, 1}},
+        {"vtktypeuint64", {OST_VTK_UNSIGNED, 8}},
+        {"vtktypeint32", {OST_VTK_SIGNED, 4}},
+        {"vtktypeuint32", {OST_VTK_UNSIGNED, 4}},
+        {"vtktypeint16", {OST_VTK_SIGNED, 2}},
+        {"vtktypeint8", {OST_VTK_SIGNED, 1}},
+        {"vtktypeuint8", {OST_VTK_UNSIGNED, 1}},
+        {"vtktypefloat64", {OST_VTK_FLOAT, 8}},
+        {"vtktypefloat32", {OST_VTK_FLOAT, 4}},
     };
     for (size_t t = 0; t < sizeof types / sizeof *types; t++)
         if (strcasecmp(word, types[t].word) == 0) {
@@ -129,8 +139,8 @@ static OstStatus read_points(Legacy *legacy)
     OST_TRY(read_numbers(legacy, "a coordinate", type, 3 * grid->points, grid->coordinates));
     for (OstGlobal i = 0; i < 3 * grid->points; i++)
         if (!isfinite(grid->coordinates[i]))
-            return OST_RAISE_MSH(legacy->cursor, "point %" PRId64 " has the coordinate %g, expected a finite number", i / 3,
-                                 grid->coordinates[i]);
+            return OST_RAISE_MSH(legacy->cursor, "point %" PRId64 " has the coordinate %g, expected a finite number",
+                                 i / 3, grid->coordinates[i]);
     return OST_SUCCESS;
 }
 
@@ -231,7 +241,8 @@ static OstStatus read_types(Legacy *legacy)
     if (count != grid->cells)
         return OST_RAISE_MSH(legacy->cursor, "%" PRId64 " types of %" PRId64 " cells", count, grid->cells);
     OST_TRY(OST_NEW(grid->ctx, &types, count));
-    OstStatus status = read_whole(legacy, "the type of a cell", (OstVtkType){OST_VTK_SIGNED, 4}, count, UCHAR_MAX, types);
+    OstStatus status =
+        read_whole(legacy, "the type of a cell", (OstVtkType){OST_VTK_SIGNED, 4}, count, UCHAR_MAX, types);
     OST_THEN(OST_NEW(grid->ctx, &grid->type, count));
     for (OstGlobal c = 0; c < count && status == OST_SUCCESS; c++)
         grid->type[c] = (unsigned char)types[c];
@@ -246,8 +257,9 @@ static OstStatus read_array(Legacy *legacy, const char *name, OstVtkType type, O
     OstVtkGrid *grid = legacy->grid;
     double *values = NULL;
     if (components < 1 || components > INT_MAX || tuples > (legacy->cursor->end - legacy->cursor->bytes) / components)
-        return OST_RAISE_MSH(legacy->cursor, "'%s' has %" PRId64 " components and %" PRId64 " entries, more than the file",
-                             name, components, tuples);
+        return OST_RAISE_MSH(legacy->cursor,
+                             "'%s' has %" PRId64 " components and %" PRId64 " entries, more than the file", name,
+                             components, tuples);
     if (legacy->on_points < 0 || !ost_vtk_wants(grid, name))
         return read_numbers(legacy, name, type, components * tuples, NULL);
     OstStatus status = OST_NEW(grid->ctx, &values, components * tuples);
@@ -331,10 +343,9 @@ static OstStatus begin_data(Legacy *legacy, int on_points)
     legacy->on_points = on_points;
     OST_TRY(ost_msh_size(legacy->cursor, "the number of entries", &legacy->tuples));
     const OstGlobal expected = on_points ? legacy->grid->points : legacy->grid->cells;
-    return legacy->tuples == expected
-               ? OST_SUCCESS
-               : OST_RAISE_MSH(legacy->cursor, "data of %" PRId64 " %s, and there are %" PRId64, legacy->tuples,
-                               on_points ? "points" : "cells", expected);
+    return legacy->tuples == expected ? OST_SUCCESS
+                                      : OST_RAISE_MSH(legacy->cursor, "data of %" PRId64 " %s, and there are %" PRId64,
+                                                      legacy->tuples, on_points ? "points" : "cells", expected);
 }
 
 static OstStatus read_keyword(Legacy *legacy, const char *word)
@@ -368,8 +379,10 @@ static OstStatus read_keyword(Legacy *legacy, const char *word)
         skip_metadata(legacy->cursor);
         return OST_SUCCESS;
     }
-    return OST_RAISE_MSH(legacy->cursor, "'%s' found, which is not known here; write the file again, as an unstructured "
-                         "grid with scalars, vectors, tensors and fields alone", word);
+    return OST_RAISE_MSH(legacy->cursor,
+                         "'%s' found, which is not known here; write the file again, as an unstructured "
+                         "grid with scalars, vectors, tensors and fields alone",
+                         word);
 }
 
 OstStatus ost_vtk_legacy_grid(OstMshCursor *cursor, OstVtkGrid *grid)

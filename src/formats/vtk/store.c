@@ -33,8 +33,8 @@ static int digit_of(char c)
     return c == '+' ? 62 : c == '/' ? 63 : c == '=' ? 64 : -1;
 }
 
-/* Decodes up to `wanted` bytes and returns how many there are. Groups of four digits may be padded anywhere: a header is
- * often encoded apart from its data. */
+/* Decodes up to `wanted` bytes and returns how many there are. Groups of four digits may be padded anywhere: a header
+ * is often encoded apart from its data. */
 static size_t decode(const Bytes *from, size_t wanted, char *bytes)
 {
     size_t done = 0;
@@ -75,8 +75,8 @@ static OstStatus get(const Bytes *from, OstGlobal wanted, char **bytes)
     if (found == (size_t)wanted)
         return OST_SUCCESS;
     OST_FREE(*bytes);
-    return OST_RAISE_MSH(cursor, "%zu bytes found of %" PRId64 "; the file is incomplete or damaged, write it again", found,
-                         wanted);
+    return OST_RAISE_MSH(cursor, "%zu bytes found of %" PRId64 "; the file is incomplete or damaged, write it again",
+                         found, wanted);
 }
 
 /* The first numbers of a header. */
@@ -119,8 +119,10 @@ static OstStatus unpack(const Bytes *from, const OstGlobal *header, const char *
         uLongf written = (uLongf)size;
         if (uncompress((Bytef *)data + done, &written, (const Bytef *)packed + at, (uLong)header[3 + b]) != Z_OK ||
             (OstGlobal)written != size)
-            return OST_RAISE_MSH(from->store->cursor, "block %" PRId64 " cannot be unpacked; the file is damaged, write it "
-                                 "again", b + 1);
+            return OST_RAISE_MSH(from->store->cursor,
+                                 "block %" PRId64 " cannot be unpacked; the file is damaged, write it "
+                                 "again",
+                                 b + 1);
         at += header[3 + b];
         done += size;
     }
@@ -142,8 +144,10 @@ static OstStatus check_blocks(const Bytes *from, const OstGlobal *header, OstGlo
     *length = blocks > 0 ? (blocks - 1) * header[1] + (header[2] > 0 ? header[2] : header[1]) : 0;
     return *length <= ALWAYS_ALLOWED + LARGEST_RATIO * room
                ? OST_SUCCESS
-               : OST_RAISE_MSH(cursor, "data that unpack to more than %d times their size, as no mesh does; write the file "
-                               "without compression", LARGEST_RATIO);
+               : OST_RAISE_MSH(cursor,
+                               "data that unpack to more than %d times their size, as no mesh does; write the file "
+                               "without compression",
+                               LARGEST_RATIO);
 }
 
 static OstStatus get_compressed(const Bytes *from, OstGlobal *length, char **data)
@@ -191,7 +195,8 @@ static OstStatus read_type(OstMshCursor *cursor, const OstXmlTag *tag, OstVtkTyp
             *type = types[t].type;
             return OST_SUCCESS;
         }
-    return OST_RAISE_MSH(cursor, "an array of the type '%s', expected one of numbers such as Float64", word ? word : "");
+    return OST_RAISE_MSH(cursor, "an array of the type '%s', expected one of numbers such as Float64",
+                         word ? word : "");
 }
 
 static OstStatus from_bytes(const Bytes *from, OstVtkType type, OstGlobal *count, double **values)
@@ -252,7 +257,8 @@ OstStatus ost_vtu_numbers(const OstVtuStore *store, const OstXmlTag *tag, OstGlo
     if (strcmp(format, "appended") == 0) {
         OST_TRY(ost_xml_number(cursor, tag, "offset", 0, &offset));
         if (!store->appended || offset > cursor->end - store->appended)
-            return OST_RAISE_MSH(cursor, "data are said to be appended at %" PRId64 ", beyond the end of the file", offset);
+            return OST_RAISE_MSH(cursor, "data are said to be appended at %" PRId64 ", beyond the end of the file",
+                                 offset);
         from = (Bytes){store, store->appended + offset, cursor->end, store->base64};
     } else if (strcmp(format, "binary") != 0) {
         return OST_RAISE_MSH(cursor, "the format '%s' found, expected ascii, binary or appended", format);

@@ -84,8 +84,8 @@ static OstStatus take_points(Vtu *vtu, const double *values)
     OstVtkGrid *grid = vtu->grid;
     for (OstGlobal i = 0; i < 3 * vtu->points; i++)
         if (!isfinite(values[i]))
-            return OST_RAISE_MSH(vtu->cursor, "point %" PRId64 " has the coordinate %g, expected a finite number", i / 3,
-                                 values[i]);
+            return OST_RAISE_MSH(vtu->cursor, "point %" PRId64 " has the coordinate %g, expected a finite number",
+                                 i / 3, values[i]);
     OST_TRY(OST_RESIZE(grid->ctx, &grid->coordinates, 3 * (vtu->first_point + vtu->points)));
     if (vtu->points > 0)
         memcpy(grid->coordinates + 3 * vtu->first_point, values, 3 * (size_t)vtu->points * sizeof *values);

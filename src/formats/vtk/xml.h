@@ -27,10 +27,10 @@ OstStatus ost_xml_number(OstMshCursor *cursor, const OstXmlTag *tag, const char 
 /* How the numbers of a file are stored. */
 typedef struct OstVtuStore {
     OstMshCursor *cursor;
-    int swapped;       /* byte order differs from this machine's */
-    int header_bytes;  /* of the numbers before data: 4 or 8 */
-    int compressed;    /* by zlib */
-    int base64;        /* appended data */
+    int swapped;          /* byte order differs from this machine's */
+    int header_bytes;     /* of the numbers before data: 4 or 8 */
+    int compressed;       /* by zlib */
+    int base64;           /* appended data */
     const char *appended; /* where they begin; NULL: there are none */
 } OstVtuStore;
 
