@@ -78,10 +78,13 @@ static double of_forces(const OstErrors *errors)
     return fmax(errors->reaction, errors->stress);
 }
 
-/* In a part that is 1e9 times stiffer, what little is missing of the error may have large stresses. */
+/* In a part that is 1e9 times stiffer, what little is missing of the error may have large stresses. And of an error
+ * that is stress nearly alone, it may have most of the displacement. */
 static int seem_lost(const OstErrors *errors)
 {
-    return of_forces(errors) > large_error && of_forces(errors) > 2.0 * errors->displacement;
+    const double forces = of_forces(errors);
+    return (forces > large_error && forces > 2.0 * errors->displacement) ||
+           (forces > worth_correcting && forces > 1e5 * errors->displacement);
 }
 
 static double largest(const OstErrors *errors)
