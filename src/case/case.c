@@ -50,7 +50,7 @@ static OstStatus check_materials(const OstYaml *yaml, const OstCase *c)
                           "youngs_modulus, poissons_ratio)");
 }
 
-static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
+static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
 {
     int massive = c->material_count == 0;
     for (int i = 0; i < c->material_count; i++)
@@ -58,11 +58,11 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
     if (massive || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
         return OST_SUCCESS;
     for (int i = 0; i < c->load_count; i++)
-        if (c->loads[i].kind == OST_LOAD_GRAVITY)
-            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: gravity acts on mass, but no material has a density; add one, or state the force "
-                             "per volume as body_force",
-                             yaml->path, c->loads[i].line);
+        if (c->loads[i].kind == OST_LOAD_GRAVITY || c->loads[i].kind == OST_LOAD_CENTRIFUGAL)
+            return OST_RAISE(
+                yaml->ctx, OST_INVALID_INPUT, "%s:%d: %s acts on mass, but no material has a density; add one%s",
+                yaml->path, c->loads[i].line, c->loads[i].kind == OST_LOAD_GRAVITY ? "gravity" : "a centrifugal load",
+                c->loads[i].kind == OST_LOAD_GRAVITY ? ", or state the force per volume as body_force" : "");
     return OST_SUCCESS;
 }
 
@@ -181,7 +181,7 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
                               "'of' out",
                               c->watches[c->interest - 1].name);
     settle_fraction(c);
-    return check_gravity(yaml, c);
+    return check_density(yaml, c);
 }
 
 int ost_is_every_region(const char *name)
