@@ -17,7 +17,10 @@ typedef struct OstAdaptLimits {
 typedef struct OstAdaptLevel {
     int order;
     OstGlobal tets, unknowns;
-    OstAnswerError error; /* estimated */
+    OstAnswerError error;  /* estimated */
+    double value, off;     /* of the quantity asked about: its value, and by how much the exact one is larger */
+    double shares;         /* sum of the tets' shares of that */
+    double relative_error; /* of what the case asks about: that quantity, or the norm of the energy */
     double strain_energy;
     int iterations;
     double seconds; /* from the refinement to the estimate */

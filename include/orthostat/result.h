@@ -103,6 +103,7 @@ typedef struct OstWatchedValue {
     double value;
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
+    int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
 } OstWatchedValue;
 
 /* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result

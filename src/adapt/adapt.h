@@ -10,7 +10,8 @@ enum { OST_MOST_ADAPT_LEVELS = 40 };
 
 struct OstAdaption {
     OstContext *ctx;
-    double request; /* relative error */
+    double request;        /* relative error */
+    const OstWatch *watch; /* of this quantity; NULL: in the norm of the energy */
     OstAdaptLimits limits;
     int count;
     OstAdaptLevel level[OST_MOST_ADAPT_LEVELS];
