@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Answers."""
 import os
-import types
 
 import numpy
 
@@ -120,7 +119,7 @@ class Result:
             box = ffi.new("OstWatchedValue **")
             self.context.check(lib.ost_watch_evaluate_all(self.scene.pointer, self.pointer, box))
             for item in box[0][0:count]:
-                values[text_of(item.name)] = types.SimpleNamespace(value=item.value, expected=item.expected, error=item.error)
+                values[text_of(item.name)] = struct(item)
             lib.ost_free_memory(box[0])
         return values
 
