@@ -339,6 +339,7 @@ void ost_case_destroy(OstCase **c)
     for (int i = 0; i < (*c)->material_count; i++) {
         OST_FREE((*c)->materials[i].region);
         OST_FREE((*c)->materials[i].eigen_field);
+        OST_FREE((*c)->materials[i].modulus.field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)

@@ -99,6 +99,13 @@ typedef struct OstSpring {
     double direction[3];  /* unit; zero: the surface's normal, or none where along = across */
 } OstSpring;
 
+/* Young's modulus tet by tet: factor × field^power, not below `least`; that of the material is multiplied by it. */
+typedef struct OstModulusField {
+    char *field; /* NULL: there is none */
+    OstPlace place;
+    double factor, power, least;
+} OstModulusField;
+
 typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
@@ -110,6 +117,7 @@ typedef struct OstCaseMaterial {
     char *eigen_field;     /* the mesh file's field of it, tet by tet; or NULL */
     OstPlace eigen_place;
     int eigen_per_unit; /* the field is the change that `eigenstrain` is multiplied by, not the strain itself */
+    OstModulusField modulus;
     OstAxesSpec axes;
 } OstCaseMaterial;
 
