@@ -190,6 +190,6 @@ for text, message in (("tension: [80e6, 3e6, 3e6]", "'shear' is missing"), ("com
                       ("tension: 1, interaction: -0.9", "without end")):
     write("wrong.yaml", CASE.replace(CASE[CASE.index("strengths: {"):CASE.index("}}\nconstraints") + 2], f"strengths: {{{text}}}"))
     finished = run("check", "wrong.yaml", folder=folder)
-    check(finished.exit_code == 2 and message in finished.errors and "wrong.yaml:9" in finished.errors, finished.errors)
+    check(finished.exit_code == 2 and message in finished.errors and "wrong.yaml:8:" in finished.errors, finished.errors)
 write("open.yaml", CASE.replace("tension: [80000000.0, 3000000.0, 3000000.0]", "tension: [8e7, 3e6, 4.5e6]"))
 check("Hill's criterion lets some stresses grow" in run("check", "open.yaml", folder=folder).errors, "an open criterion")
