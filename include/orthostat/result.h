@@ -114,6 +114,15 @@ const OstNewtonReport *ost_result_newton_report(const OstResult *result);
 const OstAnswerError *ost_result_answer_error(const OstResult *result);
 const OstFailure *ost_result_failure(const OstResult *result);
 
+/* A quantity of interest (`watch` in a case), as the answer has it. */
+typedef struct OstWatchedValue {
+    const char *name;
+    double value;
+    double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
+    double error;
+    int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
+} OstWatchedValue;
+
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or
  * that follow from them; its form is that of the ending of `path`, .vtkhdf, .hdf, .vtu or .pvtu (with a .vtu beside it;
  * docs/output.md). A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it),
