@@ -32,7 +32,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "formulation, verify");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
-                   "relative_residual, algebraic_fraction, out_of_reach, relative_error");
+                   "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
