@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
+#include "case/strength/read_strength.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -295,7 +296,7 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
 
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
-    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN, STRENGTHS };
     OstYamlKey keys[] = {
         [REGION] = {.name = "region", .needed = 1},
         [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
@@ -304,6 +305,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [DENSITY] = {.name = "density"},
         [AXES] = {.name = "axes"},
         [EIGENSTRAIN] = {.name = "eigenstrain"},
+        [STRENGTHS] = {.name = "strengths"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -329,6 +331,10 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
         OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
+    if (keys[STRENGTHS].value)
+        OST_TRY(ost_read_strength(yaml, keys[STRENGTHS].value, &material->material.strength));
+    if (ost_strength_has_directions(&material->material.strength)) /* as of an eigenstrain */
+        material->material.isotropic = 0;
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 

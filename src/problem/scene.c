@@ -5,6 +5,7 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
@@ -260,7 +261,9 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 unsigned ost_scene_result_fields(const OstScene *scene)
 {
     const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const unsigned factors = OST_LOAD_FACTORS;
     const OstEffects *effects = &scene->plan.effects;
-    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~(error | factors) : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_STRENGTH) ? factors : 0U) |
            (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
 }
