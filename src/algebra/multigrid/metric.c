@@ -16,7 +16,8 @@
  * same bending, so that they correct little. Iterations to 1e-8 at a ratio of 1000 on unstructured meshes of 15,000 to
  * 280,000 unknowns (misalignment 2.9 to 5.6): 61 to 160 over linear tets, 30 to 55 over aggregates of quadratic ones;
  * on tubes that follow the axes (1.00 to 1.05) 10, 31, 23 and 13, 17, 23, at up to twice the time. */
-static const double misaligned = 1.5, quadratic_aggregate = 16.0;
+const double ost_metric_misaligned = 1.5;
+static const double quadratic_aggregate = 16.0;
 enum { MISALIGNED_MORE_DEGREE = 1 };
 
 struct OstMetric {
@@ -125,7 +126,7 @@ static OstStatus skip_linear(OstMetric *metric, const OstMetricGraph *graph, int
     OstSolverOptions *options = &metric->options;
     double misalignment;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
-    *skip = misalignment > misaligned;
+    *skip = misalignment > ost_metric_misaligned;
     if (!*skip)
         return OST_SUCCESS;
     if (!(options->given & OST_GIVEN_AGGREGATE) && options->aggregate_nodes > quadratic_aggregate)
@@ -197,6 +198,15 @@ done:
     if (status != OST_SUCCESS)
         ost_metric_destroy(&made);
     *metric = made;
+    return status;
+}
+
+OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, double *mean)
+{
+    OstMetricGraph *graph = NULL;
+    OST_TRY(ost_metric_graph_create(matrix, geometry, &graph));
+    const OstStatus status = ost_metric_graph_misalignment(graph, mean);
+    ost_metric_graph_destroy(&graph);
     return status;
 }
 
