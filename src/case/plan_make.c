@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "fields/output_field.h"
 
+#include <math.h>
 #include <string.h>
 
 static void count_constraints(const OstCase *c, OstEffectFacts *facts)
@@ -74,6 +75,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->tets = mesh->tets;
     plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
+    if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
+        plan->facts.thickness = 8.0 * counts.vertices / fmax(counts.surface, 1.0);
+    plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
+    plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);

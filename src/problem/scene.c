@@ -148,12 +148,14 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     const OstCase *c = scene->c;
     OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, &scene->load_effect, (size_t)c->load_count)));
     OST_TRY(ost_load_effects(c, mesh, scene->load_effect));
-    const OstPlanMesh facts = {.nodes = mesh->global_nodes,
-                               .tets = mesh->global_tets,
-                               .quadratic = mesh->nodes_per_tet == 10,
-                               .regions = &mesh->regions,
-                               .materials = from_file,
-                               .load = scene->load_effect};
+    OstPlanMesh facts = {.nodes = mesh->global_nodes,
+                         .tets = mesh->global_tets,
+                         .quadratic = mesh->nodes_per_tet == 10,
+                         .regions = &mesh->regions,
+                         .materials = from_file,
+                         .load = scene->load_effect};
+    if (facts.quadratic && !(ost_plan_shape_surface(c) > 0.0))
+        OST_TRY(ost_mesh_surface_faces(mesh, &facts.surface));
     ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);
     return OST_SUCCESS;
 }
