@@ -183,7 +183,7 @@ static OstStatus check_case(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
     OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
     ost_path_step_name(findings.output, 1, sizeof findings.first_step, findings.first_step);
     OST_TRY_DONE(ost_scene_create(c, &scene));
@@ -205,5 +205,5 @@ done:
 int ost_cli_check(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &check_argp, argc, argv, &arguments, check_case);
+    return ost_cli_run_on_case(ctx, &check_argp, argc, argv, &arguments, check_case);
 }

@@ -286,7 +286,7 @@ static OstStatus explain(OstContext *ctx, void *input)
     OstPlan plan;
     Future future;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
     OST_TRY_DONE(make_plan(ctx, c, &plan));
     OST_TRY_DONE(foretell(ctx, c, &plan, &future));
     if (ost_rank(ctx) == 0 && arguments->text['j']) {
@@ -305,5 +305,5 @@ done:
 int ost_cli_explain(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &explain_argp, argc, argv, &arguments, explain);
+    return ost_cli_run_on_case(ctx, &explain_argp, argc, argv, &arguments, explain);
 }

@@ -183,7 +183,7 @@ static OstStatus solve(OstContext *ctx, void *input)
 {
     Run run = {.arguments = input};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, run.arguments->case_path, &run.c));
+    OST_TRY_DONE(ost_cli_read(ctx, run.arguments, &run.c));
     OST_TRY_DONE(ost_choose_output(run.c, run.arguments->text['o'], run.output));
     memcpy(run.file, run.output, sizeof run.file);
     OST_TRY_DONE(check_files(&run));
@@ -202,5 +202,5 @@ done:
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &solve_argp, argc, argv, &arguments, solve);
+    return ost_cli_run_on_case(ctx, &solve_argp, argc, argv, &arguments, solve);
 }
