@@ -80,8 +80,9 @@ OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult
 {
     OstEstimate *estimate = NULL;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
-    OST_THEN(estimate_tets(analysis, estimate, t, result));
+    const int needs_own = !result->answer.known && !analysis->estimate;
+    OstStatus status = needs_own ? ost_estimate_create(analysis->problem, &estimate) : OST_SUCCESS;
+    OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;
