@@ -45,9 +45,26 @@ static OstStatus read_entry(const OstYaml *yaml, const OstYamlNode *node, OstYam
     return ost_yaml_mapping(yaml, node, keys, ENTRY_KEYS);
 }
 
+/* A constraint of a load case stands in place of one for all cases on the same selection. */
+static void drop_replaced(OstCase *c, int before)
+{
+    int kept = 0;
+    for (int i = 0; i < c->constraint_count; i++) {
+        int replaced = 0;
+        for (int k = before; k < c->constraint_count && i < before; k++)
+            replaced |= ost_selections_agree(&c->constraints[i].on, &c->constraints[k].on);
+        if (replaced)
+            ost_selection_release(&c->constraints[i].on);
+        else
+            c->constraints[kept++] = c->constraints[i];
+    }
+    c->constraint_count = kept;
+}
+
 /* What acts on the body in one load case, beside what acts in all. */
 static OstStatus add_conditions(const OstYaml *yaml, const OstYamlKey keys[ENTRY_KEYS], OstCase *c)
 {
+    const int before = c->constraint_count;
     if (keys[LOADS].value)
         OST_TRY(ost_read_loads(yaml, keys[LOADS].value, c));
     if (keys[CONSTRAINTS].value)
@@ -57,6 +74,7 @@ static OstStatus add_conditions(const OstYaml *yaml, const OstYamlKey keys[ENTRY
     if (c->free_body && c->constraint_count > 0 && keys[CONSTRAINTS].value)
         return ost_yaml_raise(yaml, keys[CONSTRAINTS].value,
                               "a free body has no constraints, neither those of all cases nor of one");
+    drop_replaced(c, before);
     return OST_SUCCESS;
 }
 

@@ -46,6 +46,8 @@ int ost_has_ending(const char *path, const char *ending);
 void ost_time_table_release(OstTimeTable *table);
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
+/* Do both say the same, word by word? */
+int ost_selections_agree(const OstSelection *one, const OstSelection *other);
 void ost_load_cases_release(OstCase *c);
 void ost_sweep_release(OstCase *c);
 struct OstVerify;

@@ -230,6 +230,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, const Future *futu
     print_materials(c);
     print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
+    if (c->load_case_count > 0)
+        printf("  %-20s %d, with one stiffness and one hierarchy for all that share supports\n", "load cases",
+               c->load_case_count);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
     if (plan->least_ranks > ranks)

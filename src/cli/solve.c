@@ -164,13 +164,13 @@ static OstStatus check_files(const Run *run)
         OST_TRY(ost_cli_check_path_outputs(run->c, run->output));
         return ost_check_outputs(run->c, 1, &json);
     }
+    if (run->arguments->text['r'])
+        return OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "%s: --resume goes on with a path, and the case has none",
+                         run->c->path);
     if (run->c->load_case_count > 0) {
         OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
         return ost_check_outputs(run->c, 1, &json);
     }
-    if (run->arguments->text['r'])
-        return OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "%s: --resume goes on with a path, and the case has none",
-                         run->c->path);
     return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/yaml/message.h"
 
-#include "case/yaml/set.h"
 #include "core/error.h"
 
 #include <stdarg.h>

@@ -377,8 +377,3 @@ OstStatus ost_yaml_set(OstYaml *yaml, const char *text)
     ost_yaml_destroy(&value);
     return status;
 }
-
-const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node)
-{
-    return node->set > 0 ? yaml->setting[node->set - 1] : NULL;
-}

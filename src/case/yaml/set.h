@@ -12,7 +12,4 @@
  * nowhere, with what there is. */
 OstStatus ost_yaml_set(OstYaml *yaml, const char *setting);
 
-/* Local. The setting that made a node; NULL: the file did. */
-const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node);
-
 #endif

@@ -304,3 +304,8 @@ const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node)
 {
     return &yaml->node[node->next];
 }
+
+const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node)
+{
+    return node->set > 0 ? yaml->setting[node->set - 1] : NULL;
+}

@@ -55,4 +55,7 @@ int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
 const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
 const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
 
+/* Local. The setting "KEY=VALUE" that made a node (case/yaml/set.h); NULL: the file did. */
+const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node);
+
 #endif
