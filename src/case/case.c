@@ -54,7 +54,7 @@ static OstStatus check_materials(const OstYaml *yaml, const OstCase *c)
                           "youngs_modulus, poissons_ratio)");
 }
 
-static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
+static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
 {
     int massive = c->material_count == 0;
     for (int i = 0; i < c->material_count; i++)
@@ -62,11 +62,11 @@ static OstStatus check_gravity(const OstYaml *yaml, const OstCase *c)
     if (massive || (c->mesh_kind == OST_MESH_FILE && ost_has_ending(c->mesh_file, ".veg")))
         return OST_SUCCESS;
     for (int i = 0; i < c->load_count; i++)
-        if (c->loads[i].kind == OST_LOAD_GRAVITY)
-            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: gravity acts on mass, but no material has a density; add one, or state the force "
-                             "per volume as body_force",
-                             yaml->path, c->loads[i].line);
+        if (c->loads[i].kind == OST_LOAD_GRAVITY || c->loads[i].kind == OST_LOAD_CENTRIFUGAL)
+            return OST_RAISE(
+                yaml->ctx, OST_INVALID_INPUT, "%s:%d: %s acts on mass, but no material has a density; add one%s",
+                yaml->path, c->loads[i].line, c->loads[i].kind == OST_LOAD_GRAVITY ? "gravity" : "a centrifugal load",
+                c->loads[i].kind == OST_LOAD_GRAVITY ? ", or state the force per volume as body_force" : "");
     return OST_SUCCESS;
 }
 
@@ -103,11 +103,13 @@ static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *la
 /* Until the accuracy section gives one. */
 static const double not_given = -1.0;
 
-/* What verify measures is the discretisation error, to many digits. */
+/* What verify measures is the discretisation error, to many digits. The error of a quantity of interest is much smaller
+ * than that in the norm of the energy, by which solves stop. */
 static void settle_fraction(OstCase *c)
 {
+    const int stops = !c->verify && (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
     if (c->solver.algebraic_fraction == not_given)
-        c->solver.algebraic_fraction = c->verify ? 0.0 : 0.1;
+        c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
 }
 
 /* Steps of a path follow each other; load cases do not. */
@@ -133,10 +135,10 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
         CONSTRAINTS,
         SPRINGS,
         LOADS,
+        WATCH,
         ACCURACY,
         SOLVER,
         OUTPUT,
-        WATCH,
         PATH,
         LARGE_ROTATION,
         FORMULATION,
@@ -198,8 +200,13 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     OST_TRY(check_load_cases(yaml, keys[CASES].value, c));
+    if (c->interest > 0 && c->free_body)
+        return ost_yaml_raise(yaml, keys[ACCURACY].value,
+                              "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "
+                              "'of' out",
+                              c->watches[c->interest - 1].name);
     settle_fraction(c);
-    return check_gravity(yaml, c);
+    return check_density(yaml, c);
 }
 
 int ost_is_every_region(const char *name)
@@ -449,4 +456,19 @@ unsigned ost_case_output_fields(const OstCase *c)
 const OstSolverOptions *ost_case_solver_options(const OstCase *c)
 {
     return &c->solver;
+}
+
+int ost_case_watch_count(const OstCase *c)
+{
+    return c->watch_count;
+}
+
+int ost_case_has_path(const OstCase *c)
+{
+    return c->path_steps > 0;
+}
+
+int ost_case_asks_error(const OstCase *c)
+{
+    return c->asks_error;
 }

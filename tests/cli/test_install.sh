@@ -63,4 +63,16 @@ case $library in
     ;;
 esac
 
+# Python finds the package and, from there, the library of the same prefix.
+case $library in
+*.so)
+    PYTHONPATH=$folder/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - <<END
+import orthostat
+result = orthostat.solve("$folder/usr/share/orthostat/cases/block/sliding.yaml")
+assert abs(result.largest_displacement / 0.00106536 - 1) < 1e-5, result
+assert "$folder/usr/" in open("/proc/self/maps").read(), "another library was loaded"
+END
+    ;;
+esac
+
 "$folder/usr/bin/orthostat" --version | grep -q '^orthostat '
