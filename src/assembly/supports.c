@@ -47,6 +47,7 @@ void ost_supports_destroy(OstSupports **supports)
     OST_FREE((*supports)->support);
     OST_FREE((*supports)->spring);
     OST_FREE((*supports)->bed);
+    ost_links_destroy(&(*supports)->links);
     OST_FREE(*supports);
 }
 
@@ -180,7 +181,7 @@ static OstStatus check_anything_constrained(const OstSupports *supports)
 {
     OstGlobal constrained = supports->count;
     OST_TRY(ost_sum_numbers(supports->ctx, 1, &constrained));
-    if (constrained == 0 && !supports->spring)
+    if (constrained == 0 && !supports->spring && !supports->links)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is constrained: no vertex has a prescribed displacement or slides on a plane, so the "
                          "body can move away as a whole; add constraints");
@@ -194,6 +195,8 @@ OstStatus ost_supports_complete(OstSupports *supports)
     OST_THEN(share_with_ghosts(supports));
     if (status == OST_SUCCESS && supports->spring)
         status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
+    if (status == OST_SUCCESS && supports->links)
+        status = ost_links_complete(supports->links, supports);
     ost_ledger_leave(supports->ctx);
     return status;
 }
@@ -206,7 +209,7 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
     for (int i = 0; i < 9; i++)
         projector[i] = i % 4 == 0 && constrained < 3 ? 1.0 : 0.0;
     for (int i = 0; i < 3 && prescribed; i++)
-        prescribed[i] = 0.0;
+        prescribed[i] = supports->links ? supports->links->offset[3 * (size_t)node + (size_t)i] : 0.0;
     for (int k = 0; k < constrained; k++)
         for (int i = 0; i < 3; i++) {
             const double *along = support->direction + 3 * k;
@@ -223,6 +226,8 @@ void ost_supports_add(const OstSupports *supports, double factor, double *u)
     for (OstLocal node = 0; node < supports->mesh->node_count; node++) {
         const OstLocal index = supports->index[node];
         const OstSupport *support = index < 0 ? NULL : &supports->support[index];
+        for (size_t i = 3 * (size_t)node; supports->links && i < 3 * (size_t)node + 3; i++)
+            u[i] += factor * supports->links->offset[i];
         for (int k = 0; support && k < support->constrained; k++)
             for (int i = 0; i < 3; i++)
                 u[3 * (size_t)node + (size_t)i] += factor * support->prescribed[k] * support->direction[3 * k + i];
