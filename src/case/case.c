@@ -117,11 +117,13 @@ static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *la
 /* Until the accuracy section gives one. */
 static const double not_given = -1.0;
 
-/* What verify measures is the discretisation error, to many digits. */
+/* What verify measures is the discretisation error, to many digits. The error of a quantity of interest is much smaller
+ * than that in the norm of the energy, by which solves stop. */
 static void settle_fraction(OstCase *c)
 {
+    const int stops = !c->verify && (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
     if (c->solver.algebraic_fraction == not_given)
-        c->solver.algebraic_fraction = c->verify ? 0.0 : 0.1;
+        c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
 }
 
 static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
@@ -134,10 +136,10 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         CONSTRAINTS,
         SPRINGS,
         LOADS,
+        WATCH,
         ACCURACY,
         SOLVER,
         OUTPUT,
-        WATCH,
         PATH,
         LARGE_ROTATION,
         FORMULATION,
@@ -191,6 +193,11 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
     OST_TRY(check_materials(yaml, c));
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
+    if (c->interest > 0 && c->free_body)
+        return ost_yaml_raise(yaml, keys[ACCURACY].value,
+                              "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "
+                              "'of' out",
+                              c->watches[c->interest - 1].name);
     settle_fraction(c);
     OST_TRY(check_links(yaml, c));
     return check_density(yaml, c);

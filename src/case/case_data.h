@@ -212,10 +212,11 @@ struct OstCase {
     struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */
     OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
     double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
-    int asks_error;           /* does the case give relative_error? Then meshes are refined until it is met */
-    char *output_file;        /* as written: relative to the caller's directory; or NULL */
-    unsigned output_fields;   /* bits of OstOutputField */
-    unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int interest;      /* 1 + the number of the watched quantity that relative_error is of; 0: of the energy norm */
+    int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
+    char *output_file; /* as written: relative to the caller's directory; or NULL */
+    unsigned output_fields; /* bits of OstOutputField */
+    unsigned without;       /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
