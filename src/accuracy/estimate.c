@@ -319,7 +319,7 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 /* --- a quantity of interest --- */
 
 /* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
-static void adjoint_load(Search *search, const OstInterest *interest)
+static OstStatus adjoint_load(Search *search, const OstInterest *interest)
 {
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
@@ -334,7 +334,7 @@ static void adjoint_load(Search *search, const OstInterest *interest)
         for (size_t i = 0; i < numbers; i++)
             search->force[i] = -search->force[i];
     }
-    take_rows(search, search->q);
+    return take_rows(search, search->q);
 }
 
 /* r: what z leaves of the adjoint problem on the functions. */
@@ -344,7 +344,7 @@ static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
     const OstComplement *complement = &search->estimate->complement;
     double *of_functions = search->r + search->rows;
     OstSolveReport report;
-    adjoint_load(search, interest);
+    OST_TRY(adjoint_load(search, interest));
     OST_TRY(ost_solver_solve(search->solver, search->q, search->z, &report));
     OST_TRY(ost_system_displacement(problem->system, 0.0, search->z, search->u));
     for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)

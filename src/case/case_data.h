@@ -156,6 +156,8 @@ typedef struct OstWatch {
     OstWatchKind kind;
     int line;
     OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
+    int of_moment;   /* REACTION: the moment of the reactions about the point `about`? */
+    double about[3];
     int component;   /* 0 to 2, or OST_WATCH_LENGTH */
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
