@@ -188,20 +188,8 @@ static OstStatus check_anything_constrained(const OstSupports *supports)
     return OST_SUCCESS;
 }
 
-OstStatus ost_supports_complete(OstSupports *supports)
-{
-    ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
-    OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
-    OST_THEN(share_with_ghosts(supports));
-    if (status == OST_SUCCESS && supports->spring)
-        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
-    if (status == OST_SUCCESS && supports->links)
-        status = ost_links_complete(supports->links, supports);
-    ost_ledger_leave(supports->ctx);
-    return status;
-}
-
-int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
+/* Without the offsets of links. */
+static int find_support(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
 {
     const OstLocal index = supports->index[node];
     const OstSupport *support = index < 0 ? NULL : &supports->support[index];
@@ -209,7 +197,7 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
     for (int i = 0; i < 9; i++)
         projector[i] = i % 4 == 0 && constrained < 3 ? 1.0 : 0.0;
     for (int i = 0; i < 3 && prescribed; i++)
-        prescribed[i] = supports->links ? supports->links->offset[3 * (size_t)node + (size_t)i] : 0.0;
+        prescribed[i] = 0.0;
     for (int k = 0; k < constrained; k++)
         for (int i = 0; i < 3; i++) {
             const double *along = support->direction + 3 * k;
@@ -218,6 +206,38 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
             for (int j = 0; j < 3 && constrained < 3; j++)
                 projector[3 * i + j] -= along[i] * along[j];
         }
+    return constrained;
+}
+
+static OstStatus complete_links(OstSupports *supports)
+{
+    OstHeld *held = NULL;
+    OstStatus status = ost_agree(supports->ctx, OST_NEW(supports->ctx, &held, supports->mesh->owned_nodes));
+    for (OstLocal n = 0; n < supports->mesh->owned_nodes && status == OST_SUCCESS; n++)
+        held[n].constrained = find_support(supports, n, held[n].projector, held[n].prescribed);
+    OST_THEN(ost_links_complete(supports->links, held));
+    OST_FREE(held);
+    return status;
+}
+
+OstStatus ost_supports_complete(OstSupports *supports)
+{
+    ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
+    OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
+    OST_THEN(share_with_ghosts(supports));
+    if (status == OST_SUCCESS && supports->spring)
+        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
+    if (status == OST_SUCCESS && supports->links)
+        status = complete_links(supports);
+    ost_ledger_leave(supports->ctx);
+    return status;
+}
+
+int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
+{
+    const int constrained = find_support(supports, node, projector, prescribed);
+    for (int i = 0; i < 3 && prescribed && supports->links; i++)
+        prescribed[i] += supports->links->offset[3 * (size_t)node + (size_t)i];
     return constrained;
 }
 

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 #define ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 
-#include "assembly/links.h"
+#include "assembly/links/links.h"
 #include "effect/effect.h"
 #include "mesh/mesh_data.h"
 
@@ -25,7 +25,7 @@ typedef struct OstSupports {
     OstSupport *support;
     double
         *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
-    OstLinks *links;    /* nodes that follow others (assembly/links.h), or NULL */
+    OstLinks *links;    /* nodes that follow others (assembly/links/links.h), or NULL */
     struct OstBed *bed; /* owned_nodes: what of it acts along surface normals alone; NULL: nothing on this rank */
 } OstSupports;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ASSEMBLY_LINKS_H
-#define ORTHOSTAT_ASSEMBLY_LINKS_H
+#ifndef ORTHOSTAT_ASSEMBLY_LINKS_LINKS_H
+#define ORTHOSTAT_ASSEMBLY_LINKS_LINKS_H
 
 #include "mesh/mesh_data.h"
 
@@ -61,12 +61,16 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
 /* Local. Notes a rigid face; its carriers' rows are kept. */
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face);
 
-struct OstSupports;
+/* How a node is supported: u = P v + g. */
+typedef struct OstHeld {
+    double projector[9], prescribed[3];
+    int constrained; /* number of directions */
+} OstHeld;
 
-/* Collective. Call it when all links are there and the supports are complete: takes the leaders' supports into weights
- * and offsets, and gives ghosts their owners' links. Raises OST_INVALID_INPUT where a follower is constrained, or
- * followed. */
-OstStatus ost_links_complete(OstLinks *links, const struct OstSupports *supports);
+/* Collective. Call it when all links are there: takes the supports of the owned nodes, as leaders, into weights and
+ * offsets, and gives ghosts their owners' links. Raises OST_INVALID_INPUT where a follower is constrained, or followed.
+ */
+OstStatus ost_links_complete(OstLinks *links, const OstHeld *held);
 
 /* Collective. u += W v of the owned followers, from what owned nodes have of v (`of_leaders`, 3 × links->slots, whose
  * ghosts are filled here); u has 3 numbers for each node. */

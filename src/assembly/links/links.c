@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/links.h"
+#include "assembly/links/links.h"
 
-#include "assembly/supports.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -200,20 +199,19 @@ static OstStatus connect_leaders(OstLinks *links)
 
 /* What a leader has to say: does it follow others itself, and how is it held? */
 typedef struct Leading {
-    double projector[9], prescribed[3];
+    OstHeld held;
     int follows;
 } Leading;
 
-static OstStatus check_follower(const OstLinks *links, const OstSupports *supports, const OstLink *link)
+static OstStatus check_follower(const OstLinks *links, const Leading *leading, OstLocal node)
 {
-    double projector[9];
-    if (ost_supports_get(supports, link->node, projector, NULL) == 0)
+    if (leading[node].held.constrained == 0)
         return OST_SUCCESS;
     return OST_RAISE(
         links->ctx, OST_INVALID_INPUT,
         "vertex %lld is constrained, and follows others besides (a tied, periodic or rigid face); leave it "
         "out of one of them, or constrain those that it follows",
-        (long long)links->mesh->node_label[link->node]);
+        (long long)links->mesh->node_label[node]);
 }
 
 /* The leaders' own supports: u = W (P v + g). */
@@ -227,26 +225,26 @@ static OstStatus take_leader(const OstLinks *links, const Leading *leading, OstL
                          "exchange the two faces of a pair, or leave the edge out of one selection",
                          (long long)links->mesh->node_label[link->node]);
     memcpy(weight, link->leader[k].weight, sizeof weight);
-    ost_multiply3(weight, of->projector, link->leader[k].weight);
-    ost_apply3(weight, of->prescribed, moved);
+    ost_multiply3(weight, of->held.projector, link->leader[k].weight);
+    ost_apply3(weight, of->held.prescribed, moved);
     for (int i = 0; i < 3; i++)
         links->offset[3 * (size_t)link->node + (size_t)i] += moved[i];
     return OST_SUCCESS;
 }
 
 /* Collective. Only own links: ghosts get theirs later. */
-static OstStatus take_supports(OstLinks *links, const OstSupports *supports)
+static OstStatus take_supports(OstLinks *links, const OstHeld *held)
 {
     const OstMesh *mesh = links->mesh;
     Leading *leading = NULL;
     OST_TRY(ost_agree(links->ctx, OST_NEW(links->ctx, &leading, links->slots)));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        ost_supports_get(supports, n, leading[n].projector, leading[n].prescribed);
+        leading[n].held = held[n];
         leading[n].follows = links->of_node[n] >= 0 && !links->kept[n];
     }
     OstStatus status = ost_agree(links->ctx, ost_halo_import(links->halo, sizeof *leading, leading));
     for (OstLocal i = 0; i < links->count && status == OST_SUCCESS; i++) {
-        status = check_follower(links, supports, &links->link[i]);
+        status = check_follower(links, leading, links->link[i].node);
         for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
             status = take_leader(links, leading, &links->link[i], k);
     }
@@ -268,12 +266,12 @@ static OstStatus mark_leaders(OstLinks *links)
     return status == OST_SUCCESS ? ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 1, links->leads)) : status;
 }
 
-OstStatus ost_links_complete(OstLinks *links, const OstSupports *supports)
+OstStatus ost_links_complete(OstLinks *links, const OstHeld *held)
 {
     int moves = 0;
     links->all = links->count;
     OST_TRY(connect_leaders(links)); /* of own links: their supports change the weights that ghosts get */
-    OST_TRY(take_supports(links, supports));
+    OST_TRY(take_supports(links, held));
     ost_halo_destroy(&links->halo);
     OST_TRY(share_with_ghosts(links));
     OST_TRY(connect_leaders(links));
