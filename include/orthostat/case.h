@@ -44,6 +44,9 @@ const char *ost_case_title(const OstCase *c);
 const char *ost_case_output_file(const OstCase *c); /* NULL: the case names none */
 unsigned ost_case_output_fields(const OstCase *c);  /* bits of OstOutputFieldBit: 1 << OST_FIELD_STRESS */
 const OstSolverOptions *ost_case_solver_options(const OstCase *c);
+int ost_case_watch_count(const OstCase *c); /* quantities of interest (orthostat/watch.h) */
+int ost_case_has_path(const OstCase *c);    /* a path of load steps (orthostat/path.h) */
+int ost_case_asks_error(const OstCase *c);  /* an accuracy is asked for (orthostat/adaption.h) */
 
 OST_API_END
 

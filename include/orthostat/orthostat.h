@@ -17,6 +17,7 @@
  *
  * Units are the user's, consistently: with mm and N, moduli and stresses are in MPa. */
 
+#include "orthostat/adaption.h"
 #include "orthostat/analysis.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -35,5 +36,6 @@
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
 #include "orthostat/time_table.h"
+#include "orthostat/watch.h"
 
 #endif

@@ -97,6 +97,15 @@ const OstChecks *ost_result_checks(const OstResult *result);
 const OstNewtonReport *ost_result_newton_report(const OstResult *result);
 const OstAnswerError *ost_result_answer_error(const OstResult *result);
 
+/* A quantity of interest (`watch` in a case), as the answer has it. */
+typedef struct OstWatchedValue {
+    const char *name;
+    double value;
+    double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
+    double error;
+    int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
+} OstWatchedValue;
+
 /* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result
  * has. A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it), field data
  * `refused`, the reasons in /Orthostat/Objections. Raises OST_FILE_FAILED. */

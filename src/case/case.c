@@ -425,3 +425,18 @@ const OstSolverOptions *ost_case_solver_options(const OstCase *c)
 {
     return &c->solver;
 }
+
+int ost_case_watch_count(const OstCase *c)
+{
+    return c->watch_count;
+}
+
+int ost_case_has_path(const OstCase *c)
+{
+    return c->path_steps > 0;
+}
+
+int ost_case_asks_error(const OstCase *c)
+{
+    return c->asks_error;
+}

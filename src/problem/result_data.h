@@ -66,13 +66,4 @@ struct OstResult {
     OstVerdict verdict;    /* no objections: the result is an answer */
 };
 
-/* A quantity of interest, as the answer has it. */
-typedef struct OstWatchedValue {
-    const char *name;
-    double value;
-    double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
-    double error;
-    int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
-} OstWatchedValue;
-
 #endif
