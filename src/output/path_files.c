@@ -95,8 +95,7 @@ static int is_followed(const OstCase *c, int function)
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)
-        for (int k = 0; k < 3; k++)
-            followed |= c->constraints[i].table == function && c->constraints[i].displacement[k] != 0.0;
+        followed |= c->constraints[i].table == function && ost_constraint_moves(&c->constraints[i]);
     return followed;
 }
 
