@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
+#include "case/strength/read_strength.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -323,16 +324,30 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
     return agree_with_others(yaml, node, material, table, c);
 }
 
+/* Are an eigenstrain and strengths the same in all directions across an axis? */
+static int is_same_across(const OstCaseMaterial *material, int axis)
+{
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const double *e = material->eigenstrain;
+    const OstStrength *s = &material->material.strength;
+    const int strain = e[a] == e[b] && e[3] == 0.0 && e[4] == 0.0 && e[5] == 0.0 &&
+                       (!material->eigen_field || material->eigen_per_unit);
+    return strain && s->tension[a] == s->tension[b] && s->compression[a] == s->compression[b] &&
+           s->shear[axis] == s->shear[b];
+}
+
 /* One direction is enough where the material is transversely isotropic about it. */
 static OstStatus check_single(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material)
 {
     const int axis = material->axes.single - 1;
     char moduli[OST_MODULI_WORDS];
-    if (axis < 0 || material->material.isotropic || ost_orthotropic_is_transverse(&material->material.constants, axis))
+    if (axis < 0 || material->material.isotropic ||
+        (ost_orthotropic_is_transverse(&material->material.constants, axis) && is_same_across(material, axis)))
         return OST_SUCCESS;
     ost_orthotropic_words(&material->material.constants, moduli);
     return ost_yaml_raise(yaml, node,
-                          "e%d alone does not place a material that differs across it too (%s); give e1 and e2",
+                          "e%d alone does not place a material that differs across it too, in its moduli (%s), "
+                          "eigenstrain or strengths; give e1 and e2",
                           axis + 1, moduli);
 }
 
@@ -347,8 +362,10 @@ static OstStatus read_directions(const OstYaml *yaml, const OstYamlNode *axes, c
         return ost_yaml_raise(yaml, fibre,
                               "a fibre belongs to youngs_modulus: {plane: E, axis: E}, whose axis it is; "
                               "for other moduli give axes");
-    if (fibre)
-        return ost_read_fibre(yaml, fibre, c, &material->axes);
+    if (fibre) {
+        OST_TRY(ost_read_fibre(yaml, fibre, c, &material->axes));
+        return check_single(yaml, fibre, material);
+    }
     if (axes) {
         OST_TRY(ost_read_axes(yaml, axes, material->region, c, &material->axes));
         return check_single(yaml, axes, material);
@@ -362,7 +379,7 @@ static OstStatus read_directions(const OstYaml *yaml, const OstYamlNode *axes, c
 
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
-    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, FIBRE, EIGENSTRAIN };
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, FIBRE, EIGENSTRAIN, STRENGTHS };
     OstYamlKey keys[] = {
         [REGION] = {.name = "region", .needed = 1},
         [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
@@ -372,6 +389,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [AXES] = {.name = "axes"},
         [FIBRE] = {.name = "fibre"},
         [EIGENSTRAIN] = {.name = "eigenstrain"},
+        [STRENGTHS] = {.name = "strengths"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -399,6 +417,10 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
         OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
+    if (keys[STRENGTHS].value)
+        OST_TRY(ost_read_strength(yaml, keys[STRENGTHS].value, &material->material.strength));
+    if (ost_strength_has_directions(&material->material.strength)) /* as of an eigenstrain */
+        material->material.isotropic = 0;
     return read_directions(yaml, keys[AXES].value, keys[FIBRE].value, &stated, c, material);
 }
 

@@ -117,6 +117,7 @@ static OstStatus scaled(OstContext *ctx, double factor, OstMaterial *material)
     OstOrthotropic constants = material->constants;
     char name[sizeof material->name];
     const int isotropic = material->isotropic;
+    const OstStrength strength = material->strength;
     for (int k = 0; k < 3; k++) {
         constants.youngs_modulus[k] *= factor;
         constants.shear_modulus[k] *= factor;
@@ -124,6 +125,7 @@ static OstStatus scaled(OstContext *ctx, double factor, OstMaterial *material)
     snprintf(name, sizeof name, "%s", material->name);
     OST_TRY(ost_material_create(ctx, name, &constants, material->density, material));
     material->isotropic &= isotropic;
+    material->strength = strength;
     return OST_SUCCESS;
 }
 
@@ -194,6 +196,8 @@ static OstStatus replace_constraints(const OstScene *scene, OstVariant variant, 
         if (variant == OST_VARIANT_NOT_MOVED) {
             memset(constraint->displacement, 0, sizeof constraint->displacement);
             memset(constraint->exact, 0, sizeof constraint->exact);
+            memset(constraint->rotation, 0, sizeof constraint->rotation);
+            memset(constraint->strain, 0, sizeof constraint->strain);
         } else if (constraint->kind == OST_CONSTRAIN_SLIDE) {
             constraint->kind = OST_CONSTRAIN_DISPLACEMENT;
             for (int k = 0; k < 3; k++)
