@@ -150,7 +150,7 @@ MISTAKES = [
      ["case.yaml:8:21: ", "'rim' is one of curves"]),
     ("parallel potentials", GOOD.replace("1000,", "[1000, 10, 10],").replace(
         "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmax, to: xmin}}}}"), {},
-     ["gradient axes of region 'block', tet 1: ", "lie across each other"]),
+     ["gradient axes of region 'block', tet ", "lie across each other"]),
     ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
     ("one tet twice", with_mesh("m.veg"), {"m.veg": TWICE.replace("SECOND", "1 2 0 3")}, ["tets 0 and 1", "doubled or overlapping"]),
     ("a tet with a vertex twice", with_mesh("m.veg"), {"m.veg": veg(tet="0 1 2 2")}, ["tet 0", "same node twice"]),

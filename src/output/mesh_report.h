@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_CLI_MESH_REPORT_H
-#define ORTHOSTAT_CLI_MESH_REPORT_H
+#ifndef ORTHOSTAT_OUTPUT_MESH_REPORT_H
+#define ORTHOSTAT_OUTPUT_MESH_REPORT_H
 
 #include "mesh/components/component.h"
 #include "mesh/mesh_data.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/mesh_report.h"
+#include "output/mesh_report.h"
 
 #include "core/error.h"
 #include "core/memory.h"
