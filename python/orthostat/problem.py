@@ -181,12 +181,15 @@ def _constraints(mesh, constraints):
 def _constraint(mesh, nodes, displacement, direction=None):
     nodes = numpy.asarray(nodes)
     nodes = numpy.flatnonzero(nodes) if nodes.dtype == bool else nodes.astype(numpy.int32)
-    nodes = nodes[nodes < mesh.owned_nodes]  # ghosts are another rank's
+    wrong = nodes[(nodes < 0) | (nodes >= mesh.node_count)]
+    if len(wrong):
+        raise ValueError(f"constraints: there is no node {wrong[0]}; this rank's are 0 to {mesh.node_count - 1}")
+    own = nodes < mesh.owned_nodes  # ghosts are another rank's
     if direction is not None:
-        return (nodes, numpy.broadcast_to(numpy.asarray(direction, float), (len(nodes), 3)),
-                numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes),)))
+        directions = numpy.broadcast_to(numpy.asarray(direction, float), (len(nodes), 3))
+        return nodes[own], directions[own], numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes),))[own]
     values = numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes), 3))
-    node, component = numpy.nonzero(~numpy.isnan(values))
+    node, component = numpy.nonzero(~numpy.isnan(values) & own[:, None])
     return nodes[node], numpy.eye(3)[component], values[node, component]
 
 

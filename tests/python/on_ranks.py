@@ -13,7 +13,7 @@ SOURCE = os.environ["ORTHOSTAT_SOURCE"]
 WOOD = {"region": "all", "youngs_modulus": [10, 0.8, 0.5], "poissons_ratio": {"nu12": 0.4, "nu23": 0.3, "nu31": 0.02},
         "shear_modulus": {"G12": 0.6, "G23": 0.04, "G31": 0.6}}
 BAR = {"title": "a bar", "mesh": {"block": {"size": np.array([4, 1, 1]), "divisions": (8, 2, 2)}}, "materials": [WOOD],
-       "constraints": [{"on": {"boundary": "xmin"}, "displacement": [0, "free", "free"]},
+       "constraints": [{"on": {"boundary": "xmin"}, "displacement": [0, None, np.nan]},
                        {"on": {"boundary": "ymin"}, "displacement": ["free", 0, "free"]},
                        {"on": {"boundary": "zmin"}, "displacement": ["free", "free", 0]}],
        "loads": [{"on": {"boundary": "xmax"}, "total_force": [np.float64(0.02), 0, 0]}],
@@ -120,6 +120,8 @@ def many_loads_share_one_hierarchy(folder):
 
 def failures_are_exceptions_with_the_librarys_words(folder):
     raises(orthostat.FileFailed, "nowhere.yaml: cannot be opened", orthostat.solve, "nowhere.yaml")
+    raises(orthostat.InvalidInput, "unknown key 'mush'", orthostat.solve, "mush: from_program")
+    raises(ValueError, "three shear moduli", orthostat.Material, [1, 2, 3], [0.1, 0.2, 0.3])
     raises(OSError, "nowhere.yaml", orthostat.solve, "nowhere.yaml")
     raises(orthostat.InvalidInput, "did you mean 'loads'", orthostat.solve, {**BAR, "loots": []})
     raises(orthostat.InvalidInput, "region 'bone'", orthostat.solve, {**BAR, "materials": [WOOD, {**WOOD, "region": "bone"}]})
@@ -212,10 +214,11 @@ def constraints_may_be_given_along_directions(folder):
     x, nan = mesh.points, np.nan
     steel = orthostat.Material(200.0, 0.0)
     problem = orthostat.Problem(mesh, steel, constraints=[
-        (x[:, 0] == 0, 0.0, [1, 0, 0]), (np.flatnonzero(x[:, 0] == 2), [0.02, nan, nan]),
+        (x[:, 0] == 0, 0.0, [1, 0, 0]), (np.flatnonzero(x[:, 0] == 2), [[0.02, nan, nan]] * (x[:, 0] == 2).sum()),
         (np.ones(len(x), bool), [nan, 0, 0])])
     answer = problem.analysis().solve()
     close(answer.displacement, x * [0.01, 0, 0])
+    raises(ValueError, "there is no node 99", orthostat.Problem, mesh, steel, constraints=[([99], [0, 0, 0])])
     close(mesh.gather_nodes(answer.reaction)[mesh.gather_nodes(x)[:, 0] == 2].sum(axis=0), [2, 0, 0], 1e-6)
 
 
