@@ -242,7 +242,7 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
-    (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
+    (*c)->output_fields = OST_FIELDS_BY_DEFAULT;
     (*c)->text_hash = ost_hash(OST_HASH_START, size, bytes);
     OST_TRY(ost_copy_string(ctx, path, &(*c)->path));
     OST_TRY(ost_yaml_parse(ctx, (*c)->path, bytes, size, &yaml));

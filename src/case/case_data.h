@@ -113,6 +113,13 @@ typedef struct OstCaseMaterial {
     OstAxesSpec axes;
 } OstCaseMaterial;
 
+/* A field of the mesh file that a material asks for. */
+typedef struct OstCaseField {
+    const char *name; /* a material's */
+    OstPlace place;
+    int directions; /* are its numbers a fibre's direction? */
+} OstCaseField;
+
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
 typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
 
@@ -174,7 +181,8 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
-    const OstCaseMaterial *eigen_field; /* the first material that has one; NULL: none has */
+    int field_count; /* fields of the mesh file that the materials ask for, each once */
+    OstCaseField fields[OST_MOST_TET_FIELDS];
     int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
@@ -196,6 +204,9 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. The number of a field that a material asks for, or -1. */
+int ost_case_find_field(const OstCase *c, const char *name);
 
 /* Local. Does a strain differ from direction to direction? */
 int ost_strain_has_directions(const double strain[6]);
