@@ -118,6 +118,29 @@ def many_loads_share_one_hierarchy(folder):
     assert 0 < estimated.error.relative < 1 and estimated.stress is not None and estimated.strain is None
 
 
+def fields_are_those_of_the_file(folder):
+    strong = {**WOOD, "strengths": {"tension": [0.04, 0.02, 0.02], "compression": [0.04, 0.02, 0.02], "shear": {"S12": 0.01, "S23": 0.01, "S31": 0.01}}}
+    result = orthostat.solve({**BAR, "materials": [strong]})
+    tets = result.mesh.owned_tets
+    assert np.array_equal(result.field("stress"), result.stress) and not result.field("stress").flags.owndata
+    close(result.field("von_mises"), np.full(tets, 0.02), 1e-6)
+    close(result.field("principal_stress")[:, 0], np.full(tets, 0.02), 1e-6)
+    close(result.field("maximum_stress_load_factor"), np.full(tets, 2.0), 1e-6)
+    close(result.failure.least[2].factor, 2.0, 1e-6)
+    close(result.field("strain_tensor")[:, 3:], 0.5 * result.strain[:, 3:], 1e-6)
+    close(result.field("load")[:result.mesh.owned_nodes], result.load)
+    assert result.field("load").shape == (result.mesh.node_count, 3) and result.field("region").dtype == np.int32
+    assert np.array_equal(result.field("rank"), np.full(tets, result.context.rank))
+    close(result.field("axes"), np.tile(np.eye(3), (tets, 1, 1)))
+    assert orthostat.solve(BAR).field("hill_load_factor") is None  # no strengths
+    raises(ValueError, "field: 'misses' is none of", result.field, "misses")
+    held = result.field("pressure")
+    del result
+    gc.collect()
+    orthostat.solve(BAR)
+    close(held, np.full(tets, -0.02 / 3), 1e-6)
+
+
 def failures_are_exceptions_with_the_librarys_words(folder):
     raises(orthostat.FileFailed, "nowhere.yaml: cannot be opened", orthostat.solve, "nowhere.yaml")
     raises(orthostat.InvalidInput, "unknown key 'mush'", orthostat.solve, "mush: from_program")
@@ -296,7 +319,7 @@ def main():
     context = orthostat.Context()
     folder = sys.argv[2]
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
-                 many_loads_share_one_hierarchy, failures_are_exceptions_with_the_librarys_words,
+                 many_loads_share_one_hierarchy, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
                  poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, communicators_are_handed_over,
                  materials_have_their_matrices):
