@@ -323,3 +323,100 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     close_search(&search);
     return status;
 }
+
+/* --- a quantity of interest --- */
+
+/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
+static void adjoint_load(Search *search, const OstInterest *interest)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    if (interest->load) {
+        memcpy(search->force, interest->load, numbers * sizeof *search->force);
+    } else {
+        memset(search->p, 0, search->all * sizeof *search->p);
+        ost_operator_apply(&search->estimate->stiffness, interest->moved, search->p + search->rows, search->force,
+                           search->q + search->rows);
+        if (problem->supports->spring)
+            ost_spring_force(problem->supports, -1.0, interest->moved, search->force);
+        for (size_t i = 0; i < numbers; i++)
+            search->force[i] = -search->force[i];
+    }
+    take_rows(search, search->q);
+}
+
+/* r: what z leaves of the adjoint problem on the functions. */
+static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstComplement *complement = &search->estimate->complement;
+    double *of_functions = search->r + search->rows;
+    OstSolveReport report;
+    adjoint_load(search, interest);
+    OST_TRY(ost_solver_solve(search->solver, search->q, search->z, &report));
+    OST_TRY(ost_system_displacement(problem->system, 0.0, search->z, search->u));
+    for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)
+        search->u[i] += interest->moved[i];
+    memset(search->p, 0, search->all * sizeof *search->p);
+    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
+    for (size_t k = 0; k < (size_t)complement->count; k++)
+        for (size_t i = 3 * k; i < 3 * k + 3; i++)
+            of_functions[i] = ost_complement_owns(complement, (OstLocal)k) ? -of_functions[i] : 0.0;
+    ost_complement_project(complement, of_functions);
+    return OST_SUCCESS;
+}
+
+/* The work of u's residual on e, the surplus of z. */
+static OstStatus work_on(Search *search, double t, const double *u, double *work)
+{
+    memset(search->r, 0, search->all * sizeof *search->r);
+    OST_TRY(find_residual(search, t, u));
+    OST_TRY(dot(search, search->r, search->e, work));
+    *work *= search->longer;
+    return OST_SUCCESS;
+}
+
+/* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
+static OstStatus share_interest(const Search *search, const double *of_adjoint, double error, double *share)
+{
+    const double least_of_sum = 0.1;
+    const OstProblem *problem = search->estimate->problem;
+    double sum = 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++) {
+        share[tet] = sqrt(fmax(share[tet], 0.0) * fmax(of_adjoint[tet], 0.0));
+        sum += share[tet];
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &sum));
+    const double factor = sum > 0.0 ? fmax(fabs(error) / sum, least_of_sum) : 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        share[tet] *= factor;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                const OstInterest *interest, double *error, double *tet_share)
+{
+    const OstProblem *problem = estimate->problem;
+    Search search = {0};
+    double square = 0.0, *of_adjoint = NULL;
+    *error = NAN;
+    OstStatus status = move(estimate, u);
+    OST_THEN(open_search(estimate, solver, &search));
+    OST_TRY_DONE(ost_agree(
+        problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
+    OST_TRY_DONE(adjoint_residual(&search, interest));
+    memset(search.z, 0, search.all * sizeof *search.z);
+    OST_TRY_DONE(iterate(&search, &square));
+    if (search.failed)
+        goto done;
+    OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));
+    OST_TRY_DONE(share(&search, square, of_adjoint));
+    OST_TRY_DONE(work_on(&search, t, u, error));
+    if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
+        *error = -*error;
+    OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
+done:
+    OST_FREE(of_adjoint);
+    close_search(&search);
+    return status;
+}

@@ -16,7 +16,10 @@ typedef struct OstAdaptLimits {
 typedef struct OstAdaptLevel {
     int order;
     OstGlobal tets, unknowns;
-    OstAnswerError error; /* estimated */
+    OstAnswerError error;  /* estimated */
+    double value, off;     /* of the quantity asked about: its value, and by how much the exact one is larger */
+    double shares;         /* sum of the tets' shares of that */
+    double relative_error; /* of what the case asks about: that quantity, or the norm of the energy */
     double strain_energy;
     int iterations;
     double seconds; /* from the refinement to the estimate */
@@ -36,7 +39,8 @@ enum { OST_MOST_ADAPT_LEVELS = 40 };
 
 typedef struct OstAdaption {
     OstContext *ctx;
-    double request; /* relative error */
+    double request;        /* relative error */
+    const OstWatch *watch; /* of this quantity; NULL: in the norm of the energy */
     OstAdaptLimits limits;
     int count;
     OstAdaptLevel level[OST_MOST_ADAPT_LEVELS];

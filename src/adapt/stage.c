@@ -40,9 +40,12 @@ OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 
 /* --- solving --- */
 
-/* A tet's share of the squared error. */
+/* A tet's share of the squared error in the norm of the energy; or of the error of a quantity, which falls like that.
+ */
 static double share_of(const OstStage *stage, OstLocal tet)
 {
+    if (stage->result->interest.watch)
+        return stage->result->interest.share[tet];
     const double error = stage->result->tet_error[tet];
     return error * error;
 }

@@ -57,7 +57,9 @@ typedef enum {
     OST_LOAD_TRACTION,
     OST_LOAD_PRESSURE,
     OST_LOAD_GRAVITY,
-    OST_LOAD_BODY_FORCE
+    OST_LOAD_BODY_FORCE,
+    OST_LOAD_CENTRIFUGAL,
+    OST_LOAD_MOMENT /* over the selection */
 } OstLoadKind;
 
 typedef enum { OST_SHARE_AUTO, OST_SHARE_FACES, OST_SHARE_VERTICES } OstShare;
@@ -65,10 +67,13 @@ typedef enum { OST_SHARE_AUTO, OST_SHARE_FACES, OST_SHARE_VERTICES } OstShare;
 typedef struct OstLoad {
     OstLoadKind kind;
     int line;
-    OstSelection on; /* not used by GRAVITY and BODY_FORCE */
-    char *region;    /* GRAVITY, BODY_FORCE: NULL for all */
+    OstSelection on; /* not used by loads in the volume (ost_load_in_volume) */
+    char *region;    /* loads in the volume: NULL for all */
     OstPlace region_place;
     double vector[3];
+    double origin[3], axis[3], speed; /* CENTRIFUGAL: a point of the axis, its direction, radians per time */
+    int acts_at;                      /* TOTAL_FORCE: does the force act at the point `at`? */
+    double at[3];
     double pressure;
     int follows;    /* PRESSURE: does it follow the surface? */
     int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */
@@ -76,6 +81,12 @@ typedef struct OstLoad {
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
 } OstLoad;
+
+/* Local. Does a load act in the volume, not where a selection says? */
+static inline int ost_load_in_volume(OstLoadKind kind)
+{
+    return kind == OST_LOAD_GRAVITY || kind == OST_LOAD_BODY_FORCE || kind == OST_LOAD_CENTRIFUGAL;
+}
 
 typedef enum { OST_SPRING_FOUNDATION, OST_SPRING_POINT } OstSpringKind;
 
@@ -171,10 +182,11 @@ struct OstCase {
     struct OstVerify *verify; /* case/verify.h; NULL if the case has no such section */
     OstSolverOptions solver;  /* defaults, overridden by the accuracy and solver sections */
     double relative_error;    /* of the answer, that is asked for: what changes it by less may be left out */
-    int asks_error;           /* does the case give relative_error? Then meshes are refined until it is met */
-    char *output_file;        /* as written: relative to the caller's directory; or NULL */
-    unsigned output_fields;   /* bits of OstOutputField */
-    unsigned without;         /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int interest;      /* 1 + the number of the watched quantity that relative_error is of; 0: of the energy norm */
+    int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
+    char *output_file; /* as written: relative to the caller's directory; or NULL */
+    unsigned output_fields; /* bits of OstOutputField */
+    unsigned without;       /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */

@@ -30,6 +30,8 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
         facts->body_loads += effect == OST_EFFECT_BODY_FORCE;
         facts->gravity_loads += c->loads[i].kind == OST_LOAD_GRAVITY;
         facts->follower_loads += effect == OST_EFFECT_FOLLOWER_PRESSURE;
+        facts->centrifugal_loads += effect == OST_EFFECT_CENTRIFUGAL;
+        facts->moments += effect == OST_EFFECT_MOMENT;
     }
 }
 

@@ -76,7 +76,7 @@ OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-enum { LOAD_KINDS = OST_LOAD_BODY_FORCE + 1, ON = LOAD_KINDS, SHARE, REGION, FOLLOWS, TIME, LOAD_KEYS };
+enum { LOAD_KINDS = OST_LOAD_MOMENT + 1, ON = LOAD_KINDS, SHARE, AT, REGION, FOLLOWS, TIME, LOAD_KEYS };
 
 static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
@@ -90,7 +90,8 @@ static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoa
 /* Refuses keys that the kind of load does not have, and asks for those it needs. */
 static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
 {
-    const int on_volume = kind == OST_LOAD_GRAVITY || kind == OST_LOAD_BODY_FORCE;
+    const int on_volume = ost_load_in_volume((OstLoadKind)kind);
+    const int shares = kind == OST_LOAD_TOTAL_FORCE || kind == OST_LOAD_MOMENT;
     if (on_volume && keys[ON].value)
         return ost_yaml_raise(yaml, keys[ON].value,
                               "'%s' acts in the volume and has no 'on'; 'region: NAME' restricts it", keys[kind].name);
@@ -98,14 +99,47 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
         return ost_yaml_raise(yaml, node, "'%s' needs 'on': where it acts", keys[kind].name);
     if (!on_volume && keys[REGION].value)
         return ost_yaml_raise(yaml, keys[REGION].value,
-                              "'region' belongs to gravity and body_force; '%s' acts where 'on' "
-                              "says",
+                              "'region' belongs to gravity, body_force and centrifugal; '%s' acts where 'on' says",
                               keys[kind].name);
     if (kind != OST_LOAD_PRESSURE && keys[FOLLOWS].value)
         return ost_yaml_raise(yaml, keys[FOLLOWS].value, "'follows' belongs to pressure, not to '%s'", keys[kind].name);
-    if (kind != OST_LOAD_TOTAL_FORCE && keys[SHARE].value)
-        return ost_yaml_raise(yaml, keys[SHARE].value, "'share' belongs to total_force, not to '%s'", keys[kind].name);
+    if (!shares && keys[SHARE].value)
+        return ost_yaml_raise(yaml, keys[SHARE].value, "'share' belongs to total_force and moment, not to '%s'",
+                              keys[kind].name);
+    if (kind == OST_LOAD_MOMENT && keys[AT].value)
+        return ost_yaml_raise(yaml, keys[AT].value,
+                              "a moment is the same about every point: 'at' belongs to total_force; leave it out");
+    if (kind != OST_LOAD_TOTAL_FORCE && keys[AT].value)
+        return ost_yaml_raise(yaml, keys[AT].value, "'at' belongs to total_force, not to '%s'", keys[kind].name);
     return OST_SUCCESS;
+}
+
+/* An axis, and how fast the body turns about it. */
+static OstStatus read_centrifugal(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+{
+    enum { ORIGIN, AXIS, SPEED };
+    OstYamlKey keys[] = {
+        [ORIGIN] = {.name = "origin"},
+        [AXIS] = {.name = "axis", .needed = 1},
+        [SPEED] = {.name = "angular_velocity", .needed = 1},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    if (keys[ORIGIN].value)
+        OST_TRY(ost_yaml_numbers(yaml, keys[ORIGIN].value, 3, load->origin));
+    OST_TRY(ost_yaml_direction(yaml, keys[AXIS].value, load->axis));
+    return ost_yaml_number(yaml, keys[SPEED].value, &load->speed);
+}
+
+/* What acts: the value of the load's own key. */
+static OstStatus read_value(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+{
+    if (load->kind == OST_LOAD_PRESSURE)
+        return ost_yaml_number(yaml, node, &load->pressure);
+    if (load->kind == OST_LOAD_CENTRIFUGAL)
+        return read_centrifugal(yaml, node, load);
+    load->exact =
+        (load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_BODY_FORCE) && ost_yaml_says(yaml, node, "exact");
+    return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, node, 3, load->vector);
 }
 
 static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstLoad *load)
@@ -117,8 +151,11 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
         [OST_LOAD_PRESSURE] = {.name = "pressure"},
         [OST_LOAD_GRAVITY] = {.name = "gravity"},
         [OST_LOAD_BODY_FORCE] = {.name = "body_force"},
+        [OST_LOAD_CENTRIFUGAL] = {.name = "centrifugal"},
+        [OST_LOAD_MOMENT] = {.name = "moment"},
         [ON] = {.name = "on"},
         [SHARE] = {.name = "share"},
+        [AT] = {.name = "at"},
         [REGION] = {.name = "region"},
         [FOLLOWS] = {.name = "follows"},
         [TIME] = {.name = "time"},
@@ -146,11 +183,10 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
         OST_FREE(load->region);
     if (keys[TIME].value)
         OST_TRY(ost_read_time(yaml, keys[TIME].value, c, &load->table));
-    if (load->kind == OST_LOAD_PRESSURE)
-        return ost_yaml_number(yaml, keys[kind].value, &load->pressure);
-    load->exact =
-        (kind == OST_LOAD_TRACTION || kind == OST_LOAD_BODY_FORCE) && ost_yaml_says(yaml, keys[kind].value, "exact");
-    return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, keys[kind].value, 3, load->vector);
+    load->acts_at = keys[AT].value != NULL;
+    if (load->acts_at)
+        OST_TRY(ost_yaml_numbers(yaml, keys[AT].value, 3, load->at));
+    return read_value(yaml, keys[kind].value, load);
 }
 
 OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)

@@ -56,9 +56,10 @@ static OstStatus count_faces(const OstScene *scene, const OstSelection *selectio
 
 static OstStatus check_load(const OstScene *scene, const OstLoad *load)
 {
-    const int needs_faces = load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
-                            (load->kind == OST_LOAD_TOTAL_FORCE && load->share == OST_SHARE_FACES);
-    if (load->kind == OST_LOAD_GRAVITY || load->kind == OST_LOAD_BODY_FORCE)
+    const int needs_faces =
+        load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_PRESSURE ||
+        ((load->kind == OST_LOAD_TOTAL_FORCE || load->kind == OST_LOAD_MOMENT) && load->share == OST_SHARE_FACES);
+    if (ost_load_in_volume(load->kind))
         return load->region && ost_mesh_find_region(scene->mesh, load->region) < 0
                    ? ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region)
                    : OST_SUCCESS;

@@ -153,6 +153,16 @@ static void body_force(const OstEffectFacts *f, OstEffectState *state)
     loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
 }
 
+static void centrifugal(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->centrifugal_loads, "in a body that turns");
+}
+
+static void moment(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->moments, "with a moment");
+}
+
 /* The nodes and the pressure of each face are few beside the tets. */
 static void follower_pressure(const OstEffectFacts *f, OstEffectState *state)
 {

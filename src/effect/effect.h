@@ -23,6 +23,8 @@
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
     X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
+    X(OST_EFFECT_CENTRIFUGAL, "centrifugal load", centrifugal)                                \
+    X(OST_EFFECT_MOMENT, "moment", moment)                                                    \
     X(OST_EFFECT_FOLLOWER_PRESSURE, "follower pressure", follower_pressure)                   \
     X(OST_EFFECT_EIGENSTRAIN, "eigenstrain", eigenstrain)                                     \
     X(OST_EFFECT_FOUNDATION, "elastic foundation", foundation)                                \
@@ -57,7 +59,8 @@ typedef struct OstEffectFacts {
     double accuracy;    /* relative */
     const char *formulation;
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
-    int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads;
+    int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
+    int moments;                      /* loads with a moment: those, and forces at a point */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_RESULT_DATA_H
 #define ORTHOSTAT_PROBLEM_RESULT_DATA_H
 
+#include "case/case_data.h"
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/problem.h"
@@ -27,6 +28,14 @@ typedef struct OstVerdict {
     char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
 } OstVerdict;
 
+/* The error of the quantity that the case asks about (accuracy: of), by its adjoint problem. */
+typedef struct OstInterestError {
+    const OstWatch *watch; /* the case's; NULL: none is asked about, or its error is not known */
+    double value, error;   /* the exact value less this one, as estimated */
+    double *share;         /* owned_tets: each one's share of it, where a mesh should be refined for it */
+    double sum;            /* of the shares: |error|, or more where parts of it cancel */
+} OstInterestError;
+
 /* One rank's piece of the answer. */
 struct OstResult {
     OstContext *ctx;
@@ -42,6 +51,7 @@ struct OstResult {
     double *node_stress;           /* 6 × node_count, or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
+    OstInterestError interest;     /* of the quantity that the case asks about */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;
     double largest_displacement;
@@ -62,6 +72,7 @@ typedef struct OstWatchedValue {
     double value;
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
+    int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
 } OstWatchedValue;
 
 #endif

@@ -52,6 +52,41 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
     return ost_agree(result->ctx, status);
 }
 
+static int asks_of_quantity(const OstProblem *problem)
+{
+    return problem->scene && problem->scene->c->interest > 0;
+}
+
+/* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
+ * squared error in the norm of the energy. */
+static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
+{
+    const OstWatch *watch = &analysis->problem->scene->c->watches[analysis->problem->scene->c->interest - 1];
+    const OstLinear *linear = analysis->work;
+    OstInterestError *found = &result->interest;
+    OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &found->share, result->mesh->owned_tets)));
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->share[tet] = (watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0) * result->tet_error[tet];
+    if (watch->kind == OST_WATCH_STRAIN_ENERGY) {
+        OST_TRY(ost_problem_energy(analysis->problem, t, result->displacement, &found->value));
+        found->error = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
+    } else {
+        OstInterest interest;
+        OstStatus status = ost_interest_create(analysis->problem, watch, t, result->displacement, &interest);
+        if (status == OST_SUCCESS)
+            status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
+                                           &found->error, found->share);
+        found->value = interest.value;
+        ost_interest_clear(&interest);
+        OST_TRY(status);
+    }
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->sum += found->share[tet];
+    OST_TRY(ost_sum(result->ctx, 1, &found->sum));
+    found->watch = isnan(found->error) ? NULL : watch;
+    return OST_SUCCESS;
+}
+
 static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     OstContext *ctx = result->ctx;
@@ -65,6 +100,8 @@ static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimat
                                        result->tet_error, result->surplus));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
+    if (result->answer.known && asks_of_quantity(analysis->problem))
+        OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
@@ -80,7 +117,8 @@ OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult
 {
     OstEstimate *estimate = NULL;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
+    const int has_all = result->answer.known && !asks_of_quantity(analysis->problem);
+    OstStatus status = has_all ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
     OST_THEN(estimate_tets(analysis, estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);

@@ -41,6 +41,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->node_stress);
     OST_FREE((*result)->tet_error);
     OST_FREE((*result)->surplus);
+    OST_FREE((*result)->interest.share);
     OST_FREE(*result);
 }
 

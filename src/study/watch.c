@@ -112,7 +112,7 @@ static double energy_error(const OstScene *scene, const OstResult *result)
     return is_moved ? -half : half;
 }
 
-OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+static OstStatus evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     switch (watch->kind) {
     case OST_WATCH_DISPLACEMENT:
@@ -126,6 +126,14 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
                      watch->line);
+}
+
+OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+{
+    OST_TRY(evaluate(scene, result, watch, watched));
+    if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
+        watched->error = result->interest.error;
+    return OST_SUCCESS;
 }
 
 /* --- all quantities of a case --- */
@@ -174,7 +182,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
-        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error};
+        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error,
+                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY};
     }
     return OST_SUCCESS;
 }
@@ -188,6 +197,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
             printf(" +- %.2g", error);
         if (error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+        if (values[w].by_adjoint)
+            printf(", with its error added %.10g", values[w].value + values[w].error);
         if (!isnan(expected) && expected != 0.0)
             printf(", expected %.10g: %.2g %% off", expected, 100.0 * fabs(values[w].value / expected - 1.0));
         puts("");
