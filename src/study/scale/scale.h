@@ -37,6 +37,7 @@ typedef struct OstScaleCount {
 /* What a rank does in one iteration: on a level of multigrid, or outside of all. */
 typedef struct OstScaleWork {
     double unknowns; /* over all ranks */
+    double ranks;    /* that have some of them */
     double visits, exchanges, reductions, gathers;
     OstScaleCount messages, bytes, gathered, multiplied;
 } OstScaleWork;
