@@ -239,3 +239,18 @@ OstResult *ost_adaption_result(const OstAdaption *adaption)
 {
     return adaption->stage ? adaption->stage->result : NULL;
 }
+
+OstAdaptEnd ost_adaption_end(const OstAdaption *adaption)
+{
+    return adaption->end;
+}
+
+int ost_adaption_level_count(const OstAdaption *adaption)
+{
+    return adaption->count;
+}
+
+const OstAdaptLevel *ost_adaption_level(const OstAdaption *adaption, int number)
+{
+    return &adaption->level[number];
+}
