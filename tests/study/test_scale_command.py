@@ -125,6 +125,8 @@ class Scale(unittest.TestCase):
         self.assertTrue(all(row["messages_most"] for row in rows))
 
     def test_what_does_not_fit_is_left_out_and_said(self):
+        set_to = json.loads(self.scale("cube.yaml", "--ranks", "1", "--set", "mesh.block.divisions=[4, 4, 4]", "--json", "-"))
+        self.assertEqual(set_to["runs"][0]["unknowns"], 3 * 4 * 5 * 5)
         table = self.scale("cube.yaml", "--ranks", "1", "--sizes", "1000,2e9")
         self.assertIn("not run: about ", table)
         labelled = CUBE.replace("{boundary: xmax}", "{vertices: [3]}")
