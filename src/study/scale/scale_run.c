@@ -80,7 +80,7 @@ static void run_here(const OstScale *scale, OstContext *ctx, OstScaleRun *run)
     OstCase *c = NULL;
     int usable = 0;
     ost_log_set_level(ctx, OST_LOG_QUIET);
-    OstStatus status = ost_case_read(ctx, scale->path, &c);
+    OstStatus status = scale->read(ctx, scale->from, &c);
     if (status == OST_SUCCESS) {
         simplify(c);
         status = resize(scale, c, run, &usable);
