@@ -2,7 +2,9 @@
 #ifndef ORTHOSTAT_CASE_CASE_DATA_H
 #define ORTHOSTAT_CASE_CASE_DATA_H
 
+#include "case/probe/read_probe.h"
 #include "case/yaml/tree.h"
+#include "fields/stress_measure.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -114,7 +116,10 @@ typedef struct OstCaseMaterial {
 } OstCaseMaterial;
 
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
-typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
+typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY, OST_WATCH_STRESS } OstWatchKind;
+
+/* What is taken of the stresses of a region. */
+typedef enum { OST_TAKE_MEAN, OST_TAKE_LEAST, OST_TAKE_LARGEST } OstTake;
 
 enum {
     OST_WATCH_LENGTH = 3, /* instead of a component */
@@ -125,8 +130,12 @@ typedef struct OstWatch {
     char *name;
     OstWatchKind kind;
     int line;
-    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
-    int component;   /* 0 to 2, or OST_WATCH_LENGTH */
+    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by the others */
+    int component;   /* 0 to 2, or OST_WATCH_LENGTH; STRESS: OstStressMeasure */
+    char *region;    /* STRESS: of the tets of a region, or "all"; NULL: at the point `at` */
+    OstPlace region_place;
+    double at[3];
+    OstTake take;
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
 } OstWatch;
@@ -186,8 +195,13 @@ struct OstCase {
     int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file; /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields; /* bits of OstOutputField */
-    unsigned without;       /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int probe_count;
+    OstProbe *probes; /* tables of points, beside the output file */
+    unsigned without; /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
+
+/* Local. The fields that are to be recovered: those of the output, and what quantities of interest are made of. */
+unsigned ost_case_recovers(const OstCase *c);
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
