@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "fields/output_field.h"
 
+#include <math.h>
 #include <string.h>
 
 static void count_constraints(const OstCase *c, OstEffectFacts *facts)
@@ -13,11 +14,11 @@ static void count_constraints(const OstCase *c, OstEffectFacts *facts)
     facts->free_body = c->free_body;
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        const double *u = constraint->displacement;
-        const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
         facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
-        facts->prescribed +=
-            constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+        facts->prescribed += ost_constraint_moves(constraint);
+        facts->rigid_faces += constraint->kind == OST_CONSTRAIN_RIGID;
+        facts->ties += constraint->kind == OST_CONSTRAIN_TIED;
+        facts->periodic += constraint->kind == OST_CONSTRAIN_PERIODIC;
     }
 }
 
@@ -74,6 +75,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->tets = mesh->tets;
     plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
+    if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
+        plan->facts.thickness = 8.0 * counts.vertices / fmax(counts.surface, 1.0);
+    plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
+    plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
