@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "output/summary.h"
 #include "problem/scene_data.h"
 #include "study/watch.h"
@@ -75,7 +76,10 @@ done:
 /* Numbers that are not finite are never written to the file of fields. */
 static OstStatus write_fields(const Run *run)
 {
-    return run->result->checks.finite ? ost_result_write(run->result, run->c->output_fields, run->file) : OST_SUCCESS;
+    if (!run->result->checks.finite)
+        return OST_SUCCESS;
+    OST_TRY(ost_result_write(run->result, run->c->output_fields, run->file));
+    return run->c->probe_count > 0 ? ost_probe_write(run->scene, run->result, run->file) : OST_SUCCESS;
 }
 
 /* Writes, with --keep, a result that did not converge or failed a check; still returns that failure. */
@@ -171,7 +175,8 @@ static OstStatus check_files(const Run *run)
         OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
         return ost_check_outputs(run->c, 1, &json);
     }
-    return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
+    OST_TRY(ost_check_outputs(run->c, 2, (const char *const[]){run->output, json}));
+    return ost_cli_check_probe_outputs(run->c, run->output, json);
 }
 
 static OstStatus solve_as_given(Run *run)

@@ -3,10 +3,12 @@
 
 #include "case/plan.h"
 #include "cli/destination.h"
+#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "solve/cases/load_cases.h"
 #include "study/watch.h"
 
@@ -22,6 +24,7 @@ OstStatus ost_cli_check_case_outputs(const OstCase *c, const char *output)
     for (int k = 0; k < c->load_case_count; k++) {
         ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
         OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
+        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
     }
     return OST_SUCCESS;
 }
@@ -60,6 +63,8 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
     ost_load_case_fields_name(run->how->output, report->name, sizeof file, file);
     if (writes)
         OST_TRY(ost_result_write(result, scene->c->output_fields, file));
+    if (writes && scene->c->probe_count > 0)
+        OST_TRY(ost_probe_write(scene, result, file));
     OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
     if (prints(run)) {
         ost_summary_print(scene, result, writes ? file : NULL);
