@@ -59,12 +59,10 @@ static void append_seconds(char *text, double seconds)
     }
     if (left >= 60) {
         append_number(text, left / 60);
-        strcat(text, " min ");
-        left %= 60;
-        if (seconds >= 600.0)
-            left = 0;
+        left = seconds < 600.0 ? left % 60 : 0;
+        strcat(text, left > 0 ? " min " : " min");
     }
-    if (left > 0 || seconds < 60.0) {
+    if (left > 0 || seconds < 59.5) {
         append_number(text, left);
         strcat(text, " s");
     }
