@@ -4,10 +4,17 @@ include(CMakePackageConfigHelpers)
 install(TARGETS orthostat EXPORT OrthostatTargets)
 if(TARGET orthostat_program)
   install(TARGETS orthostat_program)
-  install(PROGRAMS scripts/plot-cost scripts/plot-effects scripts/plot-scale scripts/plot-sweep
-          scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(PROGRAMS scripts/plot-cost scripts/plot-effects scripts/plot-mesh scripts/plot-scale
+          scripts/plot-sweep scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
   install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(CODE "execute_process(COMMAND \"${CMAKE_CURRENT_SOURCE_DIR}/scripts/help-files\" \"$<TARGET_FILE:orthostat_program>\"
+                  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\" RESULT_VARIABLE failed)
+    if(failed)
+      message(WARNING \"Without man pages and completion of bash: scripts/help-files failed\")
+    endif()")
 endif()
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY include/orthostat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Python looks for packages in lib/python3/dist-packages of /usr, and in lib/python3.X/dist-packages of /usr/local; of other

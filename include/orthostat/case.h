@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_CASE_H
 #define ORTHOSTAT_CASE_H
 
+#include "orthostat/output_field.h"
 #include "orthostat/solver.h"
 
 OST_API_BEGIN
@@ -9,23 +10,6 @@ OST_API_BEGIN
 /* A case as its YAML states it: physics only. Files that a case reads (mesh, axes, .bou lists) are named relative to
  * the case file's folder; the file it writes, relative to the directory the program is called in. */
 typedef struct OstCase OstCase;
-
-/* Columns: name, its word in the case file. */
-#define OST_OUTPUT_FIELD_TABLE(X)                \
-    X(OST_FIELD_DISPLACEMENT, "displacement")    \
-    X(OST_FIELD_REACTION, "reaction")            \
-    X(OST_FIELD_LOAD, "load")                    \
-    X(OST_FIELD_STRESS, "stress")                \
-    X(OST_FIELD_NODE_STRESS, "node_stress")      \
-    X(OST_FIELD_STRAIN, "strain_tensor")         \
-    X(OST_FIELD_ENERGY, "strain_energy_density") \
-    X(OST_FIELD_AXES, "axes")                    \
-    X(OST_FIELD_REGION, "region")                \
-    X(OST_FIELD_RANK, "rank")                    \
-    X(OST_FIELD_ERROR, "error")
-#define OST_OUTPUT_FIELD_ENUM(name, word) name,
-typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
-#undef OST_OUTPUT_FIELD_ENUM
 
 /* Collective. Reads and checks a case file (rank 0 reads the file, every rank parses). Raises OST_FILE_FAILED if there
  * is none, OST_INVALID_INPUT as "path:line:column: what was found, what was expected, what to do" (unknown keys with

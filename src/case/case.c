@@ -70,6 +70,24 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
+/* Where nodes follow others, only linear theory is there. */
+static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
+{
+    for (int i = 0; i < c->constraint_count; i++) {
+        const OstConstraint *constraint = &c->constraints[i];
+        if (ost_constraint_links(constraint) && c->large_rotation == OST_LARGE_ROTATION_ON)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: rigid, tied and periodic faces are solved by linear theory alone; say "
+                             "large_rotation: off",
+                             yaml->path, constraint->line);
+        if (constraint->kind == OST_CONSTRAIN_RIGID && c->path_steps > 0)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: a rigid face has no path yet: its answer grows with its loads; leave out 'path'",
+                             yaml->path, constraint->line);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const OstCase *c)
 {
     if (path && c->verify)
@@ -206,6 +224,7 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
                               "'of' out",
                               c->watches[c->interest - 1].name);
     settle_fraction(c);
+    OST_TRY(check_links(yaml, c));
     return check_density(yaml, c);
 }
 
@@ -246,6 +265,8 @@ static OstStatus read_vertex_files(OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++)
         OST_TRY(read_vertex_file(c, &c->constraints[i].on));
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(read_vertex_file(c, &c->constraints[i].to));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
     for (int i = 0; i < c->spring_count; i++)
@@ -267,7 +288,7 @@ static OstStatus begin(OstContext *ctx, const char *path, OstCase **c)
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
-    (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
+    (*c)->output_fields = OST_FIELDS_BY_DEFAULT;
     return ost_copy_string(ctx, path, &(*c)->path);
 }
 
@@ -392,6 +413,15 @@ OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
     return ost_case_read_with(ctx, path, 0, NULL, c);
 }
 
+static void release_constraint(OstConstraint *constraint)
+{
+    ost_selection_release(&constraint->on);
+    ost_selection_release(&constraint->to);
+    for (int p = 0; p < 3; p++)
+        for (int side = 0; side < 2; side++)
+            OST_FREE(constraint->pair[p][side]);
+}
+
 void ost_case_destroy(OstCase **c)
 {
     if (!*c)
@@ -402,7 +432,7 @@ void ost_case_destroy(OstCase **c)
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
-        ost_selection_release(&(*c)->constraints[i].on);
+        release_constraint(&(*c)->constraints[i]);
     for (int i = 0; i < (*c)->load_count; i++) {
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);

@@ -38,18 +38,48 @@ typedef struct OstSelection {
     char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
 
-typedef enum { OST_CONSTRAIN_DISPLACEMENT, OST_CONSTRAIN_SLIDE } OstConstraintKind;
+typedef enum {
+    OST_CONSTRAIN_DISPLACEMENT,
+    OST_CONSTRAIN_SLIDE,
+    OST_CONSTRAIN_RIGID,   /* the selection moves as a rigid body */
+    OST_CONSTRAIN_TIED,    /* its vertices follow other faces */
+    OST_CONSTRAIN_PERIODIC /* opposite boundaries move alike, but for a mean strain */
+} OstConstraintKind;
 
 typedef struct OstConstraint {
     OstConstraintKind kind;
     int line;
-    OstSelection on;
-    int constrained[3]; /* DISPLACEMENT: is the component constrained? (0: the word free) */
+    OstSelection on;    /* not used by PERIODIC */
+    int constrained[3]; /* DISPLACEMENT, RIGID: is the component constrained? (0: the word free) */
     int exact[3];       /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/closed_form.h */
-    double displacement[3]; /* DISPLACEMENT: the prescribed value, at factor 1 */
-    int table;              /* DISPLACEMENT: 0 if it grows with t, or 1 + its place in the case's tables */
+    double displacement[3]; /* DISPLACEMENT, RIGID: the prescribed value, at factor 1 */
+    int table;              /* 0 if it grows with t, or 1 + its place in the case's tables */
     double normal[3];       /* SLIDE: the plane's normal */
+    double point[3];        /* RIGID */
+    int turn_constrained[3];
+    double rotation[3];
+    OstSelection to;  /* TIED: the faces that are followed */
+    double tolerance; /* TIED: how far away; negative: 1e-3 of the body's size */
+    int pair_count;   /* PERIODIC */
+    char *pair[3][2]; /* names of boundaries: those that lead, those that follow */
+    double strain[6]; /* xx yy zz xy yz zx, of the tensor */
 } OstConstraint;
+
+/* Local. Does a constraint prescribe a displacement, a rotation or a strain other than zero? */
+static inline int ost_constraint_moves(const OstConstraint *constraint)
+{
+    const OstConstraint *k = constraint;
+    int moves = k->exact[0] || k->exact[1] || k->exact[2];
+    for (int i = 0; i < 6; i++)
+        moves |= k->strain[i] != 0.0 || (i < 3 && (k->displacement[i] != 0.0 || k->rotation[i] != 0.0));
+    return moves;
+}
+
+/* Local. Does a constraint make vertices follow others? */
+static inline int ost_constraint_links(const OstConstraint *constraint)
+{
+    return constraint->kind >= OST_CONSTRAIN_RIGID;
+}
 
 typedef enum {
     OST_LOAD_TOTAL_FORCE, /* over the selection */
@@ -113,6 +143,13 @@ typedef struct OstCaseMaterial {
     OstAxesSpec axes;
 } OstCaseMaterial;
 
+/* A field of the mesh file that a material asks for. */
+typedef struct OstCaseField {
+    const char *name; /* a material's */
+    OstPlace place;
+    int directions; /* are its numbers a fibre's direction? */
+} OstCaseField;
+
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
 typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
 
@@ -126,6 +163,8 @@ typedef struct OstWatch {
     OstWatchKind kind;
     int line;
     OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
+    int of_moment;   /* REACTION: the moment of the reactions about the point `about`? */
+    double about[3];
     int component;   /* 0 to 2, or OST_WATCH_LENGTH */
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
@@ -188,7 +227,8 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
-    const OstCaseMaterial *eigen_field; /* the first material that has one; NULL: none has */
+    int field_count; /* fields of the mesh file that the materials ask for, each once */
+    OstCaseField fields[OST_MOST_TET_FIELDS];
     int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
@@ -232,6 +272,9 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. The number of a field that a material asks for, or -1. */
+int ost_case_find_field(const OstCase *c, const char *name);
 
 /* Local. Does a strain differ from direction to direction? */
 int ost_strain_has_directions(const double strain[6]);

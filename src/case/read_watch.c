@@ -57,14 +57,24 @@ static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *expected,
     return source ? ost_read_string(yaml, source, &watch->source) : OST_SUCCESS;
 }
 
+/* With a point, the moment of the reactions about it is watched in place of their sum. */
+static OstStatus read_about(const OstYaml *yaml, const OstYamlNode *about, OstWatch *watch)
+{
+    if (about && watch->kind != OST_WATCH_REACTION)
+        return ost_yaml_raise(yaml, about, "'about' belongs to a reaction, of which it asks for the moment");
+    watch->of_moment = about != NULL;
+    return about ? ost_yaml_numbers(yaml, about, 3, watch->about) : OST_SUCCESS;
+}
+
 static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
-    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, EXPECTED, SOURCE };
+    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, ABOUT, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
         [OST_WATCH_DISPLACEMENT] = {.name = "displacement"},
         [OST_WATCH_REACTION] = {.name = "reaction"},
         [OST_WATCH_STRAIN_ENERGY] = {.name = "strain_energy"},
         [COMPONENT] = {.name = "component"},
+        [ABOUT] = {.name = "about"},
         [EXPECTED] = {.name = "expected"},
         [SOURCE] = {.name = "source"},
     };
@@ -79,6 +89,7 @@ static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWat
     OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
     OST_TRY(read_expected(yaml, keys[EXPECTED].value, keys[SOURCE].value, watch));
     watch->kind = (OstWatchKind)form;
+    OST_TRY(read_about(yaml, keys[ABOUT].value, watch));
     if (watch->kind == OST_WATCH_STRAIN_ENERGY)
         return read_energy(yaml, keys[form].value, keys[COMPONENT].value);
     return watch->kind == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)

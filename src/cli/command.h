@@ -16,6 +16,7 @@ int ost_cli_cost(OstContext *ctx, int argc, char **argv);
 int ost_cli_scale(OstContext *ctx, int argc, char **argv);
 int ost_cli_sweep(OstContext *ctx, int argc, char **argv);
 int ost_cli_verify(OstContext *ctx, int argc, char **argv);
+int ost_cli_mesh(OstContext *ctx, int argc, char **argv);
 int ost_cli_material(OstContext *ctx, int argc, char **argv);
 
 /* Collective. Parses by argp into `input`, does the work, and returns the program's exit code. Rank 0 prints help, and

@@ -26,6 +26,7 @@ static const struct {
     {"scale", "measure how a case scales: seconds, iterations and messages by size and number of ranks", ost_cli_scale},
     {"sweep", "solve for several values of a number, and list the watched quantities", ost_cli_sweep},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
+    {"mesh", "inspect, convert, refine and repair a mesh", ost_cli_mesh},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

@@ -85,6 +85,25 @@ static json_t *answer_error_json(const OstResult *result)
                      ost_json_number(answer->region_share), "worst_place", vector_json(answer->place));
 }
 
+/* The least load factors; null: no material has strengths. A factor is null where nothing fails. */
+static json_t *strength_json(const OstResult *result)
+{
+    static const char *const word[OST_CRITERIA] = {
+        [OST_TSAI_WU] = "tsai_wu", [OST_HILL] = "hill", [OST_MAXIMUM_STRESS] = "maximum_stress"};
+    json_t *criteria = result->failure.known ? json_object() : json_null();
+    for (int c = 0; c < OST_CRITERIA && result->failure.known; c++) {
+        const OstLeastFactor *least = &result->failure.least[c];
+        const int fails = least->factor < OST_MOST_LOAD_FACTOR;
+        json_object_set_new(criteria, word[c],
+                            json_pack("{s:o, s:o, s:s, s:o}", "load_factor",
+                                      fails ? ost_json_number(least->factor) : json_null(), "tet",
+                                      fails ? json_integer(least->tet) : json_null(), "region",
+                                      result->mesh->regions.name[least->region], "place",
+                                      fails ? vector_json(least->place) : json_null()));
+    }
+    return criteria;
+}
+
 static json_t *large_rotation_json(const OstNewtonReport *newton)
 {
     if (!newton->judged)
@@ -175,7 +194,7 @@ json_t *ost_summary_json(const OstScene *scene, const OstResult *result, const O
 {
     const OstMesh *mesh = result->mesh;
     return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:s?}",
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:s?, s:o}",
         "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
         warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
@@ -184,7 +203,8 @@ json_t *ost_summary_json(const OstScene *scene, const OstResult *result, const O
         checks_json(&result->checks), "answer_error", answer_error_json(result), "largest_displacement",
         ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
         watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
-        summary ? ost_ledger_json(scene->ctx, result->solve.nonzeros, summary) : NULL, "output", file);
+        summary ? ost_ledger_json(scene->ctx, result->solve.nonzeros, summary) : NULL, "output", file, "strength",
+        strength_json(result));
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,

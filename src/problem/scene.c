@@ -5,6 +5,7 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
@@ -148,12 +149,14 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     const OstCase *c = scene->c;
     OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, &scene->load_effect, (size_t)c->load_count)));
     OST_TRY(ost_load_effects(c, mesh, scene->load_effect));
-    const OstPlanMesh facts = {.nodes = mesh->global_nodes,
-                               .tets = mesh->global_tets,
-                               .quadratic = mesh->nodes_per_tet == 10,
-                               .regions = &mesh->regions,
-                               .materials = from_file,
-                               .load = scene->load_effect};
+    OstPlanMesh facts = {.nodes = mesh->global_nodes,
+                         .tets = mesh->global_tets,
+                         .quadratic = mesh->nodes_per_tet == 10,
+                         .regions = &mesh->regions,
+                         .materials = from_file,
+                         .load = scene->load_effect};
+    if (facts.quadratic && !(ost_plan_shape_surface(c) > 0.0))
+        OST_TRY(ost_mesh_surface_faces(mesh, &facts.surface));
     ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);
     return OST_SUCCESS;
 }
@@ -290,7 +293,9 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 unsigned ost_scene_result_fields(const OstScene *scene)
 {
     const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const unsigned factors = OST_LOAD_FACTORS;
     const OstEffects *effects = &scene->plan.effects;
-    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~(error | factors) : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_STRENGTH) ? factors : 0U) |
            (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
 }

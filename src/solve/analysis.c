@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/path.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 #include "solve/strategy.h"
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)

@@ -71,6 +71,8 @@ static int take_start(const OstAnalysis *analysis)
 {
     const OstSystem *system = analysis->problem->system;
     const OstLinear *linear = analysis->work;
+    if (system->supports->links) /* the rows of rigid faces are no displacements of nodes */
+        return 0;
     for (OstLocal row = 0; analysis->start && row < system->matrix->rows; row++) {
         const OstLocal node = system->node_of_row[row];
         double projector[9];
