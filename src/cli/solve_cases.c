@@ -99,7 +99,7 @@ static void show_progress(const Run *run, int done, int number)
     char what[128];
     snprintf(what, sizeof what, "load case %s, %d of %d", run->c->load_cases[number].name, done + 1,
              run->c->load_case_count);
-    ost_progress(run->ctx, what, (double)done / run->c->load_case_count);
+    ost_progress_task(run->ctx, what, (double)done / run->c->load_case_count);
     ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
 }
 
@@ -208,7 +208,7 @@ OstStatus ost_cli_solve_cases(const OstCase *c, const OstSolveCases *how)
     }
     OST_THEN(ost_scene_create(c, &run.scene));
     OST_THEN(solve_all(&run));
-    ost_progress(c->ctx, "", -1.0);
+    ost_progress_task(c->ctx, "", -1.0);
     OST_THEN(tell(&run));
     if (status == OST_SUCCESS && run.failed != OST_SUCCESS)
         status = raise_failures(&run);
