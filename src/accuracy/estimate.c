@@ -47,6 +47,14 @@ static OstStatus create(OstEstimate *estimate)
     return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
 }
 
+OstStatus ost_estimate_take_loading(OstEstimate *estimate)
+{
+    if (!estimate->problem->scene)
+        return OST_SUCCESS;
+    ost_surplus_loads_clear(&estimate->loads);
+    return ost_surplus_loads_create(estimate->problem, &estimate->complement, &estimate->loads);
+}
+
 /* Takes the stiffness to u. */
 static OstStatus move(OstEstimate *estimate, const double *u)
 {

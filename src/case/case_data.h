@@ -143,6 +143,13 @@ typedef struct OstCaseMaterial {
     OstAxesSpec axes;
 } OstCaseMaterial;
 
+/* A field of the mesh file that a material asks for. */
+typedef struct OstCaseField {
+    const char *name; /* a material's */
+    OstPlace place;
+    int directions; /* are its numbers a fibre's direction? */
+} OstCaseField;
+
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
 typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
 
@@ -175,6 +182,20 @@ typedef enum {
 /* Is the case solved for large rotations? AUTO: where linear theory is off by more than the accuracy asked for. */
 typedef enum { OST_LARGE_ROTATION_AUTO, OST_LARGE_ROTATION_ON, OST_LARGE_ROTATION_OFF } OstLargeRotation;
 
+/* One of several loadings of the body. */
+typedef struct OstLoadCase {
+    char *name;
+    int line;
+    struct OstCase *c; /* a case with what is stated for all, and its own */
+} OstLoadCase;
+
+/* Values for one number of the case, or for any key (case/yaml/set.h). */
+typedef struct OstSweepKey {
+    char *key;
+    int count;
+    char **value; /* as they are written */
+} OstSweepKey;
+
 struct OstCase {
     OstContext *ctx;
     char *path; /* of the case file */
@@ -206,7 +227,8 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
-    const OstCaseMaterial *eigen_field; /* the first material that has one; NULL: none has */
+    int field_count; /* fields of the mesh file that the materials ask for, each once */
+    OstCaseField fields[OST_MOST_TET_FIELDS];
     int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
@@ -218,8 +240,30 @@ struct OstCase {
     int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file; /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields; /* bits of OstOutputField */
-    unsigned without;       /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int load_case_count;    /* 0: there are none. Else loads, supports and springs above are those of all */
+    OstLoadCase *load_cases;
+    int sweep_count; /* of keys */
+    OstSweepKey *sweep;
+    unsigned without; /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
+
+/* The text of a case, and changes to it (case/yaml/set.h). */
+typedef struct OstCaseText {
+    const char *bytes;
+    size_t size;
+    int settings;
+    const char *const *setting; /* "KEY=VALUE" */
+} OstCaseText;
+
+/* Collective. The bytes of a case file, or for "-" of standard input, read by rank 0; the caller's to free. */
+OstStatus ost_case_bytes(OstContext *ctx, const char *path, char **bytes, size_t *size);
+
+/* Collective. ost_case_read of that text. */
+OstStatus ost_case_make(OstContext *ctx, const char *path, const OstCaseText *text, OstCase **c);
+
+/* Local. Puts in place of a case the one of its load cases that has this name. Raises OST_INVALID_USAGE with the names
+ * there are. */
+OstStatus ost_case_pick(OstCase **c, const char *name);
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
@@ -228,6 +272,9 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. The number of a field that a material asks for, or -1. */
+int ost_case_find_field(const OstCase *c, const char *name);
 
 /* Local. Does a strain differ from direction to direction? */
 int ost_strain_has_directions(const double strain[6]);

@@ -3,7 +3,9 @@
 
 #include "algebra/solver_plan.h"
 #include "core/error.h"
+#include "fields/output_field.h"
 
+#include <math.h>
 #include <string.h>
 
 static void count_constraints(const OstCase *c, OstEffectFacts *facts)
@@ -42,6 +44,19 @@ static void count_springs(const OstCase *c, OstEffectFacts *facts)
         facts->foundations += c->springs[i].kind == OST_SPRING_FOUNDATION;
 }
 
+/* Numbers a tet and a node of what is computed after the solve; load factors are made of stress. */
+static void count_recovered(const OstCase *c, OstEffectFacts *facts)
+{
+    const unsigned factors = OST_LOAD_FACTORS;
+    const unsigned asked = facts->strengths > 0 ? c->output_fields | factors : c->output_fields & ~factors;
+    const unsigned needed = ost_output_fields_needed(asked);
+    for (int f = 0; f < OST_FIELD_COUNT; f++) {
+        const OstOutputField field = ost_output_field((OstOutputFieldBit)f);
+        if (needed >> f & 1U && field.is_recovered)
+            *(field.centring == OST_ON_NODES ? &facts->node_fields : &facts->cell_fields) += field.components;
+    }
+}
+
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
     const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
@@ -60,6 +75,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->tets = mesh->tets;
     plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
+    if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
+        plan->facts.thickness = 8.0 * counts.vertices / fmax(counts.surface, 1.0);
+    plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
+    plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
@@ -73,12 +92,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.accuracy = c->relative_error;
     facts.path_steps = c->path_steps;
     facts.tables = c->table_count;
-    facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
-                        ost_plan_writes(c, OST_FIELD_ENERGY);
     facts.asks_error = c->asks_error && c->path_steps == 0;
     facts.watches = c->watch_count;
     facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
-    facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
+    count_recovered(c, &facts);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);

@@ -190,15 +190,16 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     int count;
-    c->free_body = ost_yaml_says(yaml, node, "free_body"); /* in place of a list */
-    if (c->free_body)
+    const int before = c->constraint_count;
+    c->free_body |= ost_yaml_says(yaml, node, "free_body"); /* in place of a list */
+    if (ost_yaml_says(yaml, node, "free_body"))
         return OST_SUCCESS;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of constraints (- {on: ..., displacement: ...})", &count));
-    OST_TRY(OST_NEW(yaml->ctx, &c->constraints, count));
-    c->constraint_count = count;
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->constraints, before + count));
+    c->constraint_count += count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_constraint(yaml, item, c, &c->constraints[i]));
+        OST_TRY(read_constraint(yaml, item, c, &c->constraints[before + i]));
     return OST_SUCCESS;
 }
 
@@ -319,10 +320,11 @@ OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *
 {
     int count;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of loads (- {on: ..., total_force: ...})", &count));
-    OST_TRY(OST_NEW(yaml->ctx, &c->loads, count));
-    c->load_count = count;
+    const int before = c->load_count;
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->loads, before + count));
+    c->load_count += count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_load(yaml, item, c, &c->loads[i]));
+        OST_TRY(read_load(yaml, item, c, &c->loads[before + i]));
     return OST_SUCCESS;
 }

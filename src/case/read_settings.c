@@ -3,6 +3,7 @@
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/output_array.h"
 
 #include <float.h>
 #include <string.h>
@@ -209,7 +210,8 @@ OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     if (!keys[FILE_NAME].value)
         return OST_SUCCESS;
     OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));
-    return ost_has_ending(c->output_file, ".vtkhdf")
+    size_t stem;
+    return ost_result_form(c->output_file, &stem) != OST_RESULT_FORMS
                ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with .vtkhdf", "");
+               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with " OST_RESULT_ENDINGS, "");
 }

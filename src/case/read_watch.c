@@ -115,11 +115,13 @@ OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase
         return ost_yaml_raise(yaml, node,
                               "'watch' names no quantity; leave it out, or name one, as in tip: "
                               "{displacement: {nearest: [1, 0, 0]}}");
-    if (count > OST_MOST_WATCHES)
-        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);
-    OST_TRY(OST_NEW(yaml->ctx, &c->watches, count));
+    const int before = c->watch_count;
+    if (before + count > OST_MOST_WATCHES)
+        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", before + count,
+                              OST_MOST_WATCHES);
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->watches, before + count));
     const OstYamlNode *key = ost_yaml_first(yaml, node);
-    for (int w = 0; w < count; w++) {
+    for (int w = before; w < before + count; w++) {
         const OstYamlNode *value = ost_yaml_next(yaml, key);
         OstWatch *watch = &c->watches[w];
         const char *name;

@@ -22,6 +22,7 @@ static const struct {
      ost_cli_cost},
     {"scale", "measure how a case scales: seconds, iterations and messages by size and number of ranks", ost_cli_scale},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
+    {"mesh", "inspect, convert, refine and repair a mesh", ost_cli_mesh},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };

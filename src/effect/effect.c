@@ -253,6 +253,15 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the output holds neither");
 }
 
+/* Load factors are found tet by tet. */
+static void strength(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->strengths > 0)
+        on(state, 0.0, "%d of %d materials state strengths", f->strengths, f->materials);
+    else
+        off(state, "no material states strengths");
+}
+
 /* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers
  * in the tets; the surplus of the nodes for quantities of interest. */
 static void error_estimate(const OstEffectFacts *f, OstEffectState *state)

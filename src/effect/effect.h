@@ -34,6 +34,7 @@
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
     X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)                                     \
+    X(OST_EFFECT_STRENGTH, "strength", strength)                                              \
     X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                            \
     X(OST_EFFECT_ADAPTIVITY, "adaptive refinement", adaptivity)
 
@@ -68,6 +69,7 @@ typedef struct OstEffectFacts {
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
+    int strengths;   /* materials that state them */
     int error_field; /* is the error of the answer among them? */
     int watches;     /* quantities of interest */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */

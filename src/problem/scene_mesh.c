@@ -195,7 +195,7 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
     OST_THEN(ost_scene_read_cell_axes(c, chunk));
-    OST_THEN(ost_scene_read_tet_field(c, chunk));
+    OST_THEN(ost_scene_read_tet_fields(c, chunk));
     OST_THEN(merge_vertices(c, chunk));
     OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);

@@ -18,6 +18,7 @@
 #define TWO                                                                       \
     "materials:\n  - {region: block, youngs_modulus: 1e6, poissons_ratio: 0.3}\n" \
     "  - {region: core, youngs_modulus: 2e6, poissons_ratio: 0.3}\n"
+#define STRONG "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, strengths: {tension: 1e4}}]\n"
 #define HELD "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
 #define MOVED                                                             \
     "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n" \
@@ -79,6 +80,7 @@ static const struct {
     ROW(OST_EFFECT_MOMENT) = {BLOCK SOFT HELD TWISTED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_FOLLOWER_PRESSURE) = {BLOCK SOFT HELD FOLLOWED NO_FIELDS, BLOCK SOFT HELD PRESSED NO_FIELDS},
     ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_STRENGTH) = {BLOCK STRONG HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_FOUNDATION) = {BLOCK SOFT FOUNDED PULLED NO_FIELDS, BLOCK SOFT SPRUNG PULLED NO_FIELDS},
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
