@@ -4,6 +4,19 @@
 #include "core/hash.h"
 #include "problem/boundary_conditions.h"
 
+/* Who follows whom, and how; what moves them besides is no matter of the stiffness. */
+static uint64_t hash_links(uint64_t hash, const OstLinks *links)
+{
+    for (OstLocal i = 0; i < links->all; i++) {
+        const OstLink *link = &links->link[i];
+        hash = ost_hash(hash, sizeof link->node, &link->node);
+        hash = ost_hash(hash, (size_t)link->count * sizeof *link->leader, link->leader);
+    }
+    for (int f = 0; f < links->face_count; f++)
+        hash = ost_hash(hash, sizeof links->face[f].constrained, links->face[f].constrained);
+    return hash;
+}
+
 static uint64_t hash_supports(const OstSupports *supports)
 {
     const size_t nodes = (size_t)supports->mesh->node_count;
@@ -13,6 +26,8 @@ static uint64_t hash_supports(const OstSupports *supports)
         hash = ost_hash(hash, sizeof support->constrained, &support->constrained);
         hash = ost_hash(hash, 3 * (size_t)support->constrained * sizeof *support->direction, support->direction);
     }
+    if (supports->links)
+        hash = hash_links(hash, supports->links);
     return supports->spring ? ost_hash(hash, 9 * nodes * sizeof *supports->spring, supports->spring) : hash;
 }
 
@@ -37,6 +52,10 @@ OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash)
 void ost_problem_take_loading(OstProblem *problem, OstProblem *other)
 {
     SWAP(OstSupport *, problem->supports->support, other->supports->support);
+    if (problem->supports->links) {
+        SWAP(double *, problem->supports->links->offset, other->supports->links->offset);
+        problem->supports->links->moves = other->supports->links->moves;
+    }
     problem->supports->effects = other->supports->effects;
     SWAP(double *, problem->force, other->force);
     SWAP(OstFollower *, problem->follower, other->follower);
