@@ -413,7 +413,7 @@ OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
     return ost_case_read_with(ctx, path, 0, NULL, c);
 }
 
-static void release_constraint(OstConstraint *constraint)
+void ost_constraint_release(OstConstraint *constraint)
 {
     ost_selection_release(&constraint->on);
     ost_selection_release(&constraint->to);
@@ -433,7 +433,7 @@ void ost_case_destroy(OstCase **c)
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
-        release_constraint(&(*c)->constraints[i]);
+        ost_constraint_release(&(*c)->constraints[i]);
     for (int i = 0; i < (*c)->load_count; i++) {
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
