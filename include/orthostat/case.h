@@ -16,11 +16,21 @@ typedef struct OstCase OstCase;
  * the nearest known one). Nothing of the mesh is looked at. */
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
 
+/* Collective. The same, with changes "KEY=VALUE" made to it first, as by the option --set of the program
+ * (docs/commands.md). The path "-" is standard input; files it names are then relative to the current folder. */
+OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **out);
+
 /* Collective. The same for the text of a case, which every rank passes alike: UTF-8 that ends with a zero byte. `path`
  * stands in messages, and files that the case names are relative to its folder; there need be no such file. */
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **out);
 
 void ost_case_destroy(OstCase **c);
+
+/* Local. The load cases (`cases`): how many, 0 if there are none; and one of them by number from 0, which is a case of
+ * its own, with what is stated for all, and lives as long as the case. */
+int ost_case_load_case_count(const OstCase *c);
+const OstCase *ost_case_load_case(const OstCase *c, int number);
+const char *ost_case_load_case_name(const OstCase *c, int number);
 
 /* Local. What stands in the case; texts live as long as it does. */
 const char *ost_case_path(const OstCase *c);

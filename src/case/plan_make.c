@@ -14,11 +14,11 @@ static void count_constraints(const OstCase *c, OstEffectFacts *facts)
     facts->free_body = c->free_body;
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        const double *u = constraint->displacement;
-        const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
         facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
-        facts->prescribed +=
-            constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+        facts->prescribed += ost_constraint_moves(constraint);
+        facts->rigid_faces += constraint->kind == OST_CONSTRAIN_RIGID;
+        facts->ties += constraint->kind == OST_CONSTRAIN_TIED;
+        facts->periodic += constraint->kind == OST_CONSTRAIN_PERIODIC;
     }
 }
 

@@ -77,6 +77,12 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
+/* Does a constraint make nodes follow others? */
+static int has_links(const OstEffectFacts *f)
+{
+    return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -85,6 +91,8 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
         off(state, "a free body is solved linearly");
+    else if (has_links(f))
+        off(state, "a body with rigid, tied or periodic faces is solved linearly");
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
@@ -95,7 +103,9 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->quadratic && f->multigrid)
+    if (has_links(f))
+        off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
+    else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on the linear tets with the same vertices");
     else
@@ -118,6 +128,32 @@ static void sliding(const OstEffectFacts *f, OstEffectState *state)
         on(state, 0.0, "%d of %d constraints let the body slide on a plane", f->slides, f->constraints);
     else
         off(state, "no constraint is a slide");
+}
+
+/* They take what the surface has: little beside the tets. */
+static void links(const OstEffectFacts *f, OstEffectState *state, int count, const char *what)
+{
+    char none[64];
+    snprintf(none, sizeof none, "no constraint is %s", what);
+    if (count > 0)
+        on(state, 0.0, "%d of %d constraints %s %s", count, f->constraints, count == 1 ? "is" : "are", what);
+    else
+        off(state, none);
+}
+
+static void rigid_face(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->rigid_faces, "a rigid face");
+}
+
+static void tie(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->ties, "a tie between faces");
+}
+
+static void periodic(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->periodic, "a periodic cell");
 }
 
 static void free_body(const OstEffectFacts *f, OstEffectState *state)

@@ -19,6 +19,9 @@
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
+    X(OST_EFFECT_RIGID_FACE, "rigid face", rigid_face)                                        \
+    X(OST_EFFECT_TIE, "tied faces", tie)                                                      \
+    X(OST_EFFECT_PERIODIC, "periodic pairs", periodic)                                        \
     X(OST_EFFECT_FREE_BODY, "free body", free_body)                                           \
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
@@ -54,7 +57,7 @@ typedef struct OstEffectFacts {
     int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
-    int constraints, prescribed, slides;
+    int constraints, prescribed, slides, rigid_faces, ties, periodic;
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     double accuracy;    /* relative */

@@ -95,13 +95,11 @@ static int is_followed(const OstCase *c, int function)
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)
-        for (int k = 0; k < 3; k++)
-            followed |= c->constraints[i].table == function && c->constraints[i].displacement[k] != 0.0;
+        followed |= c->constraints[i].table == function && ost_constraint_moves(&c->constraints[i]);
     return followed;
 }
 
-/* In quotes; quotes within the text are doubled. */
-static void write_name(FILE *file, const char *text)
+void ost_csv_write_name(FILE *file, const char *text)
 {
     fputs(",\"", file);
     for (; *text; text++) {
@@ -131,7 +129,7 @@ static void write_heading(FILE *file, const OstCase *c)
             fputs(",load_factor", file);
     fputs(",largest_displacement,strain_energy,newton_iterations,load_steps,iterations", file);
     for (int w = 0; w < c->watch_count; w++)
-        write_name(file, c->watches[w].name);
+        ost_csv_write_name(file, c->watches[w].name);
     fputc('\n', file);
 }
 

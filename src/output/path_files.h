@@ -6,6 +6,7 @@
 #include "problem/scene_data.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 /* The files of a path stand beside each other: for bar.vtkhdf, bar_0001.vtkhdf and so on, one for each step;
  * bar.hdf.series, which lists them with their times (of bar.vtu and bar.pvtu: bar.pvd); bar_history.csv; and
@@ -23,6 +24,9 @@ OstStatus ost_path_write_history(const OstScene *scene, OstPath *path, const cha
 
 /* Local; only rank 0 prints. The steps done, as a table. */
 void ost_path_print(const OstScene *scene, OstPath *path, const char *output);
+
+/* Local. A comma, and a text in quotes, in which quotes are doubled. */
+void ost_csv_write_name(FILE *file, const char *text);
 
 /* Local. The same as a list of objects; the caller's reference, NULL if jansson fails. */
 struct json_t;

@@ -9,6 +9,7 @@
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
+#include "problem/load_case.h"
 #include "problem/scene_parts.h"
 
 #include <string.h>
@@ -175,6 +176,18 @@ static OstStatus copy_file_materials(OstContext *ctx, const OstFileMaterials *fr
     return OST_SUCCESS;
 }
 
+static OstStatus check_places(const OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->springs[i].on));
+    return OST_SUCCESS;
+}
+
 static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
 {
     OstContext *ctx = made->ctx;
@@ -186,12 +199,7 @@ static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
     OST_TRY_DONE(make_plan(made, made->from_file));
-    for (int i = 0; i < c->constraint_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
-    for (int i = 0; i < c->load_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->loads[i].on));
-    for (int i = 0; i < c->spring_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->springs[i].on));
+    OST_TRY_DONE(check_places(made));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
@@ -239,11 +247,33 @@ OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMe
     return status;
 }
 
+OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case)
+{
+    OstContext *ctx = scene->ctx;
+    OstScene *made = NULL;
+    *of_case = NULL;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
+    *made = *scene;
+    made->c = scene->c->load_cases[number].c;
+    made->load_effect = NULL;
+    made->borrows = 1;
+    OstStatus status = make_plan(made, scene->from_file);
+    OST_THEN(check_places(made));
+    if (status != OST_SUCCESS)
+        ost_scene_destroy(&made);
+    *of_case = made;
+    return status;
+}
+
 void ost_scene_destroy(OstScene **scene)
 {
     if (!*scene)
         return;
     OST_FREE((*scene)->load_effect);
+    if ((*scene)->borrows) {
+        OST_FREE(*scene);
+        return;
+    }
     ost_file_materials_destroy(&(*scene)->from_file);
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);

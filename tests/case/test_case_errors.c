@@ -29,7 +29,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "mehs: 1\n",
         "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
         "element, materials, constraints, springs, loads, watch, accuracy, solver, output, path, large_rotation, "
-        "formulation, verify");
+        "formulation, verify, sweep, cases");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
