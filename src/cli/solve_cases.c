@@ -5,9 +5,10 @@
 #include "cli/destination.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "orthostat/load_cases.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
-#include "solve/cases/load_cases.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <stdio.h>
