@@ -6,10 +6,11 @@
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "orthostat/load_cases.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
 #include "output/probe_files.h"
-#include "solve/cases/load_cases.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <stdio.h>
