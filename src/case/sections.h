@@ -55,6 +55,7 @@ void ost_selection_release(OstSelection *selection);
 int ost_selections_agree(const OstSelection *one, const OstSelection *other);
 void ost_load_cases_release(OstCase *c);
 void ost_sweep_release(OstCase *c);
+void ost_constraint_release(OstConstraint *constraint);
 struct OstVerify;
 void ost_verify_release(struct OstVerify **verify);
 

@@ -320,7 +320,7 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 
 unsigned ost_scene_result_fields(const OstScene *scene)
 {
-    const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const unsigned error = 1U << OST_FIELD_ERROR, asked = ost_case_recovers(scene->c);
     const unsigned factors = OST_LOAD_FACTORS;
     const OstEffects *effects = &scene->plan.effects;
     return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~(error | factors) : 0U) |
