@@ -24,7 +24,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(
         CUBE "materials:\n  - region: all\n    youngs_modulos: 1\n",
         "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
-        "youngs_modulus, poissons_ratio, shear_modulus, density, axes, eigenstrain, strengths");
+        "youngs_modulus, poissons_ratio, shear_modulus, density, axes, fibre, eigenstrain, strengths");
     assert_refused(
         "mehs: 1\n",
         "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
