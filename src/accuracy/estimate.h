@@ -17,7 +17,7 @@ typedef struct OstEstimate OstEstimate;
 /* Collective. What is kept between calls for one problem. */
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate);
 
-/* Collective. The problem has got another loading (problem/load_case.h). */
+/* Collective. The problem has got another loading (problem/cases/load_case.h). */
 OstStatus ost_estimate_take_loading(OstEstimate *estimate);
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's

@@ -9,7 +9,6 @@
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
-#include "problem/load_case.h"
 #include "problem/scene_parts.h"
 
 #include <string.h>

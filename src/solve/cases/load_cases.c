@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "problem/load_case.h"
+#include "problem/cases/load_case.h"
 #include "problem/scene_data.h"
 #include "solve/strategy.h"
 
