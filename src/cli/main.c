@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/yaml/message.h"
 #include "cli/command.h"
 #include "core/address_space.h"
+#include "core/interrupt/interrupt.h"
+#include "core/progress.h"
 
 #include <errno.h>
 #include <mpi.h>
@@ -23,6 +26,7 @@ static const struct {
     {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
      ost_cli_cost},
     {"scale", "measure how a case scales: seconds, iterations and messages by size and number of ranks", ost_cli_scale},
+    {"sweep", "solve for several values of a number, and list the watched quantities", ost_cli_sweep},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
     {"mesh", "inspect, convert, refine and repair a mesh", ost_cli_mesh},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
@@ -47,6 +51,22 @@ static int is_one_of(const char *word, const char *a, const char *b)
     return strcmp(word, a) == 0 || strcmp(word, b) == 0;
 }
 
+/* With the nearest command, or with all. */
+static void refuse_command(const char *name)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        names[i] = commands[i].name;
+    const char *nearest = ost_nearest_word(name, names, COMMAND_COUNT);
+    fprintf(stderr, "orthostat: error: there is no command '%s'", name);
+    if (nearest) {
+        fprintf(stderr, "; did you mean '%s'?\n", nearest);
+        return;
+    }
+    fputs("\n\n", stderr);
+    print_help(stderr);
+}
+
 static int run_command(OstContext *ctx, int argc, char **argv)
 {
     const char *name = argv[1];
@@ -58,10 +78,8 @@ static int run_command(OstContext *ctx, int argc, char **argv)
         argv[1] = title;
         return commands[i].run(ctx, argc - 1, argv + 1);
     }
-    if (ost_rank(ctx) == 0) {
-        fprintf(stderr, "orthostat: error: there is no command '%s'\n\n", name);
-        print_help(stderr);
-    }
+    if (ost_rank(ctx) == 0)
+        refuse_command(name);
     return ost_status_exit_code(OST_INVALID_USAGE);
 }
 
@@ -255,11 +273,14 @@ int main(int argc, char **argv)
     int exit_code = 1;
     if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS) {
         ost_log_set_level(ctx, level);
+        ost_end_when_interrupted(ost_rank(ctx) == 0);
+        ost_progress_start(ctx);
         exit_code = run_command(ctx, argc, argv);
     } else {
         fputs("orthostat: error: out of memory at the start\n", stderr);
     }
     exit_code = end_with(exit_code);
+    ost_progress_end();
     ost_context_destroy(&ctx);
     MPI_Finalize();
     return exit_code;
