@@ -136,6 +136,8 @@ typedef struct OstWatchedValue {
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
+    int placed;     /* is it a least or largest value, and `place` where it is? */
+    double place[3];
 } OstWatchedValue;
 
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or

@@ -25,9 +25,17 @@ struct OstMaterialField {
     double *region_stiff_mode;
     double *region_rest; /* region_count × 36: the rest of C in material axes; NULL if no C is split */
 
+    double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
+
     double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
     double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
+
+/* Local. The factor of a tet's stiffness. */
+static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
+{
+    return field->tet_scale ? field->tet_scale[tet] : 1.0;
+}
 
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);
