@@ -3,7 +3,9 @@
 
 #include "algebra/solver_plan.h"
 #include "core/error.h"
+#include "orthostat/field.h"
 
+#include <math.h>
 #include <string.h>
 
 static void count_constraints(const OstCase *c, OstEffectFacts *facts)
@@ -59,8 +61,6 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
-    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
-    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
     count_springs(c, &facts);
@@ -77,6 +77,11 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.watches = c->watch_count;
     facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
     facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
+    facts.mixed = !c->unmixed;
+    if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
+        plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);

@@ -68,9 +68,45 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
         off(state, "one material for the whole body");
 }
 
+/* Why the mixed form is not used, or NULL. Newton's method has no mixed form. */
+static const char *why_not_mixed(const OstEffectFacts *f)
+{
+    if (f->nearly_incompressible == 0)
+        return "no material is nearly incompressible";
+    if (!f->quadratic)
+        return "linear tets cannot use it";
+    if (f->mixed == 0)
+        return "the case says so: element: {mixed: off}";
+    if (f->large_rotation == 2 && !f->free_body)
+        return "large rotations use the mean dilatation";
+    if (f->path_steps > 0)
+        return "a path uses the mean dilatation";
+    return NULL;
+}
+
+int ost_effects_mixed(const OstEffectFacts *facts)
+{
+    return why_not_mixed(facts) == NULL && !(facts->without >> (OST_EFFECT_MIXED - OST_EFFECT_FIRST) & 1U);
+}
+
+/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; vectors;
+ * the pressures of each tet. */
+static void mixed(const OstEffectFacts *f, OstEffectState *state)
+{
+    const char *why = why_not_mixed(f);
+    if (why)
+        off(state, why);
+    else
+        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 100.0) * f->vertices + (200.0 + 12.0) * f->nodes + 48.0 * f->tets,
+           "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
+           f->nearly_incompressible, f->materials);
+}
+
 static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->quadratic && f->nearly_incompressible > 0)
+    if (!why_not_mixed(f))
+        off(state, "the mixed form takes its place");
+    else if (f->quadratic && f->nearly_incompressible > 0)
         on(state, 8.0 * (36.0 + 3.0) * f->regions, "quadratic tets, and %d of %d materials are nearly incompressible",
            f->nearly_incompressible, f->materials);
     else

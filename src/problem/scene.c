@@ -113,11 +113,46 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return status;
 }
 
+/* The first region with nu = 1/2, or -1. */
+static int find_incompressible(const OstMaterialField *field)
+{
+    int r = 0;
+    while (r < field->region_count && !field->material[r].incompressible)
+        r++;
+    return r < field->region_count ? r : -1;
+}
+
+/* Beside the mixed form there is the mean dilatation, for Newton's method, which may turn out to be needed. */
+static OstStatus use_mixed_form(OstScene *scene)
+{
+    int regions = 0;
+    if (find_incompressible(scene->field) < 0 && ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION))
+        OST_TRY(ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions));
+    ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): the pressure is an unknown of its own",
+            OST_NEARLY_INCOMPRESSIBLE);
+    return ost_field_mixed(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
+}
+
+static OstStatus refuse_incompressible(const OstScene *scene, int region)
+{
+    const OstMesh *mesh = scene->mesh;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "%s: region '%.80s' has nu = 1/2, an incompressible material, which only the mixed form of "
+                     "quadratic tets can compute, and it is off: %s. Set %s, or nu = 0.4999",
+                     scene->c->path, mesh->regions.name[region],
+                     ost_effect_state(&scene->plan.effects, OST_EFFECT_MIXED)->reason,
+                     mesh->nodes_per_tet == 4 ? "element: {order: 2}" : "large_rotation: off");
+}
+
 /* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
- * use the mean dilatation of each tet, which prevents it. */
+ * have a mixed form, or use the mean dilatation of each tet, which prevents it. */
 static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
     int regions = 0;
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED))
+        return use_mixed_form(scene);
+    if (find_incompressible(scene->field) >= 0)
+        return refuse_incompressible(scene, find_incompressible(scene->field));
     for (int r = 0; r < scene->field->region_count; r++) {
         double eigenvalues[3] = {1.0, 1.0, 1.0};
         if (ost_orthotropic_eigenvalues(scene->ctx, &scene->field->material[r].constants, eigenvalues) == OST_SUCCESS)

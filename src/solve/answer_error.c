@@ -79,6 +79,8 @@ done:
 OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result)
 {
     OstEstimate *estimate = NULL;
+    if (analysis->problem->pressures) /* of a mixed form it is not known */
+        return OST_SUCCESS;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
     OST_THEN(estimate_tets(analysis, estimate, t, result));

@@ -23,6 +23,8 @@ static void release(OstAnalysis *analysis)
     ost_stiffness_solver_release(&linear->stiffness);
     OST_FREE(linear->rhs);
     OST_FREE(linear->v);
+    OST_FREE(linear->volume);
+    OST_FREE(linear->pressure);
     OST_FREE(analysis->work);
 }
 
@@ -39,6 +41,10 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &linear->rhs, unknowns);
     OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
+    if (problem->pressures) {
+        OST_THEN(OST_NEW(ctx, &linear->volume, problem->pressures->owned));
+        OST_THEN(OST_NEW(ctx, &linear->pressure, problem->pressures->count));
+    }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
     return ost_guard_stiffness(problem, linear->stiffness.rows.modes, &linear->rigid_motion, before);
@@ -51,6 +57,8 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
+    if (linear->volume)
+        OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
     return ost_guard_load(problem, 0, linear->rhs, before);
 }
 
@@ -80,6 +88,17 @@ static int take_start(const OstAnalysis *analysis)
     return analysis->start != NULL;
 }
 
+/* By the solver, of the right-hand side that is there. */
+static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *report)
+{
+    OstLinear *linear = analysis->work;
+    OstSolver *solver = linear->stiffness.solver;
+    if (!linear->volume)
+        return ost_solver_solve(solver, linear->rhs, linear->v, report);
+    const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
+    return ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
@@ -88,11 +107,13 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     const int before = goes_on ? result->solve.iterations : 0;
     const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){.stop = stop, .goes_on = goes_on});
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
+    const OstStatus solved = solve_equations(analysis, &result->solve);
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){0});
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
+    if (linear->volume)
+        OST_TRY(ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure));
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (result->reached && problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
@@ -153,15 +174,16 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     OstErrors errors = {0};
-    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
+    const int may_stop =
+        !linear->volume && analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved =
-        may_stop ? stop_early(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
+    const OstStatus solved = may_stop ? stop_early(analysis, result, &errors)
+                                      : run_solver(analysis, NULL, !linear->volume && take_start(analysis), result);
     if (!result->reached)
         return solved;
-    if (solved == OST_SUCCESS && !result->solve.stopped)
+    if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
         OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
     solved_for->errors = errors;
@@ -187,7 +209,7 @@ OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *
     OstLinear *linear = analysis->work;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, report);
+    const OstStatus solved = solve_equations(analysis, report);
     if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
         return solved;
     OST_TRY(ost_problem_function_displacement(problem, function, linear->v, displacement));

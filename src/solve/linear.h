@@ -10,6 +10,7 @@
 typedef struct OstLinear {
     OstStiffnessSolver stiffness; /* its solver is made by the first solve */
     double *rhs, *v;              /* 3 × rows */
+    double *volume, *pressure;    /* of a mixed form: right-hand side and pressures, ghosts included; else NULL */
     double rigid_motion;
 } OstLinear;
 
