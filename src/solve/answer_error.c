@@ -79,10 +79,10 @@ done:
 OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result)
 {
     OstEstimate *estimate = NULL;
-    if (analysis->problem->pressures) /* of a mixed form it is not known */
-        return OST_SUCCESS;
+    OstProblem state = *analysis->problem; /* with the answer's pressure, if it has one */
+    state.field = result->field;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
+    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(&state, &estimate);
     OST_THEN(estimate_tets(analysis, estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
