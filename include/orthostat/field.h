@@ -41,7 +41,8 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
  * its own, p, continuous in each region and linear in each tet: m'strain = looseness p. (Taylor and Hood's pair: stable
  * whatever the mesh, where one pressure a tet is not.) Regions are taken as by ost_field_mean_dilatation, and of
  * quadratic tets alone; linear tets see the rest, as the coarse space of quadratic ones. Returns in `regions` how many
- * were taken. OST_EFFECT_MIXED. */
+ * were taken. Unless a region is
+ * incompressible, the field keeps what the mean dilatation needs beside it, for Newton's method. OST_EFFECT_MIXED. */
 OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions);
 
 /* Local. Eigenstrains: what the material would strain by if nothing held it, as by swelling, heat or the contraction of

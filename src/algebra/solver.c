@@ -402,7 +402,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
     if (solver->saddle)
-        OST_TRY(ost_saddle_goal(solver->saddle, f, solver->plan.options.relative_residual, &goal));
+        OST_TRY(ost_saddle_goal(solver->matrix, solver->saddle, f, solver->plan.options.relative_residual, &goal));
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;

@@ -75,6 +75,8 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "no material is nearly incompressible";
     if (!f->quadratic)
         return "linear tets cannot use it";
+    if (f->without >> (OST_EFFECT_MIXED - OST_EFFECT_FIRST) & 1U)
+        return "left out";
     if (f->mixed == 0)
         return "the case says so: element: {mixed: off}";
     if (f->large_rotation == 2 && !f->free_body)
@@ -86,18 +88,18 @@ static const char *why_not_mixed(const OstEffectFacts *f)
 
 int ost_effects_mixed(const OstEffectFacts *facts)
 {
-    return why_not_mixed(facts) == NULL && !(facts->without >> (OST_EFFECT_MIXED - OST_EFFECT_FIRST) & 1U);
+    return why_not_mixed(facts) == NULL;
 }
 
-/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; vectors;
- * the pressures of each tet. */
+/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; the
+ * pressures of each tet. */
 static void mixed(const OstEffectFacts *f, OstEffectState *state)
 {
     const char *why = why_not_mixed(f);
     if (why)
         off(state, why);
     else
-        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 100.0) * f->vertices + (200.0 + 12.0) * f->nodes + 48.0 * f->tets,
+        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
            "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
            f->nearly_incompressible, f->materials);
 }

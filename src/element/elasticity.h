@@ -57,6 +57,7 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
 {
     elasticity->region = -1;
     elasticity->varying = 0;
+    elasticity->mixed = 0;
     elasticity->stretch_suffices = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;

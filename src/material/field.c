@@ -320,8 +320,8 @@ static OstStatus make_room(OstContext *ctx, int regions, OstSplit *split)
     return OST_NEW(ctx, &split->looseness, regions);
 }
 
-static OstStatus split_region(OstMaterialField *field, int region, OstSplitForm form, double nu_limit, OstSplit *split,
-                              int *found)
+static OstStatus split_region(const OstMaterialField *field, int region, OstSplitForm form, double nu_limit,
+                              OstSplit *split, int *found)
 {
     const OstMaterial *material = &field->material[region];
     double *mode = split->stiff_mode + 3 * region, *rest = split->rest + 36 * region;
@@ -335,11 +335,10 @@ static OstStatus split_region(OstMaterialField *field, int region, OstSplitForm 
                      material->name);
 }
 
-static OstStatus take_split(OstMaterialField *field, OstSplitForm form, OstEffect effect, double nu_limit, int *regions)
+static OstStatus split_regions(OstMaterialField *field, OstSplitForm form, double nu_limit, int *regions)
 {
     OstSplit *split = form == OST_SPLIT_MIXED ? &field->mixed : &field->mean;
     *regions = 0;
-    ost_ledger_enter(field->ctx, effect);
     OstStatus status = make_room(field->ctx, field->region_count, split);
     for (int r = 0; r < field->region_count && status == OST_SUCCESS; r++) {
         int found = 0;
@@ -349,18 +348,35 @@ static OstStatus take_split(OstMaterialField *field, OstSplitForm form, OstEffec
     if (status != OST_SUCCESS || *regions == 0)
         forget_split(split);
     field->form = split->stiff_mode ? form : OST_SPLIT_NOT;
-    ost_ledger_leave(field->ctx);
     return status;
 }
 
 OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions)
 {
-    return take_split(field, OST_SPLIT_MEAN, OST_EFFECT_MEAN_DILATATION, nu_limit, regions);
+    ost_ledger_enter(field->ctx, OST_EFFECT_MEAN_DILATATION);
+    const OstStatus status = split_regions(field, OST_SPLIT_MEAN, nu_limit, regions);
+    ost_ledger_leave(field->ctx);
+    return status;
+}
+
+int ost_field_incompressible(const OstMaterialField *field)
+{
+    int r = 0;
+    while (r < field->region_count && !field->material[r].incompressible)
+        r++;
+    return r < field->region_count ? r : -1;
 }
 
 OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions)
 {
-    return take_split(field, OST_SPLIT_MIXED, OST_EFFECT_MIXED, nu_limit, regions);
+    OstStatus status = OST_SUCCESS;
+    ost_ledger_enter(field->ctx, OST_EFFECT_MIXED);
+    if (ost_field_incompressible(field) < 0)
+        status = split_regions(field, OST_SPLIT_MEAN, nu_limit, regions);
+    if (status == OST_SUCCESS)
+        status = split_regions(field, OST_SPLIT_MIXED, nu_limit, regions);
+    ost_ledger_leave(field->ctx);
+    return status;
 }
 
 double ost_field_giving_way(const OstMaterialField *field, int32_t region)

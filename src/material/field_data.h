@@ -42,6 +42,9 @@ struct OstMaterialField {
     double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
 
+/* Local. The first region that is incompressible (nu = 1/2), or -1. */
+int ost_field_incompressible(const OstMaterialField *field);
+
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);
 

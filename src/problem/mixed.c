@@ -14,7 +14,7 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(ost_problem_function_displacement(problem, function, none, prescribed));
     ost_ledger_enter(problem->ctx, OST_EFFECT_MIXED);
-    status = ost_pressure_volume(problem->pressures, problem->field, share, prescribed, g);
+    status = ost_pressure_volume(problem->pressures, problem->field, share, prescribed, g, NULL);
     ost_ledger_leave(problem->ctx);
     for (OstLocal i = 0; i < problem->pressures->owned; i++)
         g[i] = -g[i];
@@ -52,12 +52,12 @@ void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, O
 OstStatus ost_problem_leave_mixed(OstProblem *problem)
 {
     const OstMaterialField *field = problem->field;
-    for (int r = 0; r < field->region_count; r++)
-        if (field->material[r].incompressible)
-            return OST_RAISE(problem->ctx, OST_INVALID_INPUT,
-                             "material '%s' is incompressible (nu = 1/2), and rotations are large here: Newton's "
-                             "method needs nu below 1/2, as 0.4999; or say large_rotation: off, for linear theory",
-                             field->material[r].name);
+    const int region = ost_field_incompressible(field);
+    if (region >= 0)
+        return OST_RAISE(problem->ctx, OST_INVALID_INPUT,
+                         "material '%s' is incompressible (nu = 1/2), and rotations are large here: Newton's method "
+                         "needs nu below 1/2, as 0.4999; or say large_rotation: off, for linear theory",
+                         field->material[region].name);
     ost_problem_release_stiffness(problem);
     ost_pressure_space_destroy(&problem->pressures);
     problem->dilated = *field;

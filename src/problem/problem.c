@@ -75,13 +75,13 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, const double *dis
 /* nu = 1/2 leaves linear tets, and quadratic ones without pressures, no stiffness. */
 static OstStatus check_incompressible(const OstMesh *mesh, const OstMaterialField *field)
 {
-    for (int r = 0; r < field->region_count; r++)
-        if (field->material[r].incompressible && !(ost_field_is_mixed(field) && mesh->nodes_per_tet == 10))
-            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
-                             "material '%s' is incompressible (nu = 1/2): it needs quadratic tets and the mixed form "
-                             "(ost_field_mixed)",
-                             field->material[r].name);
-    return OST_SUCCESS;
+    const int region = ost_field_incompressible(field);
+    if (region < 0 || (ost_field_is_mixed(field) && mesh->nodes_per_tet == 10))
+        return OST_SUCCESS;
+    return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                     "material '%s' is incompressible (nu = 1/2): it needs quadratic tets and the mixed form "
+                     "(ost_field_mixed)",
+                     field->material[region].name);
 }
 
 /* Without supports and facts, with room for loads on `nodes` nodes. */

@@ -113,26 +113,6 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return status;
 }
 
-/* The first region with nu = 1/2, or -1. */
-static int find_incompressible(const OstMaterialField *field)
-{
-    int r = 0;
-    while (r < field->region_count && !field->material[r].incompressible)
-        r++;
-    return r < field->region_count ? r : -1;
-}
-
-/* Beside the mixed form there is the mean dilatation, for Newton's method, which may turn out to be needed. */
-static OstStatus use_mixed_form(OstScene *scene)
-{
-    int regions = 0;
-    if (find_incompressible(scene->field) < 0 && ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION))
-        OST_TRY(ost_field_mean_dilatation(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions));
-    ost_log(scene->ctx, OST_LOG_VERBOSE, "nearly incompressible (nu above %g): the pressure is an unknown of its own",
-            OST_NEARLY_INCOMPRESSIBLE);
-    return ost_field_mixed(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
-}
-
 static OstStatus refuse_incompressible(const OstScene *scene, int region)
 {
     const OstMesh *mesh = scene->mesh;
@@ -149,10 +129,14 @@ static OstStatus refuse_incompressible(const OstScene *scene, int region)
 static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
     int regions = 0;
-    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED))
-        return use_mixed_form(scene);
-    if (find_incompressible(scene->field) >= 0)
-        return refuse_incompressible(scene, find_incompressible(scene->field));
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED)) {
+        ost_log(scene->ctx, OST_LOG_VERBOSE,
+                "nearly incompressible (nu above %g): the pressure is an unknown of its own",
+                OST_NEARLY_INCOMPRESSIBLE);
+        return ost_field_mixed(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
+    }
+    if (ost_field_incompressible(scene->field) >= 0)
+        return refuse_incompressible(scene, ost_field_incompressible(scene->field));
     for (int r = 0; r < scene->field->region_count; r++) {
         double eigenvalues[3] = {1.0, 1.0, 1.0};
         if (ost_orthotropic_eigenvalues(scene->ctx, &scene->field->material[r].constants, eigenvalues) == OST_SUCCESS)

@@ -57,21 +57,27 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
-    if (linear->volume)
+    if (linear->volume) {
         OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
+        OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));
+    }
     return ost_guard_load(problem, 0, linear->rhs, before);
 }
 
-static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t unknowns, OstSolvedFor *solved_for)
+static OstStatus describe_rhs(const OstProblem *problem, const OstLinear *linear, OstSolvedFor *solved_for)
 {
+    const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
     double sums[2] = {0.0};
     for (size_t i = 0; i < unknowns; i++) {
         sums[0] += linear->rhs[i] * linear->rhs[i];
         sums[1] += linear->rhs[i] * linear->v[i];
     }
-    OST_TRY(ost_sum(ctx, 2, sums));
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
     *solved_for = (OstSolvedFor){.norm = sqrt(sums[0]), .work = sums[1]};
-    return OST_SUCCESS;
+    if (!linear->volume)
+        return OST_SUCCESS;
+    const OstSaddle saddle = {problem->coupling, linear->volume, linear->pressure};
+    return ost_saddle_size(problem->system->matrix, &saddle, linear->rhs, &solved_for->norm);
 }
 
 /* Takes the unknowns of the displacement to start from, if there is one. */
@@ -88,6 +94,27 @@ static int take_start(const OstAnalysis *analysis)
     return analysis->start != NULL;
 }
 
+/* Takes the mean off the pressures of incompressible material, which nothing determines. */
+static OstStatus centre_pressure(const OstCoupling *coupling, double *pressure)
+{
+    double *mass = NULL, sums[2] = {0.0};
+    OST_TRY(
+        ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &mass, (size_t)coupling->columns + (size_t)coupling->rows)));
+    double *ones = mass + coupling->rows;
+    for (OstLocal i = 0; i < coupling->rows; i++)
+        ones[i] = coupling->looseness[i] == 0.0;
+    OstStatus status = ost_coupling_mass(coupling, ones, mass);
+    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++) {
+        sums[0] += ones[i] * mass[i];
+        sums[1] += pressure[i] * mass[i];
+    }
+    OST_THEN(ost_sum(coupling->ctx, 2, sums));
+    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++)
+        pressure[i] -= ones[i] * sums[1] / sums[0];
+    OST_FREE(mass);
+    return status;
+}
+
 /* By the solver, of the right-hand side that is there. */
 static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *report)
 {
@@ -96,7 +123,10 @@ static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *re
     if (!linear->volume)
         return ost_solver_solve(solver, linear->rhs, linear->v, report);
     const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
-    return ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
+    const OstStatus solved = ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
+    if (linear->enclosed)
+        OST_TRY(centre_pressure(saddle.coupling, linear->pressure));
+    return solved;
 }
 
 /* Solves from 0 or, to go on, from linear->v. */
@@ -185,7 +215,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
         return solved;
     if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
         OST_TRY(find_errors(analysis, result, 0, &errors));
-    OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
+    OST_TRY(describe_rhs(problem, linear, solved_for));
     solved_for->errors = errors;
     return solved;
 }

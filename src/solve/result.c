@@ -20,8 +20,11 @@ OstStatus ost_result_create(const OstProblem *problem, OstResult **result)
         made->field = ost_problem_field(problem);
         made->t = 1.0;
         status = OST_NEW(ctx, &made->displacement, 3 * (size_t)mesh->node_count);
-        if (problem->pressures)
+        if (problem->pressures) {
+            ost_ledger_enter(ctx, OST_EFFECT_MIXED);
             OST_THEN(OST_NEW(ctx, &made->pressure, 4 * (size_t)mesh->tet_count));
+            ost_ledger_leave(ctx);
+        }
     }
     status = ost_agree(ctx, status);
     if (status != OST_SUCCESS)

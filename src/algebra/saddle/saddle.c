@@ -49,6 +49,7 @@ typedef struct Run {
     double tau;
     double size; /* of r.u when z.u was last computed */
     double weight;
+    double energy; /* of the right-hand sides, about */
     OstLanczos lanczos;
 } Run;
 
@@ -81,32 +82,78 @@ static void destroy(Run *run)
 
 /* --- norms --- */
 
-/* The norm of a residual as forces; `q` and `work` are work space of pressures, `force` of displacements. */
-static OstStatus norm_of(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
-                         double *force, double *norm)
+/* Squares of a residual: of its forces, and of the energy of its error of volume. */
+enum { FORCE, VOLUME, SQUARES };
+
+/* `q` and `work` are work space of pressures, `force` of displacements. */
+static OstStatus squares_of(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
+                            double *force, double squares[SQUARES])
 {
     const size_t n = 3 * (size_t)coupling->unknowns;
     OST_TRY(ost_coupling_schur_solve(coupling, r_p, q, work));
     OST_TRY(ost_coupling_transpose(coupling, q, force));
-    double square = ost_dot(n, r_u, r_u) + ost_dot(n, force, force);
-    OST_TRY(ost_sum(coupling->ctx, 1, &square));
-    *norm = sqrt(square);
+    squares[FORCE] = ost_dot(n, r_u, r_u) + ost_dot(n, force, force);
+    squares[VOLUME] = ost_dot((size_t)coupling->rows, r_p, q);
+    return ost_sum(coupling->ctx, SQUARES, squares);
+}
+
+static OstStatus mean_diagonal(const OstBlockMatrix *matrix, double *mean)
+{
+    *mean = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
+        *mean += block[0] + block[4] + block[8];
+    }
+    OST_TRY(ost_sum(matrix->ctx, 1, mean));
+    *mean /= 3.0 * (double)matrix->global_rows;
     return OST_SUCCESS;
 }
 
-OstStatus ost_saddle_goal(const OstSaddle *saddle, const double *f, double relative, OstGoal *goal)
+OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double *size)
 {
     const OstCoupling *coupling = saddle->coupling;
     const size_t n = 3 * (size_t)coupling->unknowns, m = (size_t)coupling->rows, mg = (size_t)coupling->columns;
-    double *memory = NULL;
+    double *memory = NULL, squares[SQUARES], mean;
     OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &memory, n + mg + 3 * m)));
-    OstStatus status = norm_of(coupling, f, saddle->g, memory + n, memory + n + mg, memory, &goal->start);
+    OstStatus status = squares_of(coupling, f, saddle->g, memory + n, memory + n + mg, memory, squares);
+    OST_THEN(mean_diagonal(matrix, &mean));
+    if (status == OST_SUCCESS)
+        *size = sqrt(squares[FORCE] + mean * squares[VOLUME]);
+    OST_FREE(memory);
+    return status;
+}
+
+OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double relative,
+                          OstGoal *goal)
+{
+    OST_TRY(ost_saddle_size(matrix, saddle, f, &goal->start));
     goal->norm = goal->start;
     goal->target = relative * goal->start;
-    OST_FREE(memory);
-    if (status == OST_SUCCESS && !isfinite(goal->start))
-        status = OST_RAISE(coupling->ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
-    return status;
+    if (isfinite(goal->start))
+        return OST_SUCCESS;
+    return OST_RAISE(goal->ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
+}
+
+/* The norm of the residual at hand. */
+static OstStatus find_norm(Run *run, double *norm)
+{
+    double squares[SQUARES];
+    OST_TRY(squares_of(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, squares));
+    *norm = sqrt(squares[FORCE] + run->goal->start * run->goal->start / run->energy * squares[VOLUME]);
+    return OST_SUCCESS;
+}
+
+/* About twice the energy of the solution: f·A^-1 f + g·S^-1 g. */
+static OstStatus find_energy(Run *run)
+{
+    double sums[2];
+    OST_TRY(ost_precondition(run->system, run->preconditioner, run->f, run->scaled, run->w));
+    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->saddle->g, run->q, run->work));
+    sums[0] = ost_dot(run->n, run->f, run->w);
+    sums[1] = ost_dot(run->m, run->saddle->g, run->q);
+    OST_TRY(ost_sum(run->ctx, 2, sums));
+    run->energy = sums[0] + sums[1];
+    return OST_SUCCESS;
 }
 
 /* --- one iteration --- */
@@ -133,7 +180,7 @@ static OstStatus find_residual(Run *run)
     OST_TRY(ost_coupling_give_way(coupling, run->saddle->p, run->work));
     for (size_t i = 0; i < run->m; i++)
         run->r.p[i] = run->saddle->g[i] - run->r.p[i] + run->work[i];
-    return norm_of(coupling, run->r.u, run->r.p, run->q, run->work, run->w, &run->goal->norm);
+    return find_norm(run, &run->goal->norm);
 }
 
 /* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N proves not to be positive definite
@@ -222,11 +269,6 @@ static OstStatus renew(Run *run, int due)
     return precondition(run, run->r.u, run->z.u);
 }
 
-static int is_positive(OstGoal *goal, double value)
-{
-    return ost_goal_accepts(goal, value);
-}
-
 /* A pass, from the residual at hand. */
 static OstStatus iterate(Run *run)
 {
@@ -236,17 +278,17 @@ static OstStatus iterate(Run *run)
     OST_TRY(renew(run, 1));
     for (int first = 1;; first = 0) {
         OST_TRY(complete(run, &again));
-        if (!is_positive(goal, run->weight))
+        if (!ost_goal_accepts(goal, run->weight))
             return OST_SUCCESS;
         if (again)
             run->lanczos.count = 0; /* of another operator */
         OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
-        if (!is_positive(goal, curvature))
+        if (!ost_goal_accepts(goal, curvature))
             return OST_SUCCESS;
         before = run->weight;
         ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
         step(run, run->weight / curvature);
-        OST_TRY(norm_of(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, &norm));
+        OST_TRY(find_norm(run, &norm));
         if (!ost_goal_count(goal, norm, run->weight))
             return OST_SUCCESS;
         OST_TRY(renew(run, 0));
@@ -290,6 +332,9 @@ static OstStatus run_passes(Run *run)
 {
     OstGoal *goal = run->goal;
     int stalls = 0;
+    OST_TRY(find_energy(run));
+    if (!ost_goal_accepts(goal, run->energy))
+        return OST_SUCCESS;
     OST_TRY(find_residual(run));
     ost_convergence_start(&goal->convergence, goal->norm);
     while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS) {

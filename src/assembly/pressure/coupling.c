@@ -221,8 +221,24 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
     return status;
 }
 
+/* What one vertex's share has of a batch: of the second equation, and of the mass. */
+static void find_share(const OstBatch *batch, const TetCoupling *of_tets, int v, const OstSimd *u, OstSimd *volume,
+                       OstSimd *mass)
+{
+    const OstSimd *columns = of_tets->columns + 3 * NODES * v;
+    *volume = -of_tets->eigen[v];
+    *mass = (OstSimd){0};
+    for (int n = 3; n < 3 * NODES; n++)
+        *volume += columns[n] * (u[n] - u[n % 3]);
+    for (int w = 0; w < VERTICES; w++) {
+        const OstSimd *pair = &of_tets->mass[v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v)];
+        *mass += *pair;
+        *volume -= batch->elasticity.looseness * *pair * batch->elasticity.pressure[w];
+    }
+}
+
 OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, double share,
-                              const double *u, double *volume)
+                              const double *u, double *volume, double *mass)
 {
     const OstMesh *mesh = space->mesh;
     const OstElement *element = ost_element_of(NODES);
@@ -230,6 +246,8 @@ OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialFi
     TetCoupling of_tets;
     OstSimd displacement[3 * NODES];
     memset(volume, 0, (size_t)space->owned * sizeof *volume);
+    if (mass)
+        memset(mass, 0, (size_t)space->owned * sizeof *mass);
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = share;
     for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
@@ -239,13 +257,15 @@ OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialFi
         ost_batch_gather_vectors(&batch, NODES, u, displacement);
         element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
         for (int v = 0; v < VERTICES; v++) {
-            OstSimd sum = -of_tets.eigen[v];
-            for (int n = 3; n < 3 * NODES; n++)
-                sum += of_tets.columns[3 * NODES * v + n] * (displacement[n] - displacement[n % 3]);
+            OstSimd of_volume, of_mass;
+            find_share(&batch, &of_tets, v, displacement, &of_volume, &of_mass);
             for (int slot = 0; slot < batch.count; slot++) {
                 const OstLocal row = space->of_tet[VERTICES * (size_t)batch.tet[slot] + (size_t)v];
-                if (row >= 0 && row < space->owned)
-                    volume[row] += sum[slot];
+                if (row < 0 || row >= space->owned)
+                    continue;
+                volume[row] += of_volume[slot];
+                if (mass)
+                    mass[row] += of_mass[slot];
             }
         }
     }

@@ -27,10 +27,11 @@ void ost_pressure_space_destroy(OstPressureSpace **space);
 OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
                                 OstCoupling **coupling);
 
-/* Local. For each owned pressure the integral of its share of m'(strain of u - share × e0), tet by tet without the
- * coupling; u is 3 × node_count, `volume` has `owned` numbers. */
+/* Local. For each owned pressure the integral of its share of m'(strain of u - share × e0) - looseness p, tet by tet
+ * without the coupling, with p the field's pressure; u is 3 × node_count, `volume` has `owned` numbers, and so has `mass`
+ * (or NULL): the integral of the share alone. */
 OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, double share,
-                              const double *u, double *volume);
+                              const double *u, double *volume, double *mass);
 
 /* Collective over neighbours. Gives each tet the pressures of its vertices (OstMaterialField.pressure): `pressure` has
  * `count` numbers, whose ghosts are set here. */
