@@ -4,10 +4,34 @@ include(CMakePackageConfigHelpers)
 install(TARGETS orthostat EXPORT OrthostatTargets)
 if(TARGET orthostat_program)
   install(TARGETS orthostat_program)
-  install(PROGRAMS scripts/plot-cost scripts/plot-effects scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(PROGRAMS scripts/plot-cost scripts/plot-effects scripts/plot-mesh scripts/plot-scale scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
   install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(CODE "execute_process(COMMAND \"${CMAKE_CURRENT_SOURCE_DIR}/scripts/help-files\" \"$<TARGET_FILE:orthostat_program>\"
+                  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\" RESULT_VARIABLE failed)
+    if(failed)
+      message(WARNING \"Without man pages and completion of bash: scripts/help-files failed\")
+    endif()")
 endif()
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY include/orthostat DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# Python looks for packages in lib/python3/dist-packages of /usr, and in lib/python3.X/dist-packages of /usr/local; of other
+# prefixes it is told by PYTHONPATH. Which it is, is known when it is installed.
+if(orthostat_python)
+  install(CODE "set(orthostat_python_version ${orthostat_python_version})
+    set(orthostat_python_made \"${CMAKE_BINARY_DIR}/python\")")
+  install(CODE [[
+    set(folder "lib/python3/dist-packages/orthostat")
+    if(CMAKE_INSTALL_PREFIX STREQUAL "/usr/local")
+      set(folder "lib/python${orthostat_python_version}/dist-packages/orthostat")
+    endif()
+    file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}" TYPE DIRECTORY FILES "${orthostat_python_made}/orthostat/"
+         FILES_MATCHING PATTERN "*.py" PATTERN "_location.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+    file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}" TYPE FILE FILES
+         "${orthostat_python_made}/installed/_location.py")
+  ]])
+endif()
 
 set(orthostat_cmake_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Orthostat")
 install(EXPORT OrthostatTargets NAMESPACE Orthostat:: DESTINATION ${orthostat_cmake_folder})

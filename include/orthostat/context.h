@@ -24,6 +24,15 @@ typedef enum { OST_LOG_QUIET, OST_LOG_NORMAL, OST_LOG_VERBOSE } OstLogLevel;
 OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx);
 void ost_context_destroy(OstContext **ctx);
 
+/* Collective. The same for callers in other languages, who have no MPI_Comm to pass: of the communicator that Fortran
+ * knows by this number (MPI_Comm_c2f; mpi4py: comm.py2f()); and on all processes, MPI being started if nobody has done
+ * so yet. */
+OstStatus ost_context_create_by_number(int comm, OstContext **ctx);
+OstStatus ost_context_create_on_all(OstContext **ctx);
+
+/* Collective. Ends MPI if ost_context_create_on_all started it and it still runs; contexts are destroyed before. */
+void ost_end_mpi(void);
+
 /* Local. The communicator, this process's rank in it, and the number of ranks. */
 MPI_Comm ost_comm(const OstContext *ctx);
 int ost_rank(const OstContext *ctx);
@@ -38,6 +47,11 @@ const char *ost_error_origin(const OstContext *ctx);
 
 /* Collective. Every rank passes its own status; all return the one of the lowest rank that failed, with its text. */
 OstStatus ost_agree(OstContext *ctx, OstStatus status);
+
+/* Collective. Gives every rank the items of all ranks (`count` here, of `size` bytes), in the order of ranks: *total
+ * items in *all, which the caller frees by ost_free_memory. Raises OST_LIMIT_EXCEEDED if there are more than 2^31 - 1.
+ */
+OstStatus ost_gather(OstContext *ctx, size_t size, const void *items, OstLocal count, void **all, OstLocal *total);
 
 /* Local; rank 0 prints to standard error, the others are silent. Progress shows only on a terminal; fraction in [0, 1],
  * or negative to erase the line. */

@@ -37,12 +37,24 @@ typedef enum {
 /* An OstPhase or an OstEffect. */
 typedef int OstAccount;
 
+/* What a rank computed and sent: counts, which do not depend on the machine. */
+typedef struct OstWork {
+    double multiplied; /* entries of matrices (stiffness, levels, prolongators, smoothers) that were multiplied */
+    double exchanges;  /* rounds of messages between neighbours */
+    double messages;   /* sent to neighbours, and their bytes */
+    double bytes;
+    double reductions; /* sums, maxima and agreements over all ranks */
+    double gathers;    /* collections of something from all ranks, and the bytes that arrived */
+    double gathered;
+    double visits; /* of a level of multigrid */
+} OstWork;
+
 typedef struct OstLedgerEntry {
     double seconds;    /* exclusive of the accounts entered within */
     long entries;      /* how often the account was entered from another one */
     size_t bytes;      /* held now */
     size_t peak_bytes; /* the most held at any time */
-    double multiplied; /* entries of matrices (stiffness, levels, prolongators, smoothers) that were multiplied */
+    OstWork work;
 } OstLedgerEntry;
 
 struct OstContext;
@@ -58,6 +70,23 @@ void ost_ledger_leave(struct OstContext *ctx);
 
 /* Local. Books so many multiplied entries of a matrix to the innermost account. */
 void ost_ledger_multiplied(struct OstContext *ctx, double entries);
+
+/* Local. Books a round of messages to neighbours, reductions over all ranks, or bytes gathered from all ranks, to the
+ * innermost account. */
+void ost_ledger_sent(struct OstContext *ctx, int messages, double bytes);
+void ost_ledger_reduced(struct OstContext *ctx, int times);
+void ost_ledger_gathered(struct OstContext *ctx, double bytes);
+
+/* Local. Until the next call all work of the solve is booked to this level of multigrid too (the finest is 0); -1: to
+ * none. */
+enum { OST_LEDGER_LEVELS = 16 };
+void ost_ledger_level(struct OstContext *ctx, int level);
+void ost_ledger_visited(struct OstContext *ctx);
+OstWork ost_ledger_level_work(const struct OstContext *ctx, int level);
+
+/* Local. Forgets the work booked so far, of all accounts and levels. For counting one of several runs in one context.
+ */
+void ost_ledger_forget_work(struct OstContext *ctx);
 
 /* Local. What this rank booked so far; running clocks are brought up to date first. */
 OstLedgerEntry ost_ledger_entry(struct OstContext *ctx, OstAccount account);

@@ -17,6 +17,7 @@
  *
  * Units are the user's, consistently: with mm and N, moduli and stresses are in MPa. */
 
+#include "orthostat/adaption.h"
 #include "orthostat/analysis.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -27,6 +28,7 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"
+#include "orthostat/output_field.h"
 #include "orthostat/path.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
@@ -35,5 +37,6 @@
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
 #include "orthostat/time_table.h"
+#include "orthostat/watch.h"
 
 #endif

@@ -53,11 +53,15 @@ typedef struct OstSolverOptions {
 /* What can be seen of a system before it is solved; 0 where it is not known. */
 typedef struct OstSolverFacts {
     OstGlobal unknowns;
-    double anisotropy;  /* largest ratio of Young's moduli at one place */
-    double poisson;     /* largest over the materials, of a stable family that resists a change of volume as much */
-    double contrast;    /* largest over smallest Young's modulus of the body */
-    double quality;     /* of the worst tet (ost_tet_quality: 1 regular, 0 flat) */
-    double free_memory; /* bytes, over the machines of all ranks */
+    double anisotropy;   /* largest ratio of Young's moduli at one place */
+    double poisson;      /* largest over the materials, of a stable family that resists a change of volume as much */
+    double contrast;     /* largest over smallest Young's modulus of the body */
+    double quality;      /* of the worst tet (ost_tet_quality: 1 regular, 0 flat) */
+    double free_memory;  /* bytes, over the machines of all ranks */
+    double thickness;    /* of quadratic tets: nodes across the body, by its volume over its surface; else 0 */
+    double misalignment; /* how far edges are from the stiff directions (ost_metric_graph_misalignment): 1 along them */
+    int stops_early;     /* may iterations end where the mesh's error is larger? */
+    int repeated;        /* are many stiffnesses solved with, for which a hierarchy can be kept and factors cannot? */
 } OstSolverFacts;
 
 enum { OST_PLAN_REASONS = 8 };

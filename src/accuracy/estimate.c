@@ -47,6 +47,14 @@ static OstStatus create(OstEstimate *estimate)
     return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
 }
 
+OstStatus ost_estimate_take_loading(OstEstimate *estimate)
+{
+    if (!estimate->problem->scene)
+        return OST_SUCCESS;
+    ost_surplus_loads_clear(&estimate->loads);
+    return ost_surplus_loads_create(estimate->problem, &estimate->complement, &estimate->loads);
+}
+
 /* Takes the stiffness to u. */
 static OstStatus move(OstEstimate *estimate, const double *u)
 {
@@ -118,15 +126,9 @@ static OstStatus dot(const Search *search, const double *a, const double *b, dou
 }
 
 /* The rows' part of forces on nodes. */
-static void take_rows(const Search *search, double *vector)
+static OstStatus take_rows(const Search *search, double *vector)
 {
-    const OstSystem *system = search->estimate->problem->system;
-    for (OstLocal row = 0; row < system->matrix->rows; row++) {
-        const OstLocal node = system->node_of_row[row];
-        double projector[9];
-        ost_supports_get(system->supports, node, projector, NULL);
-        ost_apply3(projector, search->force + 3 * (size_t)node, vector + 3 * (size_t)row);
-    }
+    return ost_system_take_rows(search->estimate->problem->system, search->force, vector);
 }
 
 /* q = A p */
@@ -139,9 +141,8 @@ static OstStatus multiply(Search *search)
     ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, search->u, search->force);
-    take_rows(search, search->q);
     ost_complement_project(&search->estimate->complement, of_functions);
-    return OST_SUCCESS;
+    return take_rows(search, search->q);
 }
 
 /* z = B r */
@@ -250,9 +251,8 @@ static OstStatus find_residual(Search *search, double t, const double *u)
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)
         search->force[i] = own[i] - search->force[i];
     OST_FREE(own);
-    if (status == OST_SUCCESS)
-        take_rows(search, search->r);
-    return ost_agree(problem->ctx, status);
+    status = ost_agree(problem->ctx, status);
+    return status == OST_SUCCESS ? take_rows(search, search->r) : status;
 }
 
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
@@ -320,6 +320,103 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         if (surplus)
             OST_THEN(hand_out(&search, surplus));
     }
+    close_search(&search);
+    return status;
+}
+
+/* --- a quantity of interest --- */
+
+/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
+static OstStatus adjoint_load(Search *search, const OstInterest *interest)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    if (interest->load) {
+        memcpy(search->force, interest->load, numbers * sizeof *search->force);
+    } else {
+        memset(search->p, 0, search->all * sizeof *search->p);
+        ost_operator_apply(&search->estimate->stiffness, interest->moved, search->p + search->rows, search->force,
+                           search->q + search->rows);
+        if (problem->supports->spring)
+            ost_spring_force(problem->supports, -1.0, interest->moved, search->force);
+        for (size_t i = 0; i < numbers; i++)
+            search->force[i] = -search->force[i];
+    }
+    return take_rows(search, search->q);
+}
+
+/* r: what z leaves of the adjoint problem on the functions. */
+static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstComplement *complement = &search->estimate->complement;
+    double *of_functions = search->r + search->rows;
+    OstSolveReport report;
+    OST_TRY(adjoint_load(search, interest));
+    OST_TRY(ost_solver_solve(search->solver, search->q, search->z, &report));
+    OST_TRY(ost_system_displacement(problem->system, 0.0, search->z, search->u));
+    for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)
+        search->u[i] += interest->moved[i];
+    memset(search->p, 0, search->all * sizeof *search->p);
+    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
+    for (size_t k = 0; k < (size_t)complement->count; k++)
+        for (size_t i = 3 * k; i < 3 * k + 3; i++)
+            of_functions[i] = ost_complement_owns(complement, (OstLocal)k) ? -of_functions[i] : 0.0;
+    ost_complement_project(complement, of_functions);
+    return OST_SUCCESS;
+}
+
+/* The work of u's residual on e, the surplus of z. */
+static OstStatus work_on(Search *search, double t, const double *u, double *work)
+{
+    memset(search->r, 0, search->all * sizeof *search->r);
+    OST_TRY(find_residual(search, t, u));
+    OST_TRY(dot(search, search->r, search->e, work));
+    *work *= search->longer;
+    return OST_SUCCESS;
+}
+
+/* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
+static OstStatus share_interest(const Search *search, const double *of_adjoint, double error, double *share)
+{
+    const double least_of_sum = 0.1;
+    const OstProblem *problem = search->estimate->problem;
+    double sum = 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++) {
+        share[tet] = sqrt(fmax(share[tet], 0.0) * fmax(of_adjoint[tet], 0.0));
+        sum += share[tet];
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &sum));
+    const double factor = sum > 0.0 ? fmax(fabs(error) / sum, least_of_sum) : 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        share[tet] *= factor;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                const OstInterest *interest, double *error, double *tet_share)
+{
+    const OstProblem *problem = estimate->problem;
+    Search search = {0};
+    double square = 0.0, *of_adjoint = NULL;
+    *error = NAN;
+    OstStatus status = move(estimate, u);
+    OST_THEN(open_search(estimate, solver, &search));
+    OST_TRY_DONE(ost_agree(
+        problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
+    OST_TRY_DONE(adjoint_residual(&search, interest));
+    memset(search.z, 0, search.all * sizeof *search.z);
+    OST_TRY_DONE(iterate(&search, &square));
+    if (search.failed)
+        goto done;
+    OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));
+    OST_TRY_DONE(share(&search, square, of_adjoint));
+    OST_TRY_DONE(work_on(&search, t, u, error));
+    if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
+        *error = -*error;
+    OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
+done:
+    OST_FREE(of_adjoint);
     close_search(&search);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_ESTIMATE_H
 #define ORTHOSTAT_ACCURACY_ESTIMATE_H
 
+#include "accuracy/interest.h"
 #include "algebra/solver.h"
 #include "problem/problem.h"
 
@@ -20,6 +21,9 @@ typedef struct OstEstimate OstEstimate;
 /* Collective. What is kept between calls for one problem. */
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate);
 
+/* Collective. The problem has got another loading (problem/load_case.h). */
+OstStatus ost_estimate_take_loading(OstEstimate *estimate);
+
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
  * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
  * NULL. surplus: e at the owned nodes (3 numbers each), lengthened by what the steps that were not taken would add; or
@@ -28,6 +32,16 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
  * preconditioner that is positive definite. */
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
                             double *tet_error, double *surplus);
+
+/* Collective. By how much the exact value of a quantity of interest is larger than that of u, by the adjoint problem: z
+ * is the displacement whose load (or given motion) is that of the quantity, e_z its surplus, and the error is the work
+ * of u's residual on e_z (R. Becker and R. Rannacher, An optimal control approach to a posteriori error estimation,
+ * 2001). u solves the problem's equations well. `share`: owned_tets numbers, on entry each tet's share of the squared
+ * error of u in the norm of the energy, as ost_estimate_find has it; then of the quantity's error, where a mesh should
+ * be refined for it. They add up to |error|, or to a tenth of what all tets could add to if their errors had one sign,
+ * if that is more. NAN: not known. Where rotations are large, the adjoint problem is that of the stiffness at u. */
+OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                const OstInterest *interest, double *error, double *share);
 
 void ost_estimate_destroy(OstEstimate **estimate);
 

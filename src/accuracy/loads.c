@@ -7,6 +7,7 @@
 #include "core/small.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
+#include "problem/boundary_conditions.h"
 
 #include <string.h>
 
@@ -46,11 +47,12 @@ static void share_over_face(const OstComplement *complement, const Face *face, c
         add(complement, face->function[k], face->turn[k] * values[k], at_point, force);
 }
 
-/* What acts on faces: a traction, a pressure, or the closed form's stress. */
+/* What acts on faces: a traction, a pressure, what a moment makes there, or the closed form's stress. */
 typedef struct Traction {
     double vector[3];
     double pressure;
     const OstClosedForm *exact;
+    const OstSpread *spread; /* of a moment, or NULL */
 } Traction;
 
 static OstStatus load_face(const OstComplement *complement, const Face *face, const Traction *traction, double *force)
@@ -58,13 +60,16 @@ static OstStatus load_face(const OstComplement *complement, const Face *face, co
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
         double values[OST_MAX_FACE_NODES], place[3], area[3], s[6], at_point[3];
+        double vector[3] = {traction->vector[0], traction->vector[1], traction->vector[2]};
         ost_shape_area_vector(face->node_count, point->at, face->x, area);
+        ost_shape_values(face->node_count, point->at, values);
+        ost_shape_place(face->node_count, values, face->x, place);
+        if (traction->spread)
+            ost_spread_at(traction->spread, place, vector);
         const double weight = 0.5 * point->weight, size = ost_norm3(area);
         for (int i = 0; i < 3; i++)
-            at_point[i] = weight * (size * traction->vector[i] - traction->pressure * area[i]);
+            at_point[i] = weight * (size * vector[i] - traction->pressure * area[i]);
         if (traction->exact) {
-            ost_shape_values(face->node_count, point->at, values);
-            ost_shape_place(face->node_count, values, face->x, place);
             OST_TRY(traction->exact->stress(traction->exact->data, place, s));
             at_point[0] = weight * (s[0] * area[0] + s[3] * area[1] + s[5] * area[2]);
             at_point[1] = weight * (s[3] * area[0] + s[1] * area[1] + s[4] * area[2]);
@@ -123,14 +128,18 @@ static OstStatus add_body_load(const OstScene *scene, const OstComplement *compl
 {
     const OstMesh *mesh = complement->mesh;
     const int region = load->region ? ost_mesh_find_region(mesh, load->region) : -1;
+    OstSpin spin = ost_load_spin(load);
+    const OstClosedForm centrifugal = ost_spin_form(&spin);
+    const OstClosedForm *form = load->kind == OST_LOAD_CENTRIFUGAL ? &centrifugal : load->exact ? scene->exact : NULL;
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
         if (region >= 0 && mesh->tet_region[tet] != region)
             continue;
-        const double density = load->kind == OST_LOAD_GRAVITY ? ost_field_density(scene->field, tet) : 1.0;
+        const double density = load->kind == OST_LOAD_BODY_FORCE ? 1.0 : ost_field_density(scene->field, tet);
         double vector[3];
         for (int i = 0; i < 3; i++)
             vector[i] = density * load->vector[i];
-        OST_TRY(load_tet(complement, tet, vector, load->exact ? scene->exact : NULL, force));
+        spin.density = density;
+        OST_TRY(load_tet(complement, tet, vector, form, force));
     }
     return OST_SUCCESS;
 }
@@ -156,14 +165,30 @@ static OstStatus add_surface_load(const OstScene *scene, const OstComplement *co
     return status;
 }
 
+/* Forces on vertices have no part here. */
+static OstStatus add_moment(const OstScene *scene, const OstComplement *complement, const OstLoad *load, double *force)
+{
+    OstSpread spread;
+    const Traction traction = {.spread = &spread};
+    OstLocal count = 0, *faces = NULL;
+    int on_faces = 0, nodes_per_face = 3;
+    OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &faces, &spread);
+    if (status == OST_SUCCESS && on_faces)
+        status = load_faces(complement, count, nodes_per_face, faces, &traction, force);
+    OST_FREE(faces);
+    return status;
+}
+
 static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, double *force)
 {
     const OstLoad *load = &scene->c->loads[i];
     OstStatus status = OST_SUCCESS;
-    if (scene->load_effect[i] == OST_EFFECT_BODY_FORCE)
+    if (ost_load_in_volume(load->kind))
         status = add_body_load(scene, complement, load, force);
     else if (scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD)
         status = add_surface_load(scene, complement, load, force);
+    else if (scene->load_effect[i] == OST_EFFECT_MOMENT)
+        status = add_moment(scene, complement, load, force);
     return ost_agree(scene->ctx, status);
 }
 

@@ -58,14 +58,27 @@ static OstStatus allowed_growth(const OstAdaption *adaption, double start, doubl
 
 static double error_of(const OstAdaptLevel *level)
 {
-    return level->error.relative;
+    return level->relative_error;
+}
+
+/* The error of a quantity falls like the square of that in the norm of the energy. */
+static double power_of(const OstAdaption *adaption)
+{
+    return adaption->watch ? 2.0 : 1.0;
+}
+
+/* Relative to what the exact value seems to be. */
+static double relative_error(const OstInterestError *interest)
+{
+    const double exact = fabs(interest->value + interest->error);
+    return interest->sum > 0.0 ? interest->sum / fmax(exact, interest->sum) : 0.0;
 }
 
 /* The rate of the last two levels of one order; that of smooth solutions where there are no two. */
 static void foretell(OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    const double smooth = last->order / 3.0;
+    const double smooth = power_of(adaption) * last->order / 3.0;
     adaption->rate = smooth;
     if (adaption->count > 1 && last[-1].order == last->order) {
         const double found =
@@ -84,19 +97,25 @@ static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double
 {
     OstAdaptLevel *level = &adaption->level[adaption->count++];
     const OstResult *result = stage->result;
-    *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
-                             .tets = stage->scene->mesh->global_tets,
-                             .unknowns = result->unknowns,
-                             .error = result->answer,
-                             .strain_energy = result->checks.strain_energy,
-                             .iterations = result->solve.iterations,
-                             .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
+    *level =
+        (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
+                        .tets = stage->scene->mesh->global_tets,
+                        .unknowns = result->unknowns,
+                        .error = result->answer,
+                        .value = result->interest.value,
+                        .off = result->interest.error,
+                        .shares = result->interest.sum,
+                        .relative_error = adaption->watch ? relative_error(&result->interest) : result->answer.relative,
+                        .strain_energy = result->checks.strain_energy,
+                        .iterations = result->solve.iterations,
+                        .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
+    level->error.known &= !adaption->watch || result->interest.watch;
     OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
     OST_TRY(seconds_since(adaption->ctx, start, &level->seconds));
     ost_log(adaption->ctx, OST_LOG_VERBOSE,
-            "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %.2g %% off in energy; %.3f s",
+            "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %.2g %% off in %s; %.3f s",
             adaption->count, level->order, (long long)level->tets, (long long)level->unknowns, level->iterations,
-            100.0 * level->error.relative, level->seconds);
+            100.0 * level->relative_error, adaption->watch ? adaption->watch->name : "energy", level->seconds);
     return OST_SUCCESS;
 }
 
@@ -106,19 +125,19 @@ static int next_order(const OstAdaption *adaption, const OstCase *c)
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     if (c->order != 0 || last->order == 2)
         return last->order;
-    return error_of(last) > linear_is_near * adaption->request ? 2 : 1;
+    return error_of(last) > pow(linear_is_near, power_of(adaption)) * adaption->request ? 2 : 1;
 }
 
-/* What the marks are to reach. The squared error is |e|², of which `relative` is over |u + e|. */
+/* What the marks are to reach: of shares that add up to |e|², or to the error of a quantity. */
 static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    const double error = error_of(last);
-    const double wanted = fmax(aim * adaption->request, error / most_reduction[order]);
-    const double square = last->error.energy_norm * last->error.energy_norm;
+    const double error = error_of(last), power = power_of(adaption);
+    const double wanted = fmax(aim * adaption->request, error / pow(most_reduction[order], power));
+    const double square = adaption->watch ? last->shares : last->error.energy_norm * last->error.energy_norm;
     const double fall = fmin(wanted / error, 1.0);
     return (OstMarking){.order = order,
-                        .target = order == last->order ? square * fall * fall : square,
+                        .target = order == last->order ? square * pow(fall, 2.0 / power) : square,
                         .most_tets = fmin(growth, most_growth) * (double)last->tets};
 }
 
@@ -135,10 +154,7 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
         return OST_SUCCESS;
     OstMarking marking = aim_of(adaption, order, growth);
     OST_TRY(ost_stage_refine(stage, &marking, next));
-    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected with %.2g %% of error, made %lld",
-            marking.expected_tets,
-            100.0 * error_of(&adaption->level[adaption->count - 1]) * sqrt(marking.expected_square) /
-                adaption->level[adaption->count - 1].error.energy_norm,
+    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected, made %lld", marking.expected_tets,
             (long long)next->scene->mesh->global_tets);
     OST_TRY(ost_stage_solve(next));
     return note_level(adaption, next, level_start);
@@ -201,6 +217,7 @@ OstStatus ost_adapt(const OstCase *c, const OstAdaptLimits *limits, OstAdaption 
     OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, adaption, 1)));
     (*adaption)->ctx = c->ctx;
     (*adaption)->request = c->relative_error;
+    (*adaption)->watch = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
     (*adaption)->limits = *limits;
     return adapt(*adaption, c);
 }
@@ -221,4 +238,19 @@ OstScene *ost_adaption_scene(const OstAdaption *adaption)
 OstResult *ost_adaption_result(const OstAdaption *adaption)
 {
     return adaption->stage ? adaption->stage->result : NULL;
+}
+
+OstAdaptEnd ost_adaption_end(const OstAdaption *adaption)
+{
+    return adaption->end;
+}
+
+int ost_adaption_level_count(const OstAdaption *adaption)
+{
+    return adaption->count;
+}
+
+const OstAdaptLevel *ost_adaption_level(const OstAdaption *adaption, int number)
+{
+    return &adaption->level[number];
 }

@@ -2,41 +2,16 @@
 #ifndef ORTHOSTAT_ADAPT_ADAPT_H
 #define ORTHOSTAT_ADAPT_ADAPT_H
 
+#include "orthostat/adaption.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
-/* A case solved to the accuracy that it asks for: solve, estimate the error, refine the tets that have it, carry the
- * answer to the new mesh, and solve from there, until the estimate is met or a limit is reached. */
-
-typedef struct OstAdaptLimits {
-    double seconds; /* of the whole; INFINITY: none */
-    double bytes;   /* of all ranks' processes; INFINITY: none */
-} OstAdaptLimits;
-
-typedef struct OstAdaptLevel {
-    int order;
-    OstGlobal tets, unknowns;
-    OstAnswerError error; /* estimated */
-    double strain_energy;
-    int iterations;
-    double seconds; /* from the refinement to the estimate */
-    double bytes;   /* peak so far, of Orthostat's arrays */
-} OstAdaptLevel;
-
-typedef enum {
-    OST_ADAPT_MET,
-    OST_ADAPT_OUT_OF_TIME,
-    OST_ADAPT_OUT_OF_MEMORY,
-    OST_ADAPT_OUT_OF_LEVELS,
-    OST_ADAPT_NO_ESTIMATE, /* nothing is known of the error of this problem */
-    OST_ADAPT_FAILED       /* a finer mesh could not be made or solved */
-} OstAdaptEnd;
-
 enum { OST_MOST_ADAPT_LEVELS = 40 };
 
-typedef struct OstAdaption {
+struct OstAdaption {
     OstContext *ctx;
-    double request; /* relative error */
+    double request;        /* relative error */
+    const OstWatch *watch; /* of this quantity; NULL: in the norm of the energy */
     OstAdaptLimits limits;
     int count;
     OstAdaptLevel level[OST_MOST_ADAPT_LEVELS];
@@ -45,24 +20,10 @@ typedef struct OstAdaption {
     double rate;                                          /* the error falls as unknowns^-rate, by the last levels */
     double needed_unknowns, needed_seconds, needed_bytes; /* to meet the request, by that rate; 0 if met or not known */
     struct Stage *stage;                                  /* the last level that was solved */
-} OstAdaption;
-
-/* Collective. Solves the case; `c` outlives the adaption. Returns OST_SUCCESS where there is an answer, whether it
- * meets the request or not (`end`). On failure of the first level, the adaption has what there is of it. The caller
- * destroys it in any case. */
-OstStatus ost_adapt(const OstCase *c, const OstAdaptLimits *limits, OstAdaption **adaption);
-void ost_adaption_destroy(OstAdaption **adaption);
-
-/* Local. The finest level's, which live as long as the adaption; NULL if there is none. */
-OstScene *ost_adaption_scene(const OstAdaption *adaption);
-OstResult *ost_adaption_result(const OstAdaption *adaption);
+};
 
 /* Local; rank 0 prints: a line for each level, and how it ended. */
 void ost_adaption_print(const OstAdaption *adaption);
-
-/* Local. How it ended where the request is not met, and what meeting it would take, in words. */
-enum { OST_LONGEST_ADAPT_WORDS = 640 };
-void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAPT_WORDS]);
 
 /* Local. The levels as JSON: the caller's reference. */
 struct json_t;

@@ -52,7 +52,7 @@ void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAP
     snprintf(words + length, (size_t)(OST_LONGEST_ADAPT_WORDS - length),
              ". The answer is about %.2g %% off; as the error fell, with unknowns^-%.2f, meeting it takes about %.2g "
              "unknowns, %.2g s and %.2g GiB more",
-             100.0 * last->error.relative, adaption->rate, adaption->needed_unknowns, adaption->needed_seconds,
+             100.0 * last->relative_error, adaption->rate, adaption->needed_unknowns, adaption->needed_seconds,
              adaption->needed_bytes / 0x1p30);
 }
 
@@ -67,15 +67,16 @@ void ost_adaption_print(const OstAdaption *adaption)
         printf("                   %5d %10lld %10lld %11d", level->order, (long long)level->tets,
                (long long)level->unknowns, level->iterations);
         if (level->error.known)
-            printf(" %14.2g %%", 100.0 * level->error.relative);
+            printf(" %14.2g %%", 100.0 * level->relative_error);
         else
             printf(" %16s", "not known");
         printf(" %8.3f\n", level->seconds);
     }
     ost_adaption_words(adaption, words);
     if (adaption->end == OST_ADAPT_MET)
-        printf("  request          %.3g %% asked for, about %.2g %% reached\n", 100.0 * adaption->request,
-               100.0 * adaption->level[adaption->count - 1].error.relative);
+        printf("  request          %.3g %% asked for, about %.2g %% reached, of %s\n", 100.0 * adaption->request,
+               100.0 * adaption->level[adaption->count - 1].relative_error,
+               adaption->watch ? adaption->watch->name : "the energy norm");
     else
         printf("  WARNING          %s\n", words);
 }
@@ -94,14 +95,14 @@ json_t *ost_adaption_json(const OstAdaption *adaption)
             levels,
             json_pack("{s:i, s:I, s:I, s:i, s:o, s:o, s:o, s:f, s:f}", "order", level->order, "tets",
                       (json_int_t)level->tets, "unknowns", (json_int_t)level->unknowns, "iterations", level->iterations,
-                      "relative_error", level->error.known ? ost_json_number(level->error.relative) : json_null(),
+                      "relative_error", level->error.known ? ost_json_number(level->relative_error) : json_null(),
                       "energy_norm_error", level->error.known ? ost_json_number(level->error.energy_norm) : json_null(),
                       "strain_energy", ost_json_number(level->strain_energy), "seconds", level->seconds, "bytes",
                       level->bytes));
     }
-    return json_pack("{s:f, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "asked", adaption->request, "end",
-                     end_name[adaption->end], "met", adaption->end == OST_ADAPT_MET, "levels", levels, "rate",
-                     needed_json(adaption->rate), "needed_unknowns", needed_json(adaption->needed_unknowns),
-                     "needed_seconds", needed_json(adaption->needed_seconds), "needed_bytes",
-                     needed_json(adaption->needed_bytes));
+    return json_pack("{s:f, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "asked", adaption->request, "of",
+                     adaption->watch ? adaption->watch->name : "energy", "end", end_name[adaption->end], "met",
+                     adaption->end == OST_ADAPT_MET, "levels", levels, "rate", needed_json(adaption->rate),
+                     "needed_unknowns", needed_json(adaption->needed_unknowns), "needed_seconds",
+                     needed_json(adaption->needed_seconds), "needed_bytes", needed_json(adaption->needed_bytes));
 }

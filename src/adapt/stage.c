@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "problem/scene_parts.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 #include "solve/strategy.h"
 
 OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
@@ -40,9 +40,12 @@ OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 
 /* --- solving --- */
 
-/* A tet's share of the squared error. */
+/* A tet's share of the squared error in the norm of the energy; or of the error of a quantity, which falls like that.
+ */
 static double share_of(const OstStage *stage, OstLocal tet)
 {
+    if (stage->result->interest.watch)
+        return stage->result->interest.share[tet];
     const double error = stage->result->tet_error[tet];
     return error * error;
 }

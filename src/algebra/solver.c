@@ -180,6 +180,15 @@ static OstSolverFacts facts_of(const OstSolver *solver)
     return facts;
 }
 
+/* Only where the plan depends on it: quadratic tets may be factored. */
+static OstStatus find_misalignment(const OstSolver *solver, OstSolverFacts *facts)
+{
+    const int matters = solver->options.method == OST_METHOD_AUTO && solver->geometry.coarse && facts->thickness > 0.0;
+    if (!matters || !(facts->anisotropy > 1.0))
+        return OST_SUCCESS;
+    return ost_metric_misalignment(solver->matrix, &solver->geometry, &facts->misalignment);
+}
+
 static void tell_plan(const OstSolver *solver)
 {
     for (int r = 0; r < solver->plan.reasons; r++)
@@ -201,11 +210,14 @@ static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
     return build(solver, solver->plan.first, solver->step, &solver->steps);
 }
 
-static OstStatus start(OstSolver *solver, const OstSolverOptions *options)
+static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int repeated)
 {
-    const OstSolverFacts facts = facts_of(solver);
-    OstStatus status = OST_SUCCESS;
+    OstSolverFacts facts = facts_of(solver);
+    facts.repeated |= repeated;
+    OstStatus status = find_misalignment(solver, &facts);
     solver->steps = 0;
+    if (status != OST_SUCCESS)
+        return status;
     ost_solver_plan(options, &facts, &solver->plan);
     if (may_change(solver) && solver->aim.first > solver->plan.first)
         solver->plan.first = solver->aim.first;
@@ -231,7 +243,7 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     made->nonzeros = 9.0 * matrix->row_start[matrix->rows];
     OST_TRY_DONE(ost_sum(ctx, 1, &made->nonzeros));
     OST_TRY_DONE(ost_epetra_map_create(ctx, 3 * matrix->rows, &made->map));
-    status = start(made, options);
+    status = start(made, options, 0);
 done:
     if (status != OST_SUCCESS)
         ost_solver_destroy(&made);
@@ -248,7 +260,7 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
         return OST_SUCCESS;
     }
     destroy_strategy(solver);
-    return start(solver, &solver->options);
+    return start(solver, &solver->options, 1);
 }
 
 void ost_solver_aim(OstSolver *solver, OstSolverAim aim)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver_plan.h"
 
+#include "algebra/solver_seconds.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -61,6 +63,16 @@ static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
         plan->options.factor_memory > 0.0 ? "allowed" : "free");
 }
 
+/* Is a factorisation of so many unknowns quicker than multigrid? Asked of quadratic tets, of which a hierarchy costs
+ * more than of linear ones; with memory to spare, as the rule for it is a rough one. */
+static int factoring_is_quicker(const OstSolverFacts *facts, const OstSolverOptions *options)
+{
+    const double allowed = allowed_memory(options, facts);
+    const int has_room = !(allowed > 0.0) || 2.0 * ost_solver_factor_bytes(facts->unknowns) <= allowed;
+    return facts->thickness > 0.0 && !facts->repeated && has_room &&
+           ost_solver_factor_seconds(facts) < ost_solver_multigrid_seconds(facts);
+}
+
 static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     const long long unknowns = (long long)facts->unknowns;
@@ -72,6 +84,10 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
     } else if (facts->unknowns < direct_below) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
+    } else if (fits && factoring_is_quicker(facts, &plan->options)) {
+        plan->first = OST_METHOD_DIRECT;
+        say(plan, "%lld unknowns of quadratic tets, %.2g nodes across: factoring takes about %.2g s, multigrid %.2g s",
+            unknowns, facts->thickness, ost_solver_factor_seconds(facts), ost_solver_multigrid_seconds(facts));
     } else {
         plan->first = OST_METHOD_METRIC;
         say(plan, "%lld unknowns: multigrid on aggregates that are round in the material metric", unknowns);

@@ -77,3 +77,34 @@ OstStatus ost_load_closed_form_body_force(const OstMesh *mesh, int region, const
     ost_ledger_leave(mesh->ctx);
     return status;
 }
+
+static OstStatus spin_force(const void *data, const double point[3], double force[3])
+{
+    const OstSpin *spin = data;
+    const double arm[3] = {point[0] - spin->origin[0], point[1] - spin->origin[1], point[2] - spin->origin[2]};
+    const double along = ost_dot3(arm, spin->axis);
+    for (int i = 0; i < 3; i++)
+        force[i] = spin->density * spin->speed * spin->speed * (arm[i] - along * spin->axis[i]);
+    return OST_SUCCESS;
+}
+
+OstClosedForm ost_spin_form(const OstSpin *spin)
+{
+    return (OstClosedForm){.data = spin, .body_force = spin_force};
+}
+
+OstStatus ost_load_centrifugal(const OstMesh *mesh, const OstMaterialField *field, int region, const OstSpin *spin,
+                               double *force)
+{
+    OstSpin of_tet = *spin;
+    const OstClosedForm form = ost_spin_form(&of_tet);
+    OstStatus status = OST_SUCCESS;
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_CENTRIFUGAL);
+    for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++) {
+        of_tet.density = ost_field_density(field, tet);
+        if (region < 0 || mesh->tet_region[tet] == region)
+            status = load_tet(mesh, tet, &form, force);
+    }
+    ost_ledger_leave(mesh->ctx);
+    return status;
+}

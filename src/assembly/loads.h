@@ -37,6 +37,16 @@ OstStatus ost_load_gravity(const OstMesh *mesh, const OstMaterialField *field, i
                            double *force);
 OstStatus ost_load_body_force(const OstMesh *mesh, int region, const double force_per_volume[3], double *force);
 
+/* A body that turns about an axis: the force per volume density × speed² × distance from the axis, away from it. */
+typedef struct OstSpin {
+    double origin[3], axis[3]; /* a point of the axis, and its direction (unit) */
+    double speed;              /* radians per time */
+    double density;
+} OstSpin;
+
+/* Local. As a closed form that has a force per volume alone; `spin` outlives it. */
+OstClosedForm ost_spin_form(const OstSpin *spin);
+
 /* Consistent nodal forces of loads that vary in space, by quadrature of degree 5. As in assembly/loads.h they are added
  * to `force`, and complete on owned nodes. */
 
@@ -48,5 +58,10 @@ OstStatus ost_load_closed_form_traction(const OstMesh *mesh, OstLocal face_count
 /* Local. The closed form's force per volume, in a region or (-1) everywhere. OST_EFFECT_BODY_FORCE. */
 OstStatus ost_load_closed_form_body_force(const OstMesh *mesh, int region, const OstClosedForm *solution,
                                           double *force);
+
+/* Local. The centrifugal force with the materials' densities (spin->density is not used), in a region or (-1)
+ * everywhere. OST_EFFECT_CENTRIFUGAL. */
+OstStatus ost_load_centrifugal(const OstMesh *mesh, const OstMaterialField *field, int region, const OstSpin *spin,
+                               double *force);
 
 #endif

@@ -11,6 +11,10 @@ OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
     case OST_LOAD_GRAVITY:
     case OST_LOAD_BODY_FORCE:
         return OST_EFFECT_BODY_FORCE;
+    case OST_LOAD_CENTRIFUGAL:
+        return OST_EFFECT_CENTRIFUGAL;
+    case OST_LOAD_MOMENT:
+        return OST_EFFECT_MOMENT;
     case OST_LOAD_PRESSURE:
         return load->follows ? OST_EFFECT_FOLLOWER_PRESSURE : OST_EFFECT_SURFACE_LOAD;
     case OST_LOAD_TRACTION:
@@ -20,6 +24,8 @@ OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
     case OST_LOAD_TOTAL_FORCE:
         break;
     }
+    if (load->acts_at)
+        return OST_EFFECT_MOMENT;
     if (load->share != OST_SHARE_AUTO)
         return load->share == OST_SHARE_FACES ? OST_EFFECT_SURFACE_LOAD : OST_EFFECT_POINT_FORCE;
     if (load->on.kind == OST_SELECT_VERTICES || load->on.kind == OST_SELECT_NEAREST)

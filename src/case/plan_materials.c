@@ -24,6 +24,8 @@ static void say_why_orthotropic(const char *region, const OstOrthotropic *k, con
         snprintf(reason, 160, "%d different Poisson's ratios in region '%.60s'", ratios, region);
     else if (stated && (stated->eigen_field || ost_strain_has_directions(stated->eigenstrain)))
         snprintf(reason, 160, "the eigenstrain of region '%.60s' has directions", region);
+    else if (stated && ost_strength_has_directions(&stated->material.strength))
+        snprintf(reason, 160, "the strengths of region '%.60s' have directions", region);
     else
         snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
 }
@@ -86,6 +88,7 @@ static void add_material(OstContext *ctx, const char *region, const OstMaterial 
 {
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     facts->materials++;
+    facts->strengths += material->strength.known;
     if (stated && is_eigenstrained(stated))
         facts->eigenstrained_region = stated->region;
     if (ost_orthotropic_eigenvalues(ctx, &material->constants, eigenvalues) == OST_SUCCESS)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
+#include "case/strength/read_strength.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -192,7 +193,7 @@ static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, doubl
     return ost_yaml_numbers(yaml, node, count, strain);
 }
 
-/* All eigenstrains of a case follow the same function of time, and are read from one field at most. */
+/* All eigenstrains of a case follow the same function of time. */
 static OstStatus agree_with_others(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material,
                                    int table, OstCase *c)
 {
@@ -202,31 +203,51 @@ static OstStatus agree_with_others(const OstYaml *yaml, const OstYamlNode *node,
                                   "this eigenstrain follows another time table than that of region '%.80s' in line %d; "
                                   "give all eigenstrains the same, or none",
                                   other->region, other->line);
-        if (other->eigen_field && material->eigen_field && strcmp(other->eigen_field, material->eigen_field) != 0)
-            return ost_yaml_raise(yaml, node, "found the field '%.80s', and '%.80s' in line %d; a case reads one",
-                                  material->eigen_field, other->eigen_field, other->line);
     }
     c->eigen_table = table;
-    if (material->eigen_field && !c->eigen_field)
-        c->eigen_field = material;
     return OST_SUCCESS;
 }
 
-static OstStatus take_field(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+int ost_case_find_field(const OstCase *c, const char *name)
+{
+    for (int f = 0; f < c->field_count; f++)
+        if (strcmp(c->fields[f].name, name) == 0)
+            return f;
+    return -1;
+}
+
+/* The name of a field of the mesh file, which the case then reads. */
+static OstStatus take_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name)
+{
+    OST_TRY(ost_read_string(yaml, node, name));
+    const int known = ost_case_find_field(c, *name);
+    if (known >= 0 && c->fields[known].directions != directions)
+        return ost_yaml_raise(yaml, node,
+                              "the field '%.80s' stands for directions here or in line %d, and for numbers in "
+                              "the other place",
+                              *name, c->fields[known].place.line);
+    if (known < 0 && c->field_count == OST_MOST_TET_FIELDS)
+        return ost_yaml_raise(yaml, node, "a case reads %d fields of the mesh file at most", OST_MOST_TET_FIELDS);
+    if (known < 0)
+        c->fields[c->field_count++] = (OstCaseField){*name, ost_yaml_at(node), directions};
+    return OST_SUCCESS;
+}
+
+static OstStatus take_eigen_field(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     material->eigen_place = ost_yaml_at(node);
-    return ost_read_string(yaml, node, &material->eigen_field);
+    return take_field(yaml, node, 0, c, &material->eigen_field);
 }
 
 /* A number, or {field: NAME}. */
-static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     double change = 1.0;
     OstYamlKey field = {.name = "field", .needed = 1};
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
         material->eigen_per_unit = 1;
         OST_TRY(ost_yaml_mapping(yaml, node, &field, 1));
-        return take_field(yaml, field.value, material);
+        return take_eigen_field(yaml, field.value, c, material);
     }
     OST_TRY(ost_yaml_number(yaml, node, &change));
     for (int p = 0; p < 6; p++)
@@ -236,7 +257,7 @@ static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCa
 
 enum { VALUE, PER_UNIT, FIELD, EIGEN_FORMS, CHANGE = EIGEN_FORMS, TIME, EIGEN_KEYS };
 
-static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys,
+static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, OstCase *c,
                                        OstCaseMaterial *material)
 {
     int form;
@@ -247,9 +268,9 @@ static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *n
     if (form != PER_UNIT && keys[CHANGE].value)
         return ost_yaml_raise(yaml, keys[CHANGE].value, "'change' belongs to 'per_unit', not to '%s'", keys[form].name);
     if (form == FIELD)
-        return take_field(yaml, keys[FIELD].value, material);
+        return take_eigen_field(yaml, keys[FIELD].value, c, material);
     OST_TRY(read_strain(yaml, keys[form].value, material->eigenstrain));
-    return form == PER_UNIT ? read_change(yaml, keys[CHANGE].value, material) : OST_SUCCESS;
+    return form == PER_UNIT ? read_change(yaml, keys[CHANGE].value, c, material) : OST_SUCCESS;
 }
 
 /* A strain; or one for each unit of a change (of temperature, of moisture), and the change; or a field of the file. */
@@ -263,7 +284,7 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
                                    [TIME] = {.name = "time"}};
     material->eigenstrained = 1;
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING))
-        OST_TRY(read_eigenstrain_keys(yaml, node, keys, material));
+        OST_TRY(read_eigenstrain_keys(yaml, node, keys, c, material));
     else
         OST_TRY(read_strain(yaml, node, material->eigenstrain));
     if (keys[TIME].value)
@@ -275,7 +296,7 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
 
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
-    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN, STRENGTHS };
     OstYamlKey keys[] = {
         [REGION] = {.name = "region", .needed = 1},
         [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
@@ -284,6 +305,7 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [DENSITY] = {.name = "density"},
         [AXES] = {.name = "axes"},
         [EIGENSTRAIN] = {.name = "eigenstrain"},
+        [STRENGTHS] = {.name = "strengths"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -309,6 +331,10 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
         OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
+    if (keys[STRENGTHS].value)
+        OST_TRY(ost_read_strength(yaml, keys[STRENGTHS].value, &material->material.strength));
+    if (ost_strength_has_directions(&material->material.strength)) /* as of an eigenstrain */
+        material->material.isotropic = 0;
     return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
 }
 

@@ -3,6 +3,7 @@
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/output_array.h"
 
 #include <float.h>
 #include <string.h>
@@ -43,14 +44,33 @@ OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
+/* The quantity that the error is of: "energy", or the name of a watched one. */
+static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    const char *name;
+    OST_TRY(ost_yaml_text(yaml, node, &name));
+    if (strcmp(name, "energy") == 0)
+        return OST_SUCCESS;
+    for (int w = 0; w < c->watch_count; w++)
+        if (strcmp(c->watches[w].name, name) == 0)
+            c->interest = w + 1;
+    if (c->interest == 0)
+        return ost_yaml_raise(yaml, node,
+                              "'%.80s' is not watched; name a quantity of the section 'watch', or energy for the norm "
+                              "of the energy",
+                              name);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"refuse", "accept"};
-    enum { RESIDUAL, FRACTION, OUT_OF_REACH, ERROR };
+    enum { RESIDUAL, FRACTION, OUT_OF_REACH, ERROR, OF };
     OstYamlKey keys[] = {[RESIDUAL] = {.name = "relative_residual"},
                          [FRACTION] = {.name = "algebraic_fraction"},
                          [OUT_OF_REACH] = {.name = "out_of_reach"},
-                         [ERROR] = {.name = "relative_error"}};
+                         [ERROR] = {.name = "relative_error"},
+                         [OF] = {.name = "of"}};
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[RESIDUAL].value) {
         c->solver.accept_attainable = 0;
@@ -67,6 +87,8 @@ OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCas
         OST_TRY(ost_yaml_number(yaml, keys[ERROR].value, &c->relative_error));
     if (!(c->relative_error > 0.0 && c->relative_error < 1.0))
         return ost_yaml_raise_type(yaml, keys[ERROR].value, "a number above 0 and below 1", "");
+    if (keys[OF].value)
+        OST_TRY(read_interest(yaml, keys[OF].value, c));
     if (!keys[RESIDUAL].value)
         return OST_SUCCESS;
     OST_TRY(ost_yaml_number(yaml, keys[RESIDUAL].value, &c->solver.relative_residual));
@@ -191,7 +213,8 @@ OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     if (!keys[FILE_NAME].value)
         return OST_SUCCESS;
     OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));
-    return ost_has_ending(c->output_file, ".vtkhdf")
+    size_t stem;
+    return ost_result_form(c->output_file, &stem) != OST_RESULT_FORMS
                ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with .vtkhdf", "");
+               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with " OST_RESULT_ENDINGS, "");
 }

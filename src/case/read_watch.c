@@ -57,14 +57,24 @@ static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *expected,
     return source ? ost_read_string(yaml, source, &watch->source) : OST_SUCCESS;
 }
 
+/* With a point, the moment of the reactions about it is watched in place of their sum. */
+static OstStatus read_about(const OstYaml *yaml, const OstYamlNode *about, OstWatch *watch)
+{
+    if (about && watch->kind != OST_WATCH_REACTION)
+        return ost_yaml_raise(yaml, about, "'about' belongs to a reaction, of which it asks for the moment");
+    watch->of_moment = about != NULL;
+    return about ? ost_yaml_numbers(yaml, about, 3, watch->about) : OST_SUCCESS;
+}
+
 static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
-    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, EXPECTED, SOURCE };
+    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, ABOUT, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
         [OST_WATCH_DISPLACEMENT] = {.name = "displacement"},
         [OST_WATCH_REACTION] = {.name = "reaction"},
         [OST_WATCH_STRAIN_ENERGY] = {.name = "strain_energy"},
         [COMPONENT] = {.name = "component"},
+        [ABOUT] = {.name = "about"},
         [EXPECTED] = {.name = "expected"},
         [SOURCE] = {.name = "source"},
     };
@@ -79,6 +89,7 @@ static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWat
     OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
     OST_TRY(read_expected(yaml, keys[EXPECTED].value, keys[SOURCE].value, watch));
     watch->kind = (OstWatchKind)form;
+    OST_TRY(read_about(yaml, keys[ABOUT].value, watch));
     if (watch->kind == OST_WATCH_STRAIN_ENERGY)
         return read_energy(yaml, keys[form].value, keys[COMPONENT].value);
     return watch->kind == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)
@@ -104,11 +115,13 @@ OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase
         return ost_yaml_raise(yaml, node,
                               "'watch' names no quantity; leave it out, or name one, as in tip: "
                               "{displacement: {nearest: [1, 0, 0]}}");
-    if (count > OST_MOST_WATCHES)
-        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);
-    OST_TRY(OST_NEW(yaml->ctx, &c->watches, count));
+    const int before = c->watch_count;
+    if (before + count > OST_MOST_WATCHES)
+        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", before + count,
+                              OST_MOST_WATCHES);
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->watches, before + count));
     const OstYamlNode *key = ost_yaml_first(yaml, node);
-    for (int w = 0; w < count; w++) {
+    for (int w = before; w < before + count; w++) {
         const OstYamlNode *value = ost_yaml_next(yaml, key);
         OstWatch *watch = &c->watches[w];
         const char *name;

@@ -230,6 +230,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, const Future *futu
     print_materials(c);
     print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
+    if (c->load_case_count > 0)
+        printf("  %-20s %d, with one stiffness and one hierarchy for all that share supports\n", "load cases",
+               c->load_case_count);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
     if (plan->least_ranks > ranks)
@@ -286,7 +289,7 @@ static OstStatus explain(OstContext *ctx, void *input)
     OstPlan plan;
     Future future;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
     OST_TRY_DONE(make_plan(ctx, c, &plan));
     OST_TRY_DONE(foretell(ctx, c, &plan, &future));
     if (ost_rank(ctx) == 0 && arguments->text['j']) {
@@ -305,5 +308,5 @@ done:
 int ost_cli_explain(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &explain_argp, argc, argv, &arguments, explain);
+    return ost_cli_run_on_case(ctx, &explain_argp, argc, argv, &arguments, explain);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "cli/start.h"
 #include "core/address_space.h"
 
 #include <errno.h>
@@ -19,7 +20,9 @@ static const struct {
     {"effects", "measure what each effect changes and costs: solve with each one left out", ost_cli_effects},
     {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
      ost_cli_cost},
+    {"scale", "measure how a case scales: seconds, iterations and messages by size and number of ranks", ost_cli_scale},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
+    {"mesh", "inspect, convert, refine and repair a mesh", ost_cli_mesh},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -132,6 +135,8 @@ static int has_room_to_start(void)
 
 int main(int argc, char **argv)
 {
+    ost_cli_settle_environment(argv);
+    ost_cli_launch_scale(argc, argv);
     const OstLogLevel level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)

@@ -2,6 +2,7 @@
 #include "adapt/adapt.h"
 #include "cli/command.h"
 #include "cli/destination.h"
+#include "cli/solve_cases.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -166,6 +167,10 @@ static OstStatus check_files(const Run *run)
     if (run->arguments->text['r'])
         return OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "%s: --resume goes on with a path, and the case has none",
                          run->c->path);
+    if (run->c->load_case_count > 0) {
+        OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
+        return ost_check_outputs(run->c, 1, &json);
+    }
     return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
 }
 
@@ -179,15 +184,26 @@ static OstStatus solve_as_given(Run *run)
     return c->path_steps > 0 ? solve_path(run) : solve_once(run);
 }
 
+static OstStatus solve_cases(const Run *run)
+{
+    OstAdaptLimits limits;
+    OST_TRY(read_limits(run, &limits));
+    const OstSolveCases how = {run->output, run->arguments->text['j'], run->arguments->text['k'] != NULL, &limits};
+    return ost_cli_solve_cases(run->c, &how);
+}
+
 static OstStatus solve(OstContext *ctx, void *input)
 {
     Run run = {.arguments = input};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, run.arguments->case_path, &run.c));
+    OST_TRY_DONE(ost_cli_read(ctx, run.arguments, &run.c));
     OST_TRY_DONE(ost_choose_output(run.c, run.arguments->text['o'], run.output));
     memcpy(run.file, run.output, sizeof run.file);
     OST_TRY_DONE(check_files(&run));
-    status = run.c->asks_error && run.c->path_steps == 0 ? solve_accurately(&run) : solve_as_given(&run);
+    if (run.c->load_case_count > 0)
+        status = solve_cases(&run);
+    else
+        status = run.c->asks_error && run.c->path_steps == 0 ? solve_accurately(&run) : solve_as_given(&run);
 done:
     if (!run.adaption) {
         ost_result_destroy(&run.result);
@@ -202,5 +218,5 @@ done:
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &solve_argp, argc, argv, &arguments, solve);
+    return ost_cli_run_on_case(ctx, &solve_argp, argc, argv, &arguments, solve);
 }

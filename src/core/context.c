@@ -26,6 +26,31 @@ OstStatus ost_context_create(MPI_Comm comm, OstContext **ctx)
     return OST_SUCCESS;
 }
 
+OstStatus ost_context_create_by_number(int comm, OstContext **ctx)
+{
+    return ost_context_create(MPI_Comm_f2c(comm), ctx);
+}
+
+/* Did we start MPI? A matter of the process, as MPI is. */
+static int started;
+
+OstStatus ost_context_create_on_all(OstContext **ctx)
+{
+    int runs = 0;
+    *ctx = NULL;
+    if (MPI_Initialized(&runs) != MPI_SUCCESS || (!runs && MPI_Init(NULL, NULL) != MPI_SUCCESS))
+        return OST_LIBRARY_FAILED;
+    started |= !runs;
+    return ost_context_create(MPI_COMM_WORLD, ctx);
+}
+
+void ost_end_mpi(void)
+{
+    int ended = 0;
+    if (started && MPI_Finalized(&ended) == MPI_SUCCESS && !ended)
+        MPI_Finalize();
+}
+
 void ost_context_destroy(OstContext **ctx)
 {
     if (!*ctx)

@@ -23,6 +23,8 @@ struct OstContext {
 
     OstLedgerEntry ledger[OST_LEDGER_ACCOUNTS];
     const char *label[OST_LEDGER_ACCOUNTS];
+    OstWork level_work[OST_LEDGER_LEVELS + 1]; /* the first is that of no level */
+    int work_level;                            /* 1 + the level, or 0 */
     OstAccount stack[OST_LEDGER_DEPTH];
     int depth;
     double clock; /* until when seconds are booked */

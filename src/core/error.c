@@ -66,6 +66,7 @@ OstStatus ost_agree(OstContext *ctx, OstStatus status)
 {
     if (ctx->size == 1)
         return status;
+    ost_ledger_reduced(ctx, 1);
     int failed = status == OST_SUCCESS ? ctx->size : ctx->rank;
     int first = ctx->size;
     OST_TRY(OST_MPI(ctx, MPI_Allreduce(&failed, &first, 1, MPI_INT, MPI_MIN, ctx->comm)));

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
 
+#include <string.h>
+
 void ost_ledger_name(OstContext *ctx, OstAccount account, const char *label)
 {
     ctx->label[account] = label;
@@ -46,9 +48,64 @@ void ost_ledger_leave(OstContext *ctx)
         ctx->depth--;
 }
 
+void ost_ledger_forget_work(OstContext *ctx)
+{
+    for (int a = 0; a < OST_LEDGER_ACCOUNTS; a++)
+        ctx->ledger[a].work = (OstWork){0};
+    memset(ctx->level_work, 0, sizeof ctx->level_work);
+}
+
+/* Adds to the innermost account and, if that is the solve, to the level: checks use multigrid, too. */
+static void book_work(OstContext *ctx, const OstWork *more)
+{
+    const OstAccount account = ctx->stack[ctx->depth];
+    const int level = account == OST_LEDGER_SOLVE ? ctx->work_level : 0;
+    OstWork *const to[] = {&ctx->ledger[account].work, &ctx->level_work[level]};
+    for (int i = 0; i < 2; i++) {
+        to[i]->multiplied += more->multiplied;
+        to[i]->exchanges += more->exchanges;
+        to[i]->messages += more->messages;
+        to[i]->bytes += more->bytes;
+        to[i]->reductions += more->reductions;
+        to[i]->gathers += more->gathers;
+        to[i]->gathered += more->gathered;
+        to[i]->visits += more->visits;
+    }
+}
+
 void ost_ledger_multiplied(OstContext *ctx, double entries)
 {
-    ctx->ledger[ctx->stack[ctx->depth]].multiplied += entries;
+    book_work(ctx, &(OstWork){.multiplied = entries});
+}
+
+void ost_ledger_sent(OstContext *ctx, int messages, double bytes)
+{
+    book_work(ctx, &(OstWork){.exchanges = 1.0, .messages = messages, .bytes = bytes});
+}
+
+void ost_ledger_reduced(OstContext *ctx, int times)
+{
+    book_work(ctx, &(OstWork){.reductions = times});
+}
+
+void ost_ledger_gathered(OstContext *ctx, double bytes)
+{
+    book_work(ctx, &(OstWork){.gathers = 1.0, .gathered = bytes});
+}
+
+void ost_ledger_visited(OstContext *ctx)
+{
+    book_work(ctx, &(OstWork){.visits = 1.0});
+}
+
+void ost_ledger_level(OstContext *ctx, int level)
+{
+    ctx->work_level = level >= 0 && level < OST_LEDGER_LEVELS ? 1 + level : 0;
+}
+
+OstWork ost_ledger_level_work(const OstContext *ctx, int level)
+{
+    return ctx->level_work[1 + level];
 }
 
 OstLedgerEntry ost_ledger_entry(OstContext *ctx, OstAccount account)

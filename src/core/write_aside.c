@@ -132,6 +132,31 @@ OstStatus ost_aside_finish_together(OstContext *ctx, OstAside *aside, OstStatus 
     return ost_agree(ctx, status);
 }
 
+/* Returns 0, or errno. A file that cannot be opened is left to the writer, whose message is better. */
+static int allocate(const char *path, OstGlobal bytes, int empties)
+{
+    int reason = 0;
+    const int descriptor = open(path, O_WRONLY);
+    if (descriptor < 0)
+        return 0;
+    do
+        reason = fallocate(descriptor, 0, 0, (off_t)bytes) == 0 ? 0 : errno;
+    while (reason == EINTR);
+    if (empties && ftruncate(descriptor, 0) != 0 && reason == 0)
+        reason = errno;
+    close(descriptor);
+    return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
+}
+
+OstStatus ost_aside_reserve(OstContext *ctx, const OstAside *aside, OstGlobal bytes, int empties)
+{
+    const int reason = ost_rank(ctx) == 0 ? allocate(aside->aside, bytes, empties) : 0;
+    return ost_agree(ctx, reason == 0 ? OST_SUCCESS
+                                      : OST_RAISE(ctx, OST_FILE_FAILED,
+                                                  "%s: needs %.3g MiB of disk space, which cannot be reserved: %s",
+                                                  aside->path, (double)bytes / 1048576.0, strerror(reason)));
+}
+
 /* Flushes too: an error in what `write` left in the buffer shows only then. */
 static OstStatus write_stream(OstContext *ctx, const char *path, FILE *file,
                               OstStatus (*write)(FILE *file, const void *content), const void *content)

@@ -115,6 +115,12 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
+/* Does a constraint make nodes follow others? */
+static int has_links(const OstEffectFacts *f)
+{
+    return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -123,6 +129,8 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
         off(state, "a free body is solved linearly");
+    else if (has_links(f))
+        off(state, "a body with rigid, tied or periodic faces is solved linearly");
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
@@ -133,7 +141,9 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->quadratic && f->multigrid)
+    if (has_links(f))
+        off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
+    else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on the linear tets with the same vertices");
     else
@@ -156,6 +166,32 @@ static void sliding(const OstEffectFacts *f, OstEffectState *state)
         on(state, 0.0, "%d of %d constraints let the body slide on a plane", f->slides, f->constraints);
     else
         off(state, "no constraint is a slide");
+}
+
+/* They take what the surface has: little beside the tets. */
+static void links(const OstEffectFacts *f, OstEffectState *state, int count, const char *what)
+{
+    char none[64];
+    snprintf(none, sizeof none, "no constraint is %s", what);
+    if (count > 0)
+        on(state, 0.0, "%d of %d constraints %s %s", count, f->constraints, count == 1 ? "is" : "are", what);
+    else
+        off(state, none);
+}
+
+static void rigid_face(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->rigid_faces, "a rigid face");
+}
+
+static void tie(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->ties, "a tie between faces");
+}
+
+static void periodic(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->periodic, "a periodic cell");
 }
 
 static void free_body(const OstEffectFacts *f, OstEffectState *state)
@@ -189,6 +225,16 @@ static void surface_load(const OstEffectFacts *f, OstEffectState *state)
 static void body_force(const OstEffectFacts *f, OstEffectState *state)
 {
     loads(f, state, f->body_loads, f->gravity_loads > 0 ? "in the volume, gravity among them" : "in the volume");
+}
+
+static void centrifugal(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->centrifugal_loads, "in a body that turns");
+}
+
+static void moment(const OstEffectFacts *f, OstEffectState *state)
+{
+    loads(f, state, f->moments, "with a moment");
 }
 
 /* The nodes and the pressure of each face are few beside the tets. */
@@ -243,6 +289,15 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
            "the output holds %d of their components a tet, and %d a node", f->cell_fields, f->node_fields);
     else
         off(state, "the output holds neither");
+}
+
+/* Load factors are found tet by tet. */
+static void strength(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->strengths > 0)
+        on(state, 0.0, "%d of %d materials state strengths", f->strengths, f->materials);
+    else
+        off(state, "no material states strengths");
 }
 
 /* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers

@@ -20,16 +20,22 @@
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
+    X(OST_EFFECT_RIGID_FACE, "rigid face", rigid_face)                                        \
+    X(OST_EFFECT_TIE, "tied faces", tie)                                                      \
+    X(OST_EFFECT_PERIODIC, "periodic pairs", periodic)                                        \
     X(OST_EFFECT_FREE_BODY, "free body", free_body)                                           \
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
     X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
+    X(OST_EFFECT_CENTRIFUGAL, "centrifugal load", centrifugal)                                \
+    X(OST_EFFECT_MOMENT, "moment", moment)                                                    \
     X(OST_EFFECT_FOLLOWER_PRESSURE, "follower pressure", follower_pressure)                   \
     X(OST_EFFECT_EIGENSTRAIN, "eigenstrain", eigenstrain)                                     \
     X(OST_EFFECT_FOUNDATION, "elastic foundation", foundation)                                \
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
     X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)                                     \
+    X(OST_EFFECT_STRENGTH, "strength", strength)                                              \
     X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                            \
     X(OST_EFFECT_ADAPTIVITY, "adaptive refinement", adaptivity)
 
@@ -53,17 +59,19 @@ typedef struct OstEffectFacts {
     int mixed;                   /* 0: the case says no mixed form; 1: where it is useful */
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
-    int constraints, prescribed, slides;
+    int constraints, prescribed, slides, rigid_faces, ties, periodic;
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     double accuracy;    /* relative */
     const char *formulation;
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
-    int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads;
+    int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
+    int moments;                      /* loads with a moment: those, and forces at a point */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
+    int strengths;   /* materials that state them */
     int error_field; /* is the error of the answer among them? */
     int watches;     /* quantities of interest */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */

@@ -62,6 +62,14 @@ void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double
     ost_field_axes(field, tet, axes);
 }
 
+int ost_field_has_strengths(const OstMaterialField *field)
+{
+    int some = 0;
+    for (int r = 0; r < field->region_count; r++)
+        some |= field->material[r].strength.known;
+    return some;
+}
+
 double ost_field_density(const OstMaterialField *field, OstLocal tet)
 {
     return field->material[field->tet_region[tet]].density;

@@ -66,6 +66,9 @@ int ost_field_has_formula(const OstMaterialField *field, int32_t region);
  * (on a cylinder's axis). */
 void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double point[3], double axes[9]);
 
+/* Local. Does any material have strengths? */
+int ost_field_has_strengths(const OstMaterialField *field);
+
 /* Local. Density of a tet. */
 double ost_field_density(const OstMaterialField *field, OstLocal tet);
 

@@ -22,7 +22,7 @@ OstStatus ost_ledger_summarise(OstContext *ctx, OstLedgerSummary *summary)
         seconds[a] = entry.seconds;
         bytes[a] = (double)entry.peak_bytes;
         summary->entries[a] = entry.entries;
-        summary->multiplied[a] = entry.multiplied;
+        summary->multiplied[a] = entry.work.multiplied;
     }
     bytes[OST_EFFECT_END] = (double)ost_ledger_peak_bytes(ctx);
     bytes[OST_EFFECT_END + 1] = peak_process_bytes();

@@ -4,17 +4,12 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/write_aside.h"
+#include "formats/vtu/vtu.h"
 #include "output/summary.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* The output file's name without its ending. */
-static int stem_length(const char *output)
-{
-    return (int)(strlen(output) - strlen(".vtkhdf"));
-}
 
 void ost_path_file_name(const char *output, OstPathFile which, size_t size, char *name)
 {
@@ -23,30 +18,65 @@ void ost_path_file_name(const char *output, OstPathFile which, size_t size, char
         [OST_PATH_HISTORY] = "_history.csv",
         [OST_PATH_CHECKPOINT] = ".checkpoint",
     };
-    snprintf(name, size, "%.*s%s", stem_length(output), output, ending[which]);
+    size_t stem;
+    const int is_xml = ost_result_form(output, &stem) != OST_RESULT_VTKHDF;
+    snprintf(name, size, "%.*s%s", (int)stem, output, is_xml && which == OST_PATH_SERIES ? ".pvd" : ending[which]);
 }
 
 void ost_path_step_name(const char *output, int step, size_t size, char *name)
 {
-    snprintf(name, size, "%.*s_%04d.vtkhdf", stem_length(output), output, step);
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(name, size, "%.*s_%04d%s", (int)stem, output, step, output + stem);
+}
+
+/* --- the list of files --- */
+
+typedef struct Series {
+    OstPath *path;
+    const char *output;
+} Series;
+
+/* Of a step, without the folder: it is found beside the list. */
+static const char *name_beside(const char *output, int step, size_t size, char *name)
+{
+    ost_path_step_name(output, step, size, name);
+    const char *slash = strrchr(name, '/');
+    return slash ? slash + 1 : name;
+}
+
+static OstStatus write_collection(FILE *file, const void *content)
+{
+    const Series *series = content;
+    char name[4096];
+    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n", file);
+    for (int i = 0; i < ost_path_done(series->path); i++) {
+        fprintf(file, "<DataSet timestep=\"%.17g\" file=\"", ost_path_step(series->path, i)->t);
+        ost_xml_write(file, name_beside(series->output, i + 1, sizeof name, name));
+        fputs("\"/>\n", file);
+    }
+    fputs("</Collection>\n</VTKFile>\n", file);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_path_write_series(OstContext *ctx, OstPath *path, const char *output)
 {
-    char name[4096];
+    const Series series = {path, output};
+    char name[4096], list[4096];
+    size_t stem;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
+    if (ost_result_form(output, &stem) != OST_RESULT_VTKHDF)
+        return ost_write_aside(ctx, list, write_collection, &series);
     json_t *files = json_array();
-    for (int i = 0; i < ost_path_done(path); i++) {
-        ost_path_step_name(output, i + 1, sizeof name, name);
-        const char *slash = strrchr(name, '/'); /* found beside the list */
-        json_array_append_new(files, json_pack("{s:o, s:f}", "name", ost_json_text(slash ? slash + 1 : name), "time",
+    for (int i = 0; i < ost_path_done(path); i++)
+        json_array_append_new(files, json_pack("{s:o, s:f}", "name",
+                                               ost_json_text(name_beside(output, i + 1, sizeof name, name)), "time",
                                                ost_path_step(path, i)->t));
-    }
     json_t *document = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof name, name);
-    return document ? ost_json_write(ctx, document, name)
-                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", name);
+    return document ? ost_json_write(ctx, document, list)
+                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", list);
 }
 
 /* --- the history --- */
@@ -65,13 +95,11 @@ static int is_followed(const OstCase *c, int function)
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)
-        for (int k = 0; k < 3; k++)
-            followed |= c->constraints[i].table == function && c->constraints[i].displacement[k] != 0.0;
+        followed |= c->constraints[i].table == function && ost_constraint_moves(&c->constraints[i]);
     return followed;
 }
 
-/* In quotes; quotes within the text are doubled. */
-static void write_name(FILE *file, const char *text)
+void ost_csv_write_name(FILE *file, const char *text)
 {
     fputs(",\"", file);
     for (; *text; text++) {
@@ -101,7 +129,7 @@ static void write_heading(FILE *file, const OstCase *c)
             fputs(",load_factor", file);
     fputs(",largest_displacement,strain_energy,newton_iterations,load_steps,iterations", file);
     for (int w = 0; w < c->watch_count; w++)
-        write_name(file, c->watches[w].name);
+        ost_csv_write_name(file, c->watches[w].name);
     fputc('\n', file);
 }
 

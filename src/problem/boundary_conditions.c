@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/boundary_conditions.h"
 
-#include "assembly/loads.h"
 #include "assembly/springs.h"
 #include "case/select.h"
 #include "core/error.h"
@@ -9,6 +8,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
+#include "problem/scene_links.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -160,7 +160,9 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
     if (status == OST_SUCCESS)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
-        status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
+        if (!ost_constraint_links(&scene->c->constraints[i]))
+            status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
+    OST_THEN(ost_scene_links(scene, table, *supports));
     for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
         status = add_spring(scene, &scene->c->springs[i], *supports);
     OST_THEN(ost_supports_complete(*supports));
@@ -180,14 +182,23 @@ static OstStatus find_load_region(const OstScene *scene, const OstLoad *load, in
     return ost_raise_no_region(scene->c, load->region_place, &scene->mesh->regions, load->region);
 }
 
-/* Gravity without any mass is an error, not a load of zero. */
-static OstStatus check_density(const OstScene *scene, int region)
+/* Gravity without any mass is an error, not a load of zero; so is a centrifugal load. */
+static OstStatus check_density(const OstScene *scene, const OstLoad *load, int region)
 {
     for (int r = 0; r < scene->mesh->regions.count; r++)
         if ((region < 0 || r == region) && scene->field->material[r].density > 0.0)
             return OST_SUCCESS;
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                     "gravity acts on mass, but no material it acts on has a density; add density to the material");
+                     "%s acts on mass, but no material it acts on has a density; add density to the material",
+                     load->kind == OST_LOAD_GRAVITY ? "gravity" : "a centrifugal load");
+}
+
+OstSpin ost_load_spin(const OstLoad *load)
+{
+    OstSpin spin = {.speed = load->speed};
+    memcpy(spin.origin, load->origin, sizeof spin.origin);
+    memcpy(spin.axis, load->axis, sizeof spin.axis);
+    return spin;
 }
 
 static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, double *force)
@@ -200,7 +211,11 @@ static OstStatus add_body_load(const OstScene *scene, const OstLoad *load, doubl
     }
     if (load->kind == OST_LOAD_BODY_FORCE)
         return ost_load_body_force(scene->mesh, region, load->vector, force);
-    OST_TRY(check_density(scene, region));
+    OST_TRY(check_density(scene, load, region));
+    if (load->kind == OST_LOAD_CENTRIFUGAL) {
+        const OstSpin spin = ost_load_spin(load);
+        return ost_load_centrifugal(scene->mesh, scene->field, region, &spin, force);
+    }
     return ost_load_gravity(scene->mesh, scene->field, region, load->vector, force);
 }
 
@@ -251,15 +266,66 @@ static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, do
     return status;
 }
 
+static OstResultant resultant_of(const OstLoad *load)
+{
+    OstResultant resultant = {.acts_at = load->acts_at};
+    memcpy(load->kind == OST_LOAD_MOMENT ? resultant.moment : resultant.force, load->vector, sizeof load->vector);
+    memcpy(resultant.at, load->at, sizeof load->at);
+    return resultant;
+}
+
+OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
+                           int *nodes_per_face, OstLocal **faces, OstSpread *spread)
+{
+    const OstResultant resultant = resultant_of(load);
+    *on_faces = 0;
+    if (load->share == OST_SHARE_VERTICES)
+        return OST_SUCCESS;
+    OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, count, nodes_per_face, faces));
+    *on_faces = *count > 0 || load->share == OST_SHARE_FACES;
+    OST_TRY(ost_max_ints(scene->ctx, 1, on_faces));
+    return *on_faces ? ost_spread_over_faces(scene->mesh, *count, *faces, *nodes_per_face, &resultant, spread)
+                     : OST_SUCCESS;
+}
+
+static OstStatus add_moment_on_vertices(const OstScene *scene, const OstLoad *load, double *force)
+{
+    const OstResultant resultant = resultant_of(load);
+    OstSpread spread;
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &nodes));
+    const OstStatus status = ost_spread_over_vertices(scene->mesh, count, nodes, &resultant, &spread);
+    if (status == OST_SUCCESS)
+        ost_load_spread_on_vertices(scene->mesh, count, nodes, &spread, force);
+    OST_FREE(nodes);
+    return status;
+}
+
+static OstStatus add_moment(const OstScene *scene, const OstLoad *load, double *force)
+{
+    OstLocal count = 0;
+    OstLocal *faces = NULL;
+    int on_faces = 0, nodes_per_face = 3;
+    OstSpread spread;
+    const OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &faces, &spread);
+    if (status == OST_SUCCESS && on_faces)
+        ost_load_spread_on_faces(scene->mesh, count, faces, nodes_per_face, &spread, force);
+    OST_FREE(faces);
+    return status != OST_SUCCESS || on_faces ? status : add_moment_on_vertices(scene, load, force);
+}
+
 static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect effect, double *force,
                           OstFollower **follower)
 {
     OstStatus status;
     ost_ledger_enter(scene->ctx, effect);
-    if (effect == OST_EFFECT_BODY_FORCE)
+    if (effect == OST_EFFECT_BODY_FORCE || effect == OST_EFFECT_CENTRIFUGAL)
         status = ost_agree(scene->ctx, add_body_load(scene, load, force));
     else if (effect == OST_EFFECT_SURFACE_LOAD || effect == OST_EFFECT_FOLLOWER_PRESSURE)
         status = add_surface_load(scene, load, force, follower);
+    else if (effect == OST_EFFECT_MOMENT)
+        status = add_moment(scene, load, force);
     else
         status = add_vertex_load(scene, load, force);
     ost_ledger_leave(scene->ctx);

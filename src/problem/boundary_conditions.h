@@ -3,6 +3,8 @@
 #define ORTHOSTAT_PROBLEM_BOUNDARY_CONDITIONS_H
 
 #include "assembly/follower.h"
+#include "assembly/loads.h"
+#include "assembly/spread.h"
 #include "assembly/supports.h"
 #include "problem/scene_data.h"
 
@@ -16,5 +18,13 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
  * these supports take up whole, so that it strains nothing; they may be NULL. */
 OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
                           OstFollower **follower);
+
+/* Local. How the body turns, of a centrifugal load. */
+OstSpin ost_load_spin(const OstLoad *load);
+
+/* Collective. Of a load with a moment: the faces on which it acts, the caller's to free, and the traction there. Where
+ * it acts on vertices (*on_faces is 0), neither. */
+OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
+                           int *nodes_per_face, OstLocal **faces, OstSpread *spread);
 
 #endif

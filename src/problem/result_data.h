@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_PROBLEM_RESULT_DATA_H
 #define ORTHOSTAT_PROBLEM_RESULT_DATA_H
 
+#include "case/case_data.h"
 #include "material/field_data.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/problem.h"
@@ -27,6 +28,14 @@ typedef struct OstVerdict {
     char text[OST_MOST_OBJECTIONS][OST_LONGEST_OBJECTION];
 } OstVerdict;
 
+/* The error of the quantity that the case asks about (accuracy: of), by its adjoint problem. */
+typedef struct OstInterestError {
+    const OstWatch *watch; /* the case's; NULL: none is asked about, or its error is not known */
+    double value, error;   /* the exact value less this one, as estimated */
+    double *share;         /* owned_tets: each one's share of it, where a mesh should be refined for it */
+    double sum;            /* of the shares: |error|, or more where parts of it cancel */
+} OstInterestError;
+
 /* One rank's piece of the answer. */
 struct OstResult {
     OstContext *ctx;
@@ -42,8 +51,10 @@ struct OstResult {
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
+    double *rotation;              /* 9 × owned_tets: of each tet's mean F, where rotations are large; or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
+    OstInterestError interest;     /* of the quantity that the case asks about */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;
     double largest_displacement;
@@ -52,18 +63,11 @@ struct OstResult {
     OstNewtonReport newton;
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
+    OstFailure failure;
     OstAnswerError answer; /* the error that the mesh makes */
     int reached;           /* is there a displacement? Not if no solver could be made */
     int unfinished;        /* did the solver stop short of the requested residual? */
     OstVerdict verdict;    /* no objections: the result is an answer */
 };
-
-/* A quantity of interest, as the answer has it. */
-typedef struct OstWatchedValue {
-    const char *name;
-    double value;
-    double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
-    double error;
-} OstWatchedValue;
 
 #endif

@@ -5,9 +5,11 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
+#include "problem/load_case.h"
 #include "problem/scene_parts.h"
 
 #include <string.h>
@@ -166,12 +168,14 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     const OstCase *c = scene->c;
     OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, &scene->load_effect, (size_t)c->load_count)));
     OST_TRY(ost_load_effects(c, mesh, scene->load_effect));
-    const OstPlanMesh facts = {.nodes = mesh->global_nodes,
-                               .tets = mesh->global_tets,
-                               .quadratic = mesh->nodes_per_tet == 10,
-                               .regions = &mesh->regions,
-                               .materials = from_file,
-                               .load = scene->load_effect};
+    OstPlanMesh facts = {.nodes = mesh->global_nodes,
+                         .tets = mesh->global_tets,
+                         .quadratic = mesh->nodes_per_tet == 10,
+                         .regions = &mesh->regions,
+                         .materials = from_file,
+                         .load = scene->load_effect};
+    if (facts.quadratic && !(ost_plan_shape_surface(c) > 0.0))
+        OST_TRY(ost_mesh_surface_faces(mesh, &facts.surface));
     ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);
     return OST_SUCCESS;
 }
@@ -191,6 +195,18 @@ static OstStatus copy_file_materials(OstContext *ctx, const OstFileMaterials *fr
     return OST_SUCCESS;
 }
 
+static OstStatus check_places(const OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->springs[i].on));
+    return OST_SUCCESS;
+}
+
 static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
 {
     OstContext *ctx = made->ctx;
@@ -202,12 +218,7 @@ static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
     OST_TRY_DONE(make_plan(made, made->from_file));
-    for (int i = 0; i < c->constraint_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
-    for (int i = 0; i < c->load_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->loads[i].on));
-    for (int i = 0; i < c->spring_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->springs[i].on));
+    OST_TRY_DONE(check_places(made));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
@@ -255,11 +266,33 @@ OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMe
     return status;
 }
 
+OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case)
+{
+    OstContext *ctx = scene->ctx;
+    OstScene *made = NULL;
+    *of_case = NULL;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
+    *made = *scene;
+    made->c = scene->c->load_cases[number].c;
+    made->load_effect = NULL;
+    made->borrows = 1;
+    OstStatus status = make_plan(made, scene->from_file);
+    OST_THEN(check_places(made));
+    if (status != OST_SUCCESS)
+        ost_scene_destroy(&made);
+    *of_case = made;
+    return status;
+}
+
 void ost_scene_destroy(OstScene **scene)
 {
     if (!*scene)
         return;
     OST_FREE((*scene)->load_effect);
+    if ((*scene)->borrows) {
+        OST_FREE(*scene);
+        return;
+    }
     ost_file_materials_destroy(&(*scene)->from_file);
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);
@@ -279,7 +312,9 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 unsigned ost_scene_result_fields(const OstScene *scene)
 {
     const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const unsigned factors = OST_LOAD_FACTORS;
     const OstEffects *effects = &scene->plan.effects;
-    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~(error | factors) : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_STRENGTH) ? factors : 0U) |
            (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
 }

@@ -7,18 +7,30 @@
 #include <math.h>
 #include <string.h>
 
-OstStatus ost_scene_read_tet_field(const OstCase *c, OstMeshChunk *chunk)
+OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
 {
-    const OstCaseMaterial *asks = c->eigen_field;
-    if (!asks)
-        return OST_SUCCESS;
-    if (c->mesh_kind != OST_MESH_FILE)
-        return ost_case_located(c, asks->eigen_place,
-                                OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                                          "the field '%s' is read from the mesh file, and this mesh comes from none",
-                                          asks->eigen_field));
-    return ost_case_located(c, asks->eigen_place,
-                            ost_mesh_file_read_field(c->ctx, c->mesh_file, asks->eigen_field, chunk));
+    for (int f = 0; f < c->field_count; f++) {
+        const OstCaseField *asked = &c->fields[f];
+        if (c->mesh_kind != OST_MESH_FILE)
+            return ost_case_located(
+                c, asked->place,
+                OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                          "the field '%s' is read from the mesh file, and this mesh comes from none", asked->name));
+        OST_TRY(ost_case_located(
+            c, asked->place,
+            ost_mesh_file_read_field(c->ctx, c->mesh_file, asked->name,
+                                     asked->directions ? OST_FIELD_OF_DIRECTIONS : OST_FIELD_OF_NUMBERS, chunk)));
+    }
+    return OST_SUCCESS;
+}
+
+const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width)
+{
+    const int field = mesh->tet_field ? ost_case_find_field(c, name) : -1;
+    if (field < 0 || field >= mesh->fields.count)
+        return NULL;
+    *width = mesh->fields.first[field + 1] - mesh->fields.first[field];
+    return mesh->tet_field + (size_t)ost_tet_fields_width(&mesh->fields) * (size_t)tet + mesh->fields.first[field];
 }
 
 /* The eigenstrain that a tet's numbers stand for: of all directions, along the axes, with the shears, or a tensor. */
@@ -34,13 +46,13 @@ static void strain_of(const OstCaseMaterial *stated, int width, const double *fi
         strain[p] = field[0] * stated->eigenstrain[p];
 }
 
-static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated)
+static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated, int width,
+                               const double *field)
 {
-    const double *field = mesh->tet_field + (size_t)mesh->field_width * (size_t)tet;
-    if (stated->eigen_per_unit && mesh->field_width != 1)
+    if (stated->eigen_per_unit && width != 1)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "the field '%s' has %d numbers a tet; a change is one",
-                         stated->eigen_field, mesh->field_width);
-    for (int k = 0; k < mesh->field_width; k++)
+                         stated->eigen_field, width);
+    for (int k = 0; k < width; k++)
         if (!isfinite(field[k]))
             return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                              "the field '%s' has no number for tet %lld of region '%s', which it is asked for",
@@ -62,9 +74,12 @@ static OstStatus eigenstrain_of_tets(const OstCase *c, const OstMesh *mesh, doub
         }
         if (!stated || !stated->eigen_field)
             continue;
-        OST_TRY(ost_case_located(c, stated->eigen_place, check_numbers(mesh, t, stated)));
-        strain_of(stated, mesh->field_width, mesh->tet_field + (size_t)mesh->field_width * (size_t)t,
-                  *strain + 6 * (size_t)t);
+        int width = 0;
+        const double *field = ost_scene_tet_field(c, mesh, stated->eigen_field, t, &width);
+        if (!field)
+            continue;
+        OST_TRY(ost_case_located(c, stated->eigen_place, check_numbers(mesh, t, stated, width, field)));
+        strain_of(stated, width, field, *strain + 6 * (size_t)t);
     }
     return OST_SUCCESS;
 }

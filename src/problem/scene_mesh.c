@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "core/parallel/reduce.h"
 #include "material/field_data.h"
 #include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
@@ -105,6 +106,7 @@ static OstStatus partition(const OstSceneMaterials *materials, OstMeshChunk **ch
     int any = 0;
     for (int r = 0; r < (*chunk)->regions.count; r++)
         any |= has_direction(*chunk, materials, r);
+    OST_TRY(ost_max_ints((*chunk)->ctx, 1, &any)); /* a rank without tets has no axes */
     return ost_mesh_distribute_by((*chunk)->ctx, chunk, any ? &metric : NULL, mesh);
 }
 
@@ -193,7 +195,7 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
     OST_THEN(ost_scene_read_cell_axes(c, chunk));
-    OST_THEN(ost_scene_read_tet_field(c, chunk));
+    OST_THEN(ost_scene_read_tet_fields(c, chunk));
     OST_THEN(merge_vertices(c, chunk));
     OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);

@@ -44,8 +44,11 @@ OstShapeSurface ost_scene_surface(const OstCase *c);
  * tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
 
-/* Collective. Reads the field of the mesh file that the case's eigenstrains name, if any, into the chunk. */
-OstStatus ost_scene_read_tet_field(const OstCase *c, OstMeshChunk *chunk);
+/* Collective. Reads the fields of the mesh file that the case's materials name into the chunk. */
+OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);
+
+/* Local. A field's numbers of a tet; NULL if the mesh has none of the name. */
+const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width);
 
 /* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */
 OstStatus ost_scene_set_eigenstrain(OstScene *scene);

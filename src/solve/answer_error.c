@@ -52,6 +52,42 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
     return ost_agree(result->ctx, status);
 }
 
+/* A mixed form's dual problem would have a pressure too: there is no estimate of its quantities. */
+static int asks_of_quantity(const OstProblem *problem)
+{
+    return problem->scene && !problem->pressures && problem->scene->c->interest > 0;
+}
+
+/* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
+ * squared error in the norm of the energy. */
+static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
+{
+    const OstWatch *watch = &analysis->problem->scene->c->watches[analysis->problem->scene->c->interest - 1];
+    const OstLinear *linear = analysis->work;
+    OstInterestError *found = &result->interest;
+    OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &found->share, result->mesh->owned_tets)));
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->share[tet] = (watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0) * result->tet_error[tet];
+    if (watch->kind == OST_WATCH_STRAIN_ENERGY) {
+        OST_TRY(ost_problem_energy(analysis->problem, t, result->displacement, &found->value));
+        found->error = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
+    } else {
+        OstInterest interest;
+        OstStatus status = ost_interest_create(analysis->problem, watch, t, result->displacement, &interest);
+        if (status == OST_SUCCESS)
+            status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
+                                           &found->error, found->share);
+        found->value = interest.value;
+        ost_interest_clear(&interest);
+        OST_TRY(status);
+    }
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->sum += found->share[tet];
+    OST_TRY(ost_sum(result->ctx, 1, &found->sum));
+    found->watch = isnan(found->error) ? NULL : watch;
+    return OST_SUCCESS;
+}
+
 static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     OstContext *ctx = result->ctx;
@@ -65,6 +101,8 @@ static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimat
                                        result->tet_error, result->surplus));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
+    if (result->answer.known && asks_of_quantity(analysis->problem))
+        OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
@@ -82,8 +120,10 @@ OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult
     OstProblem state = *analysis->problem; /* with the answer's pressure, if it has one */
     state.field = result->field;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    OstStatus status = result->answer.known ? OST_SUCCESS : ost_estimate_create(&state, &estimate);
-    OST_THEN(estimate_tets(analysis, estimate, t, result));
+    const int has_all = result->answer.known && !asks_of_quantity(analysis->problem);
+    const int needs_own = !has_all && !analysis->estimate;
+    OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
+    OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;

@@ -21,6 +21,8 @@
     X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")             \
     X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")          \
     X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")    \
+    X(OST_VARIANT_NO_CENTRIFUGAL, OST_EFFECT_CENTRIFUGAL, "without centrifugal loads")        \
+    X(OST_VARIANT_NO_MOMENT, OST_EFFECT_MOMENT, "without moments")                            \
     X(OST_VARIANT_NO_FOLLOWER, OST_EFFECT_FOLLOWER_PRESSURE, "without pressure that follows") \
     X(OST_VARIANT_NO_EIGENSTRAIN, OST_EFFECT_EIGENSTRAIN, "without eigenstrain")              \
     X(OST_VARIANT_NO_FOUNDATION, OST_EFFECT_FOUNDATION, "without elastic foundation")         \

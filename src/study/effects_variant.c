@@ -172,6 +172,8 @@ static OstStatus replace_constraints(const OstScene *scene, OstVariant variant, 
         if (variant == OST_VARIANT_NOT_MOVED) {
             memset(constraint->displacement, 0, sizeof constraint->displacement);
             memset(constraint->exact, 0, sizeof constraint->exact);
+            memset(constraint->rotation, 0, sizeof constraint->rotation);
+            memset(constraint->strain, 0, sizeof constraint->strain);
         } else if (constraint->kind == OST_CONSTRAIN_SLIDE) {
             constraint->kind = OST_CONSTRAIN_DISPLACEMENT;
             for (int k = 0; k < 3; k++)

@@ -58,6 +58,21 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
     return OST_SUCCESS;
 }
 
+/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. */
+static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, double sum[3])
+{
+    const double *force = result->reaction + 3 * (size_t)node;
+    const double *x = result->mesh->coordinates + 3 * (size_t)node;
+    const double *u = result->displacement + 3 * (size_t)node;
+    const int turns = result->formulation != OST_FORMULATION_LINEAR;
+    double arm[3], moment[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
+    ost_cross3(arm, force, moment);
+    for (int i = 0; i < 3; i++)
+        sum[i] += watch->of_moment ? moment[i] : force[i];
+}
+
 /* The surplus says little of reactions: what few steps leave out of balance in the body is of their errors' size. */
 static OstStatus reaction(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
@@ -67,8 +82,8 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     double sum[3] = {0.0};
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
     for (OstLocal n = 0; n < count; n++)
-        for (int i = 0; i < 3 && nodes[n] < scene->mesh->owned_nodes; i++)
-            sum[i] += result->reaction[3 * (size_t)nodes[n] + (size_t)i];
+        if (nodes[n] < scene->mesh->owned_nodes)
+            add_reaction(result, watch, nodes[n], sum);
     OST_FREE(nodes);
     OST_TRY(ost_sum(ctx, 3, sum));
     watched->value = component_of(sum, watch->component);
@@ -112,7 +127,7 @@ static double energy_error(const OstScene *scene, const OstResult *result)
     return is_moved ? -half : half;
 }
 
-OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+static OstStatus evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     switch (watch->kind) {
     case OST_WATCH_DISPLACEMENT:
@@ -126,6 +141,14 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
                      watch->line);
+}
+
+OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+{
+    OST_TRY(evaluate(scene, result, watch, watched));
+    if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
+        watched->error = result->interest.error;
+    return OST_SUCCESS;
 }
 
 /* --- all quantities of a case --- */
@@ -174,7 +197,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
-        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error};
+        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error,
+                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY};
     }
     return OST_SUCCESS;
 }
@@ -188,6 +212,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
             printf(" +- %.2g", error);
         if (error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+        if (values[w].by_adjoint)
+            printf(", with its error added %.10g", values[w].value + values[w].error);
         if (!isnan(expected) && expected != 0.0)
             printf(", expected %.10g: %.2g %% off", expected, 100.0 * fabs(values[w].value / expected - 1.0));
         puts("");

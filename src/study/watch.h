@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_STUDY_WATCH_H
 #define ORTHOSTAT_STUDY_WATCH_H
 
+#include "orthostat/watch.h"
 #include "problem/scene_data.h"
 
 /* A quantity of interest (the case's `watch`): its value in one answer, and the scale of its kind (the largest
@@ -20,14 +21,6 @@ OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
 /* Collective. The quantity in a result of the scene. */
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                              OstWatched *watched);
-
-/* Collective. Checks the case's quantities, those of its verify section too: raises OST_INVALID_INPUT for a selection
- * that does not exist or is empty; warns as ost_watch_place does. */
-OstStatus ost_watch_check(const OstScene *scene);
-
-/* Collective. All quantities of the case, in its order: memory from the context, which the caller frees; names are the
- * case's. */
-OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values);
 
 /* Local. A line each: value, and the expected one where it is known. */
 void ost_watch_print(const OstWatchedValue *values, int count);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/aggregation/aggregates.h"
+#include "algebra/aggregation/alignment.h"
 #include "elastic_block.h"
 #include "support.h"
 
@@ -45,6 +46,33 @@ static void mean_variance(const OstMetricGraph *graph, const OstAggregates *aggr
         }
     }
     OST_FREE(sums);
+}
+
+static double misalignment(const double w[6])
+{
+    OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, 1.0});
+    double mean;
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        memcpy(graph->metric + 6 * (size_t)i, w, 6 * sizeof *w);
+    assert_success(ost_metric_graph_misalignment(graph, &mean));
+    ost_metric_graph_destroy(&graph);
+    return mean;
+}
+
+/* The bricks' edges lie along x, y, z and their diagonals; 0.03 is the metric at a ratio of moduli of 1000. A metric of
+ * 1 + (s - 1) e eᵀ is s along e, and 1 across. */
+static void edges_off_the_stiff_directions_are_noticed(void **state)
+{
+    (void)state;
+    const double stiff = 0.03, c = cos(0.4), s = sin(0.4), drop = stiff - 1.0;
+    assert_close(misalignment((double[6]){1, 1, 1, 0, 0, 0}), 1.0, 1e-12);
+    assert_close(misalignment((double[6]){stiff, 1, 1, 0, 0, 0}), 1.0, 1e-12);
+    assert_close(misalignment((double[6]){stiff, stiff, 1, 0, 0, 0}), 1.0, 0.2);
+    /* 0.4 from x and 0.385 from the diagonal of x and y, which is the nearest edge of the inner nodes. */
+    const double nearest = (1.0 + drop * pow(cos(M_PI / 4 - 0.4), 2)) / stiff;
+    assert_close(misalignment((double[6]){1.0 + drop * c * c, 1.0 + drop * s * s, 1, drop * c * s, 0, 0}), nearest,
+                 0.3);
+    assert_true(nearest > 4.0);
 }
 
 static void every_node_is_in_one_aggregate_and_sizes_meet_the_target(void **state)
@@ -204,6 +232,7 @@ static void a_metric_that_measures_nothing_is_refused(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(edges_off_the_stiff_directions_are_noticed),
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),
     cmocka_unit_test(parts_too_small_for_the_modes_are_left_to_the_smoother),

@@ -120,7 +120,35 @@ static void near_incompressibility_asks_for_small_aggregates_unless_the_case_say
     assert_int_equal(plan.options.smoother_degree, usual.smoother_degree);
 }
 
+/* 9,228 to 151,611 unknowns of spindles and brackets, measured (docs/performance.md). */
+static void thin_quadratic_bodies_off_the_axes_are_factored_and_no_others(void **state)
+{
+    (void)state;
+    const OstSolverFacts thin = {
+        .unknowns = 55125, .anisotropy = 1e3, .poisson = 0.3, .thickness = 4.7, .misalignment = 3.0};
+    const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &thin);
+    assert_int_equal(plan.first, OST_METHOD_DIRECT);
+    assert_true(has_reason(&plan, "factoring takes about"));
+    OstSolverFacts other = thin;
+    other.misalignment = 1.0; /* linear tets help */
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    other = thin;
+    other.repeated = 1;
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    other = thin;
+    other.free_memory = 3e8; /* less than twice what is foreseen */
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    other = thin;
+    other.thickness = 0.0; /* linear tets */
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    other = thin;
+    other.unknowns = 345744;
+    other.thickness = 30.0;
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(thin_quadratic_bodies_off_the_axes_are_factored_and_no_others),
     cmocka_unit_test(near_incompressibility_asks_for_small_aggregates_unless_the_case_says_otherwise),
     cmocka_unit_test(few_unknowns_are_factored),
     cmocka_unit_test(a_factorisation_that_does_not_fit_is_not_begun_with),

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What cmake --install leaves is all that another project needs: the examples are built on it through CMake and through
-# pkg-config, and run.
+# The Debian package is made, and what lies in it is all that others need: the program solves from another folder, examples
+# are built on it through CMake and through pkg-config, Python finds its package, man its pages, bash its completion.
 set -euo pipefail
 
 folder=$(mktemp -d)
@@ -9,38 +9,52 @@ sanitizers=""
 grep -q '^ORTHOSTAT_SANITIZE:BOOL=ON' "$ORTHOSTAT_BUILD/CMakeCache.txt" && sanitizers="-fsanitize=address,undefined"
 warnings="-std=c11 -Wall -Wextra -Wshadow -Wconversion -Werror"
 
-cmake --install "$ORTHOSTAT_BUILD" --prefix "$folder/usr" >/dev/null
-cmake -S "$ORTHOSTAT_SOURCE/examples" -B "$folder/by-cmake" -DCMAKE_PREFIX_PATH="$folder/usr" \
-    -DCMAKE_C_FLAGS="$warnings $sanitizers" >/dev/null
-cmake --build "$folder/by-cmake" >/dev/null
-
-PKG_CONFIG_PATH=$(dirname "$(find "$folder/usr" -name orthostat.pc)")
-export PKG_CONFIG_PATH
-cp -r "$ORTHOSTAT_SOURCE/examples" "$folder/by-pkg-config"
-make -C "$folder/by-pkg-config" CC="cc $sanitizers" >/dev/null
-
 fail() {
     echo "$1" >&2
     exit 1
 }
 
+# --- the package; everything is built already, and Ninja is not asked to look ---
+
+cpack --config "$ORTHOSTAT_BUILD/CPackConfig.cmake" -B "$folder/cpack" -D CPACK_CMAKE_GENERATOR=Ninja >"$folder/cpack.log" 2>&1 ||
+    fail "$(cat "$folder/cpack.log")"
+version=$(sed -nE 's/^project\(orthostat VERSION ([0-9.]+).*/\1/p' "$ORTHOSTAT_SOURCE/CMakeLists.txt")
+package=$folder/cpack/orthostat_${version}_$(dpkg --print-architecture).deb
+[ "$(dpkg-deb --field "$package" Version)" = "$version" ] || fail "the package is not of version $version"
+dpkg-deb --field "$package" Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//' >"$folder/depends"
+for needed in openmpi-bin libc6 libopenmpi3 libhdf5-openmpi libmumps libmetis5 libtrilinos-ml libyaml; do
+    grep -q "^$needed" "$folder/depends" || fail "the package does not depend on $needed: $(tr '\n' ' ' <"$folder/depends")"
+done
+while read -r needed; do # libopenblas0 stands for any of libopenblas0-serial, -pthread and -openmp
+    dpkg-query -W "$needed*" >/dev/null || fail "the package depends on $needed, by which it was not built"
+done <"$folder/depends"
+dpkg-deb -x "$package" "$folder"
+
+# --- other projects ---
+
+PKG_CONFIG_PATH=$(dirname "$(find "$folder/usr" -name orthostat.pc)")
+export PKG_CONFIG_PATH
+cp -r "$ORTHOSTAT_SOURCE/examples" "$folder/by-pkg-config"
+make -C "$folder/by-pkg-config" CC="cc $sanitizers" >/dev/null
+cmake -S "$ORTHOSTAT_SOURCE/examples" -B "$folder/by-cmake" -DCMAKE_PREFIX_PATH="$folder/usr" \
+    -DCMAKE_C_FLAGS="$warnings $sanitizers" >/dev/null
+cmake --build "$folder/by-cmake" >/dev/null
+
 # The answers are the same however the program was linked, and on however many ranks; times and iterations are not.
 cd "$folder"
-for ranks in 1 2; do
-    for build in by-cmake by-pkg-config; do
-        "$ORTHOSTAT_MPIEXEC" -n $ranks $build/solve_case "$ORTHOSTAT_SOURCE/cases/block/sliding.yaml" sliding.vtkhdf
-        "$ORTHOSTAT_MPIEXEC" -n $ranks $build/own_mesh
-        "$ORTHOSTAT_MPIEXEC" -n $ranks $build/ten_loads | sed 's/,.*//'
-    done >"answers-$ranks"
-done
+answers() { # RANKS FOLDER
+    "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/solve_case" "$ORTHOSTAT_SOURCE/cases/block/sliding.yaml" sliding.vtkhdf
+    "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/own_mesh"
+    "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/ten_loads" | sed 's/,.*//'
+}
+answers 1 by-pkg-config >answers-pkg-config
+answers 2 by-cmake >answers-cmake
+diff answers-pkg-config answers-cmake || fail "the answers differ between pkg-config on 1 rank and CMake on 2"
 "$ORTHOSTAT_MPIEXEC" -n 2 by-pkg-config/formulations >formulations
-diff answers-1 answers-2 || fail "the answers differ between 1 and 2 ranks"
-half=$(($(wc -l <answers-1) / 2))
-diff <(head -n $half answers-1) <(tail -n $half answers-1) || fail "the answers differ between CMake and pkg-config"
-cat answers-1
-grep -q 'moves by 0.00106536 at most, at (2, 1, 1)' answers-1 || fail "solve_case: another answer"
-grep -q 'straight grain: 0.0105.*1\.6. times as far' answers-1 || fail "own_mesh: another answer"
-[ "$(grep -c 'degrees: moves by' answers-1)" = 20 ] || fail "ten_loads: not ten answers"
+cat answers-cmake
+grep -q 'moves by 0.00106536 at most, at (2, 1, 1)' answers-cmake || fail "solve_case: another answer"
+grep -q 'straight grain: 0.0105.*1\.6. times as far' answers-cmake || fail "own_mesh: another answer"
+[ "$(grep -c 'degrees: moves by' answers-cmake)" = 10 ] || fail "ten_loads: not ten answers"
 [ "$(grep -c '^| 10* |' formulations)" = 4 ] || fail "formulations: not four rows"
 [ -s sliding.vtkhdf ] && [ -s own_mesh.vtkhdf ] || fail "the examples wrote no files"
 
@@ -63,4 +77,55 @@ case $library in
     ;;
 esac
 
-"$folder/usr/bin/orthostat" --version | grep -q '^orthostat '
+# --- users ---
+
+"$folder/usr/bin/orthostat" --version | grep -qx "orthostat $version" || fail "the program is not of version $version"
+"$folder/usr/bin/orthostat" solve usr/share/orthostat/cases/block/sliding.yaml --quiet --output users.vtkhdf
+[ -s users.vtkhdf ] || fail "the program wrote nothing"
+
+# Python finds the package and, from there, the library of the same prefix.
+case $library in
+*.so)
+    PYTHONPATH=$folder/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - <<END
+import orthostat
+result = orthostat.solve("usr/share/orthostat/cases/block/sliding.yaml")
+assert abs(result.largest_displacement / 0.00106536 - 1) < 1e-5, result
+assert "$folder/usr/" in open("/proc/self/maps").read(), "another library was loaded"
+END
+    ;;
+esac
+
+# Each command has a page with its options, and each option has a word for bash.
+mapfile -t commands < <("$folder/usr/bin/orthostat" --help | sed -nE 's/^  ([a-z]+) .*/\1/p')
+for command in "${commands[@]}"; do
+    zcat "usr/share/man/man1/orthostat-$command.1.gz" | sed 's/\\-/-/g; s/\\fR//g' >"page-$command"
+    grep -q "^orthostat-$command \\\\* *- [a-z]" "page-$command" || fail "$command: its page has no name"
+done
+grep -q -e '--max-memory=' page-solve && grep -q 'Exit\|EXIT' page-solve || fail "solve: its page lacks options"
+zcat usr/share/man/man1/orthostat.1.gz | grep -q 'orthostat\\-cost\|orthostat-cost' || fail "orthostat(1) does not name the others"
+
+# shellcheck disable=SC1091
+. usr/share/bash-completion/completions/orthostat
+completed() { # WORD...: what may stand for the last of them
+    COMP_WORDS=("$@")
+    COMP_CWORD=$(($# - 1))
+    _orthostat
+    printf '%s ' "${COMPREPLY[@]}"
+}
+expect() { # ANSWER WORD...
+    local found
+    found=$(completed "${@:2}")
+    [ "$found" = "$1" ] || fail "completion of '${*:2}': '$found' where '$1' is right"
+}
+mkdir -p completion/deeper
+cd completion
+touch beam.yaml beam.yml beam.vtkhdf
+expect "solve scale " orthostat s
+expect "--version --verbose " orthostat --ver
+expect "--json= " orthostat solve --js
+expect "--json " orthostat -q check --js
+expect "beam.yaml beam.yml " orthostat solve b
+expect "beam.yaml beam.yml deeper " orthostat explain ""
+expect "beam.vtkhdf " orthostat solve --output beam.v
+expect "beam.vtkhdf " orthostat solve --output = beam.v
+expect "check cost " scripts/orthostat -n 4 c

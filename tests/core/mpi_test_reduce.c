@@ -36,6 +36,39 @@ static void numbers_go_on_from_rank_to_rank(void **state)
     assert_true(total == (OstGlobal)ost_size(ctx) * (ost_size(ctx) + 1) / 2);
 }
 
+static void items_are_gathered_in_the_order_of_ranks(void **state)
+{
+    (void)state;
+    const int rank = ost_rank(ctx), ranks = ost_size(ctx);
+    const double mine[2] = {rank, rank + 0.5};
+    const OstLocal count = rank % 3; /* some ranks have none, or one */
+    void *all = NULL;
+    OstLocal total = -1, at = 0;
+    assert_success(ost_gather(ctx, sizeof *mine, mine, count, &all, &total));
+    for (int r = 0; r < ranks; r++)
+        for (int i = 0; i < r % 3; i++)
+            assert_true(((double *)all)[at++] == r + 0.5 * i);
+    assert_int_equal(at, total);
+    ost_free_memory(all);
+}
+
+static void contexts_are_made_by_a_number_and_on_all(void **state)
+{
+    (void)state;
+    OstContext *numbered = NULL, *all = NULL;
+    int runs = 0;
+    assert_int_equal(ost_context_create_by_number(MPI_Comm_c2f(MPI_COMM_SELF), &numbered), OST_SUCCESS);
+    assert_int_equal(ost_context_create_on_all(&all), OST_SUCCESS);
+    assert_int_equal(ost_size(numbered), 1);
+    assert_int_equal(ost_size(all), ost_size(ctx));
+    assert_int_equal(ost_rank(all), ost_rank(ctx));
+    ost_context_destroy(&all);
+    ost_context_destroy(&numbered);
+    ost_end_mpi(); /* which somebody else started */
+    assert_int_equal(MPI_Finalized(&runs), MPI_SUCCESS);
+    assert_false(runs);
+}
+
 static void a_machine_has_more_than_is_free(void **state)
 {
     (void)state;
@@ -49,6 +82,8 @@ static void a_machine_has_more_than_is_free(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(sums_and_extremes_are_of_all_ranks),
     cmocka_unit_test(numbers_go_on_from_rank_to_rank),
+    cmocka_unit_test(items_are_gathered_in_the_order_of_ranks),
+    cmocka_unit_test(contexts_are_made_by_a_number_and_on_all),
     cmocka_unit_test(a_machine_has_more_than_is_free),
 };
 

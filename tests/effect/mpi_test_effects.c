@@ -18,19 +18,27 @@
 #define TWO                                                                       \
     "materials:\n  - {region: block, youngs_modulus: 1e6, poissons_ratio: 0.3}\n" \
     "  - {region: core, youngs_modulus: 2e6, poissons_ratio: 0.3}\n"
-#define HELD "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+#define STRONG "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, strengths: {tension: 1e4}}]\n"
+#define HELD "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
 #define MOVED                                                             \
     "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n" \
     "  - {on: {boundary: xmax}, displacement: [0.01, free, free]}\n"
 #define SLIDING                                                           \
     "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n" \
     "  - {on: {boundary: xmax}, slide: [1, 1, 0]}\n"
+#define RIGID HELD "  - {on: {boundary: xmax}, rigid: [2, 0, 0]}\n"
+#define TIED HELD "  - {on: {nearest: [2, 1, 1]}, tied_to: {boundary: xmin}, tolerance: 3}\n"
+#define CELL                                                                                                  \
+    "constraints: [{periodic: [[xmin, xmax], [ymin, ymax]], strain: {xx: 0.01}}, {on: {nearest: [0, 0, 0]}, " \
+    "displacement: [0, 0, 0]}]\n"
 #define FREE "constraints: free_body\n"
 #define PULLED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}]\n"
 #define TORN "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}, {on: {boundary: xmin}, traction: [-1, 0, 0]}]\n"
 #define POKED "loads: [{on: {box: {min: [2, 1, 1], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define SPREAD "loads: [{on: {box: {min: [2, 0, 0], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
+#define TURNING "loads: [{centrifugal: {axis: [0, 0, 1], angular_velocity: 1}}]\n"
+#define TWISTED "loads: [{on: {boundary: xmax}, moment: [1, 0, 0]}]\n"
 #define PRESSED "loads: [{on: {boundary: xmax}, pressure: 1}]\n"
 #define FOLLOWED "loads: [{on: {boundary: xmax}, pressure: 1, follows: true}]\n"
 #define SWOLLEN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
@@ -63,12 +71,18 @@ static const struct {
                                     QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
     ROW(OST_EFFECT_PRESCRIBED_DISPLACEMENT) = {BLOCK SOFT MOVED NO_FIELDS, BLOCK SOFT SLIDING PULLED NO_FIELDS},
     ROW(OST_EFFECT_SLIDING) = {BLOCK SOFT SLIDING PULLED NO_FIELDS, BLOCK SOFT FREE TORN NO_FIELDS},
+    ROW(OST_EFFECT_RIGID_FACE) = {BLOCK SOFT RIGID PULLED NO_FIELDS, BLOCK SOFT TIED PULLED NO_FIELDS},
+    ROW(OST_EFFECT_TIE) = {BLOCK SOFT TIED PULLED NO_FIELDS, BLOCK SOFT CELL NO_FIELDS},
+    ROW(OST_EFFECT_PERIODIC) = {BLOCK SOFT CELL NO_FIELDS, BLOCK SOFT RIGID PULLED NO_FIELDS},
     ROW(OST_EFFECT_FREE_BODY) = {BLOCK SOFT FREE TORN NO_FIELDS, BLOCK SOFT MOVED NO_FIELDS},
     ROW(OST_EFFECT_POINT_FORCE) = {BLOCK SOFT HELD POKED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_SURFACE_LOAD) = {BLOCK SOFT HELD SPREAD NO_FIELDS, BLOCK SOFT HELD POKED NO_FIELDS},
     ROW(OST_EFFECT_BODY_FORCE) = {BLOCK SOFT HELD HEAVY NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_CENTRIFUGAL) = {BLOCK SOFT HELD TURNING NO_FIELDS, BLOCK SOFT HELD HEAVY NO_FIELDS},
+    ROW(OST_EFFECT_MOMENT) = {BLOCK SOFT HELD TWISTED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_FOLLOWER_PRESSURE) = {BLOCK SOFT HELD FOLLOWED NO_FIELDS, BLOCK SOFT HELD PRESSED NO_FIELDS},
     ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_STRENGTH) = {BLOCK STRONG HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_FOUNDATION) = {BLOCK SOFT FOUNDED PULLED NO_FIELDS, BLOCK SOFT SPRUNG PULLED NO_FIELDS},
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},

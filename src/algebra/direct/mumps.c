@@ -303,6 +303,7 @@ OstStatus ost_mumps_solve(void *data, const double *b, double *x)
     OstContext *ctx = mumps->ctx;
     OST_TRY(OST_MPI(ctx, MPI_Gatherv(b, mumps->unknowns, MPI_DOUBLE, mumps->vector, mumps->counts, mumps->starts,
                                      MPI_DOUBLE, 0, ost_comm(ctx))));
+    ost_ledger_gathered(ctx, ost_rank(ctx) == 0 ? (double)mumps->all * sizeof *b : 0.0);
     mumps->id.rhs = mumps->vector;
     call(mumps, JOB_SOLVE);
     OST_TRY(check(mumps, "solve"));

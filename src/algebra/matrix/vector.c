@@ -27,7 +27,7 @@ OstStatus ost_vector_size(OstContext *ctx, size_t n, const double *values, doubl
     double largest = 0.0;
     for (size_t i = 0; i < n; i++)
         largest = fabs(values[i]) <= largest ? largest : fabs(values[i]);
-    OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+    OST_TRY(ost_max(ctx, 1, &largest));
     *size = largest >= DBL_MIN && isfinite(largest) ? exp2(floor(log2(largest))) : 1.0;
     return OST_SUCCESS;
 }

@@ -158,6 +158,7 @@ OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x)
         return ost_mumps_solve(coarsest->sparse, b, x);
     OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
                                         coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
+    ost_ledger_gathered(ctx, (double)coarsest->order * sizeof *b);
     ost_ledger_multiplied(ctx, (double)coarsest->order * (double)coarsest->order / ost_size(ctx));
     const int leading = coarsest->order > 0 ? coarsest->order : 1;
     dpotrs_("L", &coarsest->order, &one, coarsest->factor, &leading, coarsest->vector, &leading, &info, 1);

@@ -17,6 +17,7 @@ enum {
 static const double careful = 1.2; /* safety factor of an eigenvalue estimate that may be too low */
 
 typedef struct Level {
+    int number; /* of the finest: 0 */
     const OstLevelMatrix *matrix;
     OstSmoother *smoother;             /* NULL where the level is solved by factors */
     const OstProlongator *prolongator; /* from the next level; or */
@@ -66,54 +67,73 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
     return ost_agree(ctx, status);
 }
 
+/* Books what follows to the level, and at the end to none. */
+static void enter(const Level *level)
+{
+    ost_ledger_level(level->matrix->ctx, level->number);
+}
+
+static OstStatus leave(const Level *level, OstStatus status)
+{
+    ost_ledger_level(level->matrix->ctx, -1);
+    return status;
+}
+
 /* y = A x */
 static OstStatus multiply(void *data, const double *x, double *y)
 {
     const Level *level = data;
+    enter(level);
     const size_t n = ost_level_unknowns(level->matrix);
     if (n > 0) {
         memcpy(level->own, x, n * sizeof *x);
         memset(y, 0, n * sizeof *y);
     }
     ost_level_matrix_add(level->matrix, 1.0, level->own, y);
-    return OST_SUCCESS;
+    return leave(level, OST_SUCCESS);
 }
 
 static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
 {
     const Level *level = data;
-    if (level->coarsest)
-        return ost_coarsest_solve(level->coarsest, b, x);
     const int is_last = !level->prolongator && !level->quadratic;
+    enter(level);
+    if (is_last)
+        ost_ledger_visited(level->matrix->ctx);
+    if (level->coarsest)
+        return leave(level, ost_coarsest_solve(level->coarsest, b, x));
     for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
         ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0);
-    return OST_SUCCESS;
+    return leave(level, OST_SUCCESS);
 }
 
 static OstStatus restrict_to(void *data, const double *fine, double *coarse)
 {
     const Level *level = data;
+    enter(level);
+    ost_ledger_visited(level->matrix->ctx);
     if (level->quadratic)
-        return ost_quadratic_level_restrict(level->quadratic, fine, coarse);
+        return leave(level, ost_quadratic_level_restrict(level->quadratic, fine, coarse));
     ost_prolongator_restrict(level->prolongator, fine, level->coarse);
     const size_t n = ost_level_unknowns(level[1].matrix);
     if (n > 0)
         memcpy(coarse, level->coarse, n * sizeof *coarse);
-    return OST_SUCCESS;
+    return leave(level, OST_SUCCESS);
 }
 
 static OstStatus prolong(void *data, const double *coarse, double *fine)
 {
     const Level *level = data;
     const size_t n = ost_level_unknowns(level->matrix), coarse_n = ost_level_unknowns(level[1].matrix);
+    enter(level);
     if (level->quadratic)
-        return ost_quadratic_level_prolong(level->quadratic, coarse, fine);
+        return leave(level, ost_quadratic_level_prolong(level->quadratic, coarse, fine));
     if (n > 0)
         memset(fine, 0, n * sizeof *fine);
     if (coarse_n > 0)
         memcpy(level->coarse, coarse, coarse_n * sizeof *coarse);
     ost_prolongator_add(level->prolongator, level->coarse, fine);
-    return OST_SUCCESS;
+    return leave(level, OST_SUCCESS);
 }
 
 /* Lists the levels, the finest first. */
@@ -131,6 +151,7 @@ static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
     cycle->level[cycle->count - 1].coarsest = cycle->coarsest;
     for (int l = 0; l < cycle->count; l++) {
         Level *level = &cycle->level[l];
+        level->number = l;
         OST_TRY(ost_level_vector_create(ctx, level->matrix->size, (size_t)level->matrix->columns, &level->own));
         if (level->prolongator)
             OST_TRY(ost_level_vector_create(ctx, OST_MODES, (size_t)level->prolongator->columns, &level->coarse));

@@ -11,6 +11,12 @@
  * Chebyshev smoothing. */
 typedef struct OstMetric OstMetric;
 
+/* Quadratic tets whose edges are further off the stiff directions are aggregated without the linear tets. */
+extern const double ost_metric_misaligned;
+
+/* Collective. How far the matrix's edges are from the stiff directions (ost_metric_graph_misalignment). */
+OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, double *mean);
+
 /* Collective. The matrix stays the caller's and must outlive the solver. Raises OST_INVALID_INPUT if a coordinate or
  * metric is not usable or a diagonal block is not positive definite. */
 OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,

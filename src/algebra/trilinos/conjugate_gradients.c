@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { AZTEC_SUMS = 2 }; /* over all ranks that AztecOO makes itself in a step: p·Ap and r·z */
+
 /* AztecOO iterates; the goal and the Lanczos estimate need these numbers of each step. */
 typedef struct Aztec {
     OstCgRun *run;
@@ -43,6 +45,7 @@ static void multiply(double *p, double *y, AZ_MATRIX *matrix, int *configuration
         note(aztec, ost_cg_multiply(aztec->run, p, y));
         aztec->energy = ost_dot(aztec->run->n, p, y);
         aztec->multiplied = 1;
+        ost_ledger_reduced(aztec->run->ctx, AZTEC_SUMS);
     }
 }
 

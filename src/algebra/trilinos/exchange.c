@@ -8,9 +8,12 @@
 #include <ml_include.h>
 
 struct OstExchange {
+    OstContext *ctx;
     ML_Comm *comm;
     ML_CommInfoOP *to_ghosts, *to_owners;
-    int unknowns; /* that this rank owns */
+    int unknowns;    /* that this rank owns */
+    int messages[2]; /* to ghosts, to owners */
+    double bytes[2];
 };
 
 void ost_exchange_destroy(OstExchange **exchange)
@@ -67,7 +70,12 @@ OstStatus ost_exchange_create(const OstHalo *halo, int width, OstExchange **exch
     OST_TRY_DONE(OST_NEW(ctx, &made, 1));
     OST_TRY_DONE(OST_NEW(ctx, &owned, width * halo->send_start[halo->neighbour_count]));
     OST_TRY_DONE(OST_NEW(ctx, &ghost, width * halo->ghosts));
+    made->ctx = ctx;
     made->unknowns = width * halo->owned;
+    made->messages[0] = ost_halo_messages(halo, halo->send_start);
+    made->messages[1] = ost_halo_messages(halo, halo->receive_start);
+    made->bytes[0] = (double)width * sizeof(double) * halo->send_start[halo->neighbour_count];
+    made->bytes[1] = (double)width * sizeof(double) * halo->ghosts;
     ML_Comm_Create(&made->comm);
     ML_Comm_Set_UsrComm(made->comm, ost_comm(ctx));
     ML_Comm_Set_Mypid(made->comm, ost_rank(ctx));
@@ -82,12 +90,20 @@ done:
     return ost_agree(ctx, status);
 }
 
+static void book(const OstExchange *exchange, int back)
+{
+    if (exchange->messages[0] + exchange->messages[1] > 0)
+        ost_ledger_sent(exchange->ctx, exchange->messages[back], exchange->bytes[back]);
+}
+
 void ost_exchange_import(const OstExchange *exchange, double *x)
 {
+    book(exchange, 0);
     ML_exchange_bdry(x, exchange->to_ghosts, exchange->unknowns, exchange->comm, ML_OVERWRITE, NULL);
 }
 
 void ost_exchange_add_to_owners(const OstExchange *exchange, double *x)
 {
+    book(exchange, 1);
     ML_exchange_bdry(x, exchange->to_owners, exchange->unknowns, exchange->comm, ML_ADD, NULL);
 }

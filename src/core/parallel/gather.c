@@ -4,6 +4,11 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+OstStatus ost_gather(OstContext *ctx, size_t size, const void *items, OstLocal count, void **all, OstLocal *total)
+{
+    return ost_gather_items(ctx, size, items, count, "more than 2^31 - 1 items to gather; gather fewer", all, total);
+}
+
 OstStatus ost_gather_items(OstContext *ctx, size_t size, const void *items, OstLocal count, const char *too_many,
                            void **all, OstLocal *total)
 {

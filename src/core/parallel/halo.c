@@ -127,6 +127,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     made->ghosts = ghosts;
     OST_TRY_DONE(ost_number_ends(ctx, first_number + owned, end));
     OST_TRY_DONE(ost_agree(ctx, check_ghosts(ctx, end, ghosts, ghost_number, receive_count)));
+    ost_ledger_gathered(ctx, (double)size * sizeof *send_count);
     OST_TRY_DONE(OST_MPI(ctx, MPI_Alltoall(receive_count, 1, MPI_INT, send_count, 1, MPI_INT, ost_comm(ctx))));
     OST_TRY_DONE(ost_agree(ctx, make_lists(made, send_count, receive_count)));
     OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
@@ -190,6 +191,14 @@ static int message_length(OstLocal entries, size_t size)
     return (int)((size_t)entries * size);
 }
 
+int ost_halo_messages(const OstHalo *halo, const OstLocal *start)
+{
+    int messages = 0;
+    for (int k = 0; k < halo->neighbour_count; k++)
+        messages += start[k + 1] > start[k];
+    return messages;
+}
+
 /* All ranks fail together, since `size` is the same on all. */
 static OstStatus check_entry(const OstHalo *halo, size_t size)
 {
@@ -227,6 +236,7 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
             OST_TRY(OST_MPI(halo->ctx, MPI_Isend(outgoing + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
                                                  HALO_TAG, comm, &halo->request[requests++])));
     }
+    ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->send_start), (double)size * halo->send_start[n]);
     return OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
 }
 
@@ -256,6 +266,7 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
             OST_TRY(OST_MPI(halo->ctx, MPI_Isend(ghosts + (size_t)first * (size_t)width, length, MPI_BYTE,
                                                  halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
     }
+    ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->receive_start), (double)size * halo->ghosts);
     OST_TRY(OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)
         for (int c = 0; c < width; c++)

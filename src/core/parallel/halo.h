@@ -34,6 +34,9 @@ void ost_halo_destroy(OstHalo **halo);
  * They must keep their order; a ghost must be in if and only if its owner's entry is. */
 OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo **subset);
 
+/* Local. How many neighbours have entries by `start` (send_start or receive_start): the messages of an exchange. */
+int ost_halo_messages(const OstHalo *halo, const OstLocal *start);
+
 /* Collective over neighbours. Copies owners' values into the ghosts; `size` is the bytes of an entry. */
 OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values);
 

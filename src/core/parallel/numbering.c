@@ -16,6 +16,7 @@ OstStatus ost_number_from(OstContext *ctx, OstGlobal count, OstGlobal *first, Os
 
 OstStatus ost_number_ends(OstContext *ctx, OstGlobal my_end, OstGlobal *end)
 {
+    ost_ledger_gathered(ctx, (double)ost_size(ctx) * sizeof my_end);
     return OST_MPI(ctx, MPI_Allgather(&my_end, 1, MPI_INT64_T, end, 1, MPI_INT64_T, ost_comm(ctx)));
 }
 

@@ -5,6 +5,7 @@
 
 static OstStatus reduce(OstContext *ctx, int count, void *values, MPI_Datatype type, MPI_Op operation)
 {
+    ost_ledger_reduced(ctx, 1);
     return OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, values, count, type, operation, ost_comm(ctx)));
 }
 

@@ -77,6 +77,7 @@ OstStatus ost_route_create(OstContext *ctx, OstLocal count, int width, const int
         status = sort_items(made, count, width, to);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
+    ost_ledger_gathered(ctx, (double)ost_size(ctx) * sizeof *made->send_count);
     OST_TRY_DONE(
         OST_MPI(ctx, MPI_Alltoall(made->send_count, 1, MPI_INT, made->receive_count, 1, MPI_INT, ost_comm(ctx))));
     OST_TRY_DONE(ost_agree(ctx, sum_up(ctx, made->receive_count, made->receive_start, &made->receives)));

@@ -3,7 +3,7 @@
 
 #include "element/element.h"
 #include "orthostat/refine.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 
 enum {
     EVERYTHING = 1U << OST_FIELD_STRAIN | 1U << OST_FIELD_STRESS | 1U << OST_FIELD_ENERGY | 1U << OST_FIELD_NODE_STRESS

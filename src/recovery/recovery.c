@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 
 #include "assembly/batch.h"
 #include "case/case_data.h"
@@ -9,8 +9,13 @@
 #include "element/large_rotation.h"
 #include "element/strain_batch.h"
 #include "element/tets.h"
+#include "fields/output_field.h"
+#include "recovery/derived.h"
 
 #include <string.h>
+
+/* Fields of stress along material axes, which turn with the body. */
+enum { ALONG_AXES = OST_LOAD_FACTORS | 1U << OST_FIELD_MATERIAL_STRESS };
 
 static int asks(unsigned fields, OstOutputFieldBit field)
 {
@@ -21,12 +26,16 @@ static void write_means(void *data, const OstBatch *batch, const OstElement *ele
                         const OstMeans *means)
 {
     OstResult *result = data;
-    OstSimd stress[6];
+    OstSimd stress[6], rotation[9];
     memcpy(stress, means->stress, sizeof stress);
     if (result->formulation != OST_FORMULATION_LINEAR && result->stress)
         ost_large_rotation_mean_stress(element, result->formulation, batch->x, &batch->elasticity, u, stress);
+    if (result->rotation)
+        ost_large_rotation_mean_rotation(element, batch->x, &batch->elasticity, u, rotation);
     for (int slot = 0; slot < batch->count; slot++) {
         const size_t tet = (size_t)batch->tet[slot];
+        for (size_t n = 0; result->rotation && n < 9; n++)
+            result->rotation[9 * tet + n] = rotation[n][slot];
         for (size_t p = 0; p < 6; p++) {
             if (result->strain)
                 result->strain[6 * tet + p] = means->strain[p][slot];
@@ -48,6 +57,8 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
         OST_TRY(OST_NEW(ctx, &result->stress, 6 * tets));
     if (asks(fields, OST_FIELD_ENERGY))
         OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
+    if (result->formulation != OST_FORMULATION_LINEAR && fields & ALONG_AXES)
+        OST_TRY(OST_NEW(ctx, &result->rotation, 9 * tets));
     if (result->strain || result->stress || result->strain_energy_density)
         ost_visit_means_of(result->mesh, result->field, result->formulation, result->t, result->displacement,
                            write_means, result);
@@ -171,17 +182,28 @@ static OstStatus recover_node_stress(OstResult *result)
     return status;
 }
 
-OstStatus ost_result_recover(OstResult *result, unsigned fields)
+/* Collective. */
+static OstStatus recover(OstResult *result, unsigned fields)
 {
-    OstContext *ctx = result->ctx;
-    const int at_nodes = asks(fields, OST_FIELD_NODE_STRESS);
-    if (!at_nodes && !asks(fields, OST_FIELD_STRAIN) && !asks(fields, OST_FIELD_STRESS) &&
-        !asks(fields, OST_FIELD_ENERGY))
+    OST_TRY(ost_agree(result->ctx, recover_means(result, fields)));
+    return asks(fields, OST_FIELD_NODE_STRESS) ? recover_node_stress(result) : OST_SUCCESS;
+}
+
+OstStatus ost_result_recover(OstResult *result, unsigned asked)
+{
+    const unsigned fields = ost_output_fields_needed(asked);
+    unsigned recovered = 0;
+    for (int f = 0; f < OST_FIELD_COUNT; f++)
+        recovered |= (unsigned)ost_output_field((OstOutputFieldBit)f).is_recovered << f;
+    if (!(fields & recovered))
         return OST_SUCCESS;
-    ost_ledger_enter(ctx, OST_EFFECT_RECOVERY);
-    OstStatus status = ost_agree(ctx, recover_means(result, fields));
-    if (status == OST_SUCCESS && at_nodes)
-        status = recover_node_stress(result);
-    ost_ledger_leave(ctx);
+    ost_ledger_enter(result->ctx, OST_EFFECT_RECOVERY);
+    OstStatus status = recover(result, fields);
+    ost_ledger_leave(result->ctx);
+    if (status != OST_SUCCESS || !(asked & OST_LOAD_FACTORS) || !ost_field_has_strengths(result->field))
+        return status;
+    ost_ledger_enter(result->ctx, OST_EFFECT_STRENGTH);
+    status = ost_result_find_failure(result);
+    ost_ledger_leave(result->ctx);
     return status;
 }

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cases, and the scenes they make."""
+import json
+import math
+import os
+
+import numpy
+
+from ._library import ffi, lib, struct, text_of
+from .context import context_of
+from .errors import NotConverged
+from .mesh import Mesh
+from .problem import Analysis, Path, Problem, axes_of, take_result
+from .result import Result
+
+
+def _plain(value):
+    """What json does not know: numpy's arrays and numbers, and paths."""
+    if isinstance(value, (numpy.ndarray, numpy.generic)):
+        return value.tolist()
+    return os.fspath(value)
+
+
+class Case:
+    """A case, read from a file, from text, or from a dict of the same keys.
+
+    source: a path; a text (a str with a line break); or a dict, in which arrays of numpy may stand for lists.
+    name: what messages call a text or a dict; files that it names are relative to the folder of this name.
+    """
+
+    def __init__(self, source, name="case", comm=None):
+        self.context = context_of(comm)
+        box = self.context.box("OstCase")
+        if isinstance(source, dict):  # a line for each section: messages name the line
+            rows = (f"{json.dumps(key)}: {json.dumps(value, default=_plain)}" for key, value in source.items())
+            source = "{" + ",\n".join(rows) + "\n}\n"
+        if isinstance(source, str) and "\n" in source:
+            status = lib.ost_case_parse(self.context.pointer, os.fspath(name).encode(), source.encode(), box)
+        else:
+            status = lib.ost_case_read(self.context.pointer, os.fspath(source).encode(), box)
+        self.context.check(status)
+        self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_case_destroy)
+
+    title = property(lambda self: text_of(lib.ost_case_title(self.pointer)))
+    output_file = property(lambda self: text_of(lib.ost_case_output_file(self.pointer)), doc="None: the case names none")
+    has_path = property(lambda self: bool(lib.ost_case_has_path(self.pointer)))
+    asks_error = property(lambda self: bool(lib.ost_case_asks_error(self.pointer)), doc="is an accuracy asked for?")
+
+    def scene(self, mesh=None):
+        """Collective. Mesh, materials and axes made; `mesh`: MeshArrays in place of the case's own."""
+        return Scene(self, mesh)
+
+    def solve(self, mesh=None, max_seconds=math.inf, max_bytes=math.inf):
+        """Collective. Solves as `orthostat solve` does: where the case asks for an accuracy the mesh is refined until it
+        is met or a limit is in the way (NotConverged, with the result); a path is gone to its end."""
+        if self.asks_error and not self.has_path and mesh is None:
+            return _adapt(self, max_seconds, max_bytes)
+        return self.scene(mesh).solve()
+
+
+class Scene:
+    """A case made concrete on this rank: its piece of the mesh, its materials and axes."""
+
+    def __init__(self, case, mesh=None):
+        context, box = case.context, case.context.box("OstScene")
+        if mesh is None:
+            status = lib.ost_scene_create(case.pointer, box)
+        else:
+            chunk = mesh.chunk(context)
+            status = lib.ost_scene_create_on(case.pointer, chunk, box)
+        context.check(status)
+        self._take(case, box[0], context.handle_of(box[0], lib.ost_scene_destroy, case))
+        context.check(lib.ost_watch_check(self.pointer))
+
+    def _take(self, case, pointer, owner):
+        self.case, self.pointer, self.owner, self.context = case, pointer, owner, case.context
+        self.mesh = Mesh.borrowed(self.context, lib.ost_scene_mesh(pointer), owner)
+
+    @classmethod
+    def borrowed(cls, case, pointer, owner):
+        scene = cls.__new__(cls)
+        scene._take(case, pointer, owner)
+        return scene
+
+    @property
+    def axes(self):
+        """(tet_count, 3, 3), rows e1 e2 e3: the material axes of each tet (a copy)."""
+        return axes_of(lib.ost_scene_field(self.pointer), self.mesh)
+
+    def check(self):
+        """Collective. A dry run: all that is checked before a solver is built."""
+        self.context.check(lib.ost_scene_dry_run(self.pointer))
+
+    def solve(self):
+        """Collective. Solves once, in the least memory; where the case has a path, the answer is that at its end."""
+        box = self.context.box("OstResult")
+        return take_result(self.context, lib.ost_scene_solve(self.pointer, box), box, self.mesh, self)
+
+    def problem(self):
+        """Collective. Supports and loads of the case as a problem, for loads of your own, energies, forces, stiffness."""
+        box = self.context.box("OstProblem")
+        self.context.check(lib.ost_scene_problem(self.pointer, box))
+        return Problem.borrowed(box[0], self.mesh, lib.ost_scene_field(self.pointer), self)
+
+    def analysis(self):
+        """Collective. For many loads: what does not depend on the load is made once."""
+        return Analysis(self.problem())
+
+    def path(self):
+        """Collective. The case's path, step by step."""
+        box = self.context.box("OstPath")
+        self.context.check(lib.ost_scene_path(self.pointer, box))
+        return Path(box[0], self.mesh, self)
+
+
+def _adapt(case, seconds, size):
+    box = case.context.box("OstAdaption")
+    limits = ffi.new("OstAdaptLimits *", {"seconds": seconds, "bytes": size})
+    status = lib.ost_adapt(case.pointer, limits, box)
+    owner = case.context.handle_of(box[0], lib.ost_adaption_destroy, case)
+    found = lib.ost_adaption_result(box[0]) if box[0] else ffi.NULL
+    result = None
+    if found:
+        scene = Scene.borrowed(case, lib.ost_adaption_scene(box[0]), owner)
+        result = Result(found, owner, scene.mesh, scene)
+        count = lib.ost_adaption_level_count(box[0])
+        result.levels = [struct(lib.ost_adaption_level(box[0], i)[0]) for i in range(count)]
+    case.context.check(status, result)
+    if lib.ost_adaption_end(box[0]) != lib.OST_ADAPT_MET:
+        words = ffi.new("char[]", lib.OST_LONGEST_ADAPT_WORDS)
+        lib.ost_adaption_words(box[0], words)
+        error = NotConverged(text_of(words))
+        error.result = result
+        raise error
+    return result
+
+
+def solve(case, mesh=None, comm=None, **limits):
+    """Collective. Solves a case: a Case, or a path, a text or a dict that makes one (Case); see Case.solve."""
+    case = case if isinstance(case, Case) else Case(case, comm=comm)
+    return case.solve(mesh, **limits)

@@ -1,0 +1,37 @@
+
+# The words that may stand next: commands, then options, case files, and the files that options ask for.
+_orthostat() {
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command= i
+    COMPREPLY=()
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        case ${COMP_WORDS[i]} in
+        -n) ((i++)) ;; # scripts/orthostat -n RANKS
+        -*) ;;
+        *) command=${COMP_WORDS[i]} && break ;;
+        esac
+    done
+    if [ -z "$command" ]; then
+        mapfile -t COMPREPLY < <(compgen -W "$_orthostat_commands --help --version --quiet --verbose" -- "$word")
+        return
+    fi
+    local options=${_orthostat_options[$command]-}
+    if [ "$word" = = ]; then # --json=, which readline takes apart
+        before='=' word=
+    fi
+    if [[ $word == -?* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+        [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace 2>/dev/null
+        return
+    fi
+    compopt -o filenames 2>/dev/null
+    if [ "$before" = = ] || [[ " $options " == *" $before= "* ]]; then
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+        return
+    fi
+    case ${_orthostat_takes[$command]-} in
+    *CASE*) mapfile -t COMPREPLY < <(compgen -f -X '!*.y*ml' -- "$word"; compgen -d -- "$word") ;;
+    '') ;;
+    *) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+    esac
+}
+complete -F _orthostat orthostat scripts/orthostat

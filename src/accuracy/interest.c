@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/interest.h"
+
+#include "case/select.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+#include "mesh/nearest.h"
+
+#include <string.h>
+
+void ost_interest_clear(OstInterest *interest)
+{
+    OST_FREE(interest->load);
+    OST_FREE(interest->moved);
+}
+
+/* The direction of the quantity: an axis, or that of the vector. */
+static void take_direction(const OstWatch *watch, const double vector[3], double direction[3])
+{
+    const double length = ost_norm3(vector);
+    const int axis = watch->component == OST_WATCH_LENGTH ? 0 : watch->component;
+    memset(direction, 0, 3 * sizeof *direction);
+    if (watch->component == OST_WATCH_LENGTH && length > 0.0)
+        for (int i = 0; i < 3; i++)
+            direction[i] = vector[i] / length;
+    else
+        direction[axis] = 1.0;
+}
+
+static OstStatus of_displacement(const OstProblem *problem, const OstWatch *watch, const double *u,
+                                 OstInterest *interest)
+{
+    OstNearest vertex;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->load, 3 * (size_t)problem->mesh->owned_nodes)));
+    OST_TRY(ost_mesh_nearest(problem->mesh, watch->on.point, &vertex));
+    if (vertex.node >= 0) {
+        const double *at = u + 3 * (size_t)vertex.node;
+        double *direction = interest->load + 3 * (size_t)vertex.node;
+        take_direction(watch, at, direction);
+        interest->value = ost_dot3(direction, at);
+    }
+    return ost_sum(problem->ctx, 1, &interest->value);
+}
+
+/* How a node's place is seen from the point that a moment is about. */
+static void find_arm(const OstProblem *problem, const OstWatch *watch, OstLocal node, double arm[3])
+{
+    for (size_t i = 0; i < 3; i++)
+        arm[i] = problem->mesh->coordinates[3 * (size_t)node + i] - watch->about[i];
+}
+
+/* The whole reaction of the nodes, or its moment: the internal force there, less the load. */
+static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                               OstLocal count, const OstLocal *nodes, double sum[3])
+{
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    double *force = NULL, *load = NULL;
+    OstStatus status = OST_NEW(problem->ctx, &force, numbers);
+    OST_THEN(OST_NEW(problem->ctx, &load, numbers));
+    OST_THEN(ost_problem_force(problem, t, u, force));
+    if (status == OST_SUCCESS)
+        ost_problem_load(problem, t, u, load);
+    memset(sum, 0, 3 * sizeof *sum);
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
+        double of_node[3], arm[3], moment[3];
+        if (nodes[n] >= problem->mesh->owned_nodes)
+            continue;
+        find_arm(problem, watch, nodes[n], arm);
+        for (size_t i = 0; i < 3; i++)
+            of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
+        ost_cross3(arm, of_node, moment);
+        for (int i = 0; i < 3; i++)
+            sum[i] += watch->of_moment ? moment[i] : of_node[i];
+    }
+    OST_FREE(force);
+    OST_FREE(load);
+    OST_TRY(ost_agree(problem->ctx, status));
+    return ost_sum(problem->ctx, 3, sum);
+}
+
+static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                             OstInterest *interest)
+{
+    OstLocal *nodes = NULL, count = 0;
+    double sum[3], direction[3];
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
+    OST_TRY(ost_select_nodes(problem->scene->c, problem->mesh, &watch->on, &count, &nodes));
+    const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, sum);
+    take_direction(watch, sum, direction);
+    interest->value = ost_dot3(direction, sum);
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
+        double arm[3];
+        find_arm(problem, watch, nodes[n], arm);
+        memcpy(interest->moved + 3 * (size_t)nodes[n], direction, sizeof direction);
+        if (watch->of_moment)
+            ost_cross3(direction, arm, interest->moved + 3 * (size_t)nodes[n]);
+    }
+    OST_FREE(nodes);
+    return status;
+}
+
+OstStatus ost_interest_create(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                              OstInterest *interest)
+{
+    *interest = (OstInterest){0};
+    return watch->kind == OST_WATCH_REACTION ? of_reaction(problem, watch, t, u, interest)
+                                             : of_displacement(problem, watch, u, interest);
+}

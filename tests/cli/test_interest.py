@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`accuracy: {of}`: the error of a watched quantity by its adjoint problem, against meshes of a quarter of the edge length."""
+from program import check, new_folder, run, solve
+
+CASE = """title: a clamped beam
+mesh: {{refine: {refine}, block: {{size: [10, 1, 1], divisions: [10, 2, 2]}}}}
+materials:
+  - {{region: all, youngs_modulus: [1000, 100, 50], poissons_ratio: 0.3, shear_modulus: {{G12: 60, G23: 20, G13: 50}}}}
+constraints: {supports}
+loads: {loads}
+large_rotation: {large}
+element: {{order: {order}}}
+watch:
+  middle: {{displacement: {{nearest: [5, 1, 1]}}, component: x}}
+  tip: {{displacement: {{nearest: [10, 0.5, 0.5]}}}}
+  pull: {{reaction: {{boundary: xmin}}, component: z}}
+  energy_of_strain: strain_energy
+accuracy: {accuracy}
+"""
+HELD = "{on: {boundary: xmin}, displacement: [0, 0, 0]}"
+PULLED = {"supports": f"[{HELD}]", "loads": "[{on: {boundary: xmax}, total_force: [0, 0, 0.1]}]"}
+MOVED = {"supports": f"[{HELD}, {{on: {{boundary: xmax}}, displacement: [0.1, 0, 0.2]}}]", "loads": "[]"}
+folder = new_folder()
+
+
+def watched(scene, accuracy, refine=0, order=1, large="off", ranks=1):
+    text = CASE.format(accuracy=accuracy, refine=refine, order=order, large=large, **scene)
+    text = text.replace("refine: 0, ", "").replace("loads: []\n", "")
+    done, report, _ = solve(text, ranks=ranks, folder=folder)
+    check(done.exit_code == 0, done.errors)
+    return report, done
+
+
+for scene, names in (PULLED, ("middle", "tip")), (MOVED, ("middle", "pull")):
+    fine = watched(scene, "{relative_residual: 1e-9}", 2, 2)[0]["watched"]
+    for order, refine in (1, 1), (2, 0):
+        for name in names:
+            report, done = watched(scene, f"{{of: {name}}}", refine, order, ranks=1 if order == 1 else 2)
+            found = report["watched"][name]
+            missing = fine[name]["value"] - found["value"]
+            ratio = found["error"] / missing
+            check(0.6 < ratio < 1.5, f"{name}, order {order}: {found['error']} estimated, {missing} missing")
+            check(abs(fine[name]["value"] - found["corrected"]) < 0.4 * abs(missing), f"{name}: corrected {found}")
+            check("with its error added" in done.output, done.output)
+
+# A given load's whole reaction is right on every mesh.
+report, _ = watched(PULLED, "{of: pull}")
+check(abs(report["watched"]["pull"]["error"]) < 1e-10, f"a reaction without error: {report['watched']['pull']}")
+
+# The same on several ranks.
+one = watched(MOVED, "{of: pull}", order=2)[0]["watched"]["pull"]["error"]
+three = watched(MOVED, "{of: pull}", order=2, ranks=3)[0]["watched"]["pull"]["error"]
+check(abs(three / one - 1) < 0.1, f"1 rank: {one}, 3 ranks: {three}")
+
+# Large rotations: the beam's own adjoint about the bent shape.
+bent = {**PULLED, "loads": "[{on: {boundary: xmax}, total_force: [0, 0, 1]}]"}
+fine = watched(bent, "{relative_residual: 1e-9}", 1, 2, "on")[0]["watched"]["tip"]["value"]
+found = watched(bent, "{of: tip}", 0, 2, "on")[0]["watched"]["tip"]
+check(0.5 < found["error"] / (fine - found["value"]) < 1.6, f"large rotation: {found}, exact {fine}")
+
+# Asked for: the quantity is as accurate as that.
+fine = watched(PULLED, "{relative_residual: 1e-9}", 2, 2)[0]["watched"]["tip"]["value"]
+report, done = watched(PULLED, "{relative_error: 0.001, of: tip}", order=2, ranks=2)
+adaption = report["adaption"]
+check(adaption["met"] and adaption["of"] == "tip" and "of tip" in done.output, f"met: {adaption}")
+check(abs(report["watched"]["tip"]["value"] / fine - 1) < 0.001, f"{report['watched']['tip']}, exact {fine}")
+check(len(adaption["levels"]) > 1, f"the first mesh is too coarse: {adaption}")
+
+for wrong, said in ("{of: nobody}", "not watched"), ("{of: [tip]}", "expected a text"):
+    with open(f"{folder}/wrong.yaml", "w", encoding="utf-8") as stream:
+        stream.write(CASE.format(accuracy=wrong, refine=1, order=1, large="off", **PULLED))
+    done = run("solve", "wrong.yaml", folder=folder)
+    check(done.exit_code == 2 and said in done.errors, f"{wrong}: {done.errors}")
