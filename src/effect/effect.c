@@ -68,6 +68,12 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
         off(state, "one material for the whole body");
 }
 
+/* Does a constraint make nodes follow others? */
+static int has_links(const OstEffectFacts *f)
+{
+    return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
 /* Why the mixed form is not used, or NULL. Newton's method has no mixed form. */
 static const char *why_not_mixed(const OstEffectFacts *f)
 {
@@ -81,6 +87,8 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "the case says so: element: {mixed: off}";
     if (f->large_rotation == 2 && !f->free_body)
         return "large rotations use the mean dilatation";
+    if (has_links(f))
+        return "rigid, tied or periodic faces use the mean dilatation";
     if (f->path_steps > 0)
         return "a path uses the mean dilatation";
     return NULL;
@@ -113,12 +121,6 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
            f->nearly_incompressible, f->materials);
     else
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
-}
-
-/* Does a constraint make nodes follow others? */
-static int has_links(const OstEffectFacts *f)
-{
-    return f->rigid_faces + f->ties + f->periodic > 0;
 }
 
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */

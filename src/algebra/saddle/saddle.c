@@ -12,8 +12,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* tau over 1 / the smallest eigenvalue of M^-1 A seen so far; and what it is taken for before any was seen. */
-static const double margin = 1.1, first_eigenvalue = 0.7;
+/* tau over 1 / the smallest eigenvalue of M^-1 A seen so far, from a little before it is needed; and what that is taken
+ * for before any was seen. */
+static const double margin = 1.2, near = 1.05, first_eigenvalue = 0.7;
+
+/* Where the product proves not to be definite all the same, or the residual grows by so much, tau is multiplied and the
+ * pass begins again from where it began; so often at most. */
+static const double enlarge = 1.5, grown = 1e9;
+enum { MOST_RESTARTS = 12 };
 
 /* M works in single precision in part, so that z = N^-1 r, which is carried along, is off by that share of what it was
  * when it was last computed: it is computed anew where r has become so much smaller. */
@@ -50,6 +56,8 @@ typedef struct Run {
     double size; /* of r.u when z.u was last computed */
     double weight;
     double energy; /* of the right-hand sides, about */
+    int passes, restarts;
+    Pair start; /* u and p where the pass began */
     OstLanczos lanczos;
 } Run;
 
@@ -57,18 +65,19 @@ static OstStatus create(Run *run)
 {
     const size_t columns = 3 * (size_t)run->system->matrix->columns;
     const size_t n = run->n, m = run->m, mg = run->mg;
-    OstStatus status = OST_NEW(run->ctx, &run->memory, 8 * n + columns + 5 * mg + 6 * m);
+    OstStatus status = OST_NEW(run->ctx, &run->memory, 9 * n + columns + 5 * mg + 7 * m);
     OST_THEN(ost_lanczos_create(run->ctx, run->goal->most_iterations, &run->lanczos));
     OST_TRY(ost_agree(run->ctx, status));
     double *next = run->memory;
-    double **of_unknowns[] = {&run->r.u, &run->z.u, &run->d.u, &run->k.u, &run->az, &run->ad, &run->w, &run->scaled};
+    double **of_unknowns[] = {&run->r.u, &run->z.u, &run->d.u,    &run->k.u,    &run->az,
+                              &run->ad,  &run->w,   &run->scaled, &run->start.u};
     double **of_columns[] = {&run->r.p, &run->z.p, &run->d.p, &run->k.p, &run->q};
-    double **of_pressures[] = {&run->bz, &run->bd, &run->work};
-    for (int i = 0; i < 8; i++, next += n)
+    double **of_pressures[] = {&run->start.p, &run->bz, &run->bd, &run->work};
+    for (int i = 0; i < 9; i++, next += n)
         *of_unknowns[i] = next;
     for (int i = 0; i < 5; i++, next += mg)
         *of_columns[i] = next;
-    for (int i = 0; i < 3; i++, next += m)
+    for (int i = 0; i < 4; i++, next += m)
         *of_pressures[i] = next;
     run->wide = run->work + 3 * m;
     return OST_SUCCESS;
@@ -196,7 +205,7 @@ static OstStatus complete(Run *run, int *again)
     sums[SUM_AZ] = ost_dot(run->n, run->z.u, run->az);
     sums[SUM_RZ] = ost_dot(run->n, run->z.u, run->r.u);
     OST_TRY(ost_sum(run->ctx, 2, sums));
-    if (sums[SUM_RZ] > 0.0 && sums[SUM_AZ] < 1.02 * sums[SUM_RZ] && sums[SUM_AZ] > 0.0) {
+    if (sums[SUM_RZ] > 0.0 && sums[SUM_AZ] < near * sums[SUM_RZ] && sums[SUM_AZ] > 0.0) {
         const double larger = margin * sums[SUM_RZ] / sums[SUM_AZ];
         run->tau *= larger;
         for (size_t i = 0; i < run->n; i++) {
@@ -269,30 +278,58 @@ static OstStatus renew(Run *run, int due)
     return precondition(run, run->r.u, run->z.u);
 }
 
-/* A pass, from the residual at hand. */
-static OstStatus iterate(Run *run)
+/* Steps of a pass. *broken: A - N proves not to be positive definite. */
+static OstStatus iterate(Run *run, int *broken)
 {
     OstGoal *goal = run->goal;
+    const double most = grown * goal->norm;
     double before = 0.0, curvature, norm;
     int again;
+    *broken = 0;
     OST_TRY(renew(run, 1));
     for (int first = 1;; first = 0) {
         OST_TRY(complete(run, &again));
-        if (!ost_goal_accepts(goal, run->weight))
+        *broken = !(run->weight > 0.0 && isfinite(run->weight));
+        if (*broken)
             return OST_SUCCESS;
-        if (again)
+        if (again && run->passes == 0)
             run->lanczos.count = 0; /* of another operator */
         OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
-        if (!ost_goal_accepts(goal, curvature))
+        *broken = !(curvature > 0.0 && isfinite(curvature));
+        if (*broken)
             return OST_SUCCESS;
         before = run->weight;
-        ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
+        if (run->passes == 0) /* a run of conjugate gradients; the passes that follow are others */
+            ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
         step(run, run->weight / curvature);
         OST_TRY(find_norm(run, &norm));
-        if (!ost_goal_count(goal, norm, run->weight))
+        *broken = !(norm <= most);
+        if (!ost_goal_count(goal, norm, run->weight) || *broken)
             return OST_SUCCESS;
         OST_TRY(renew(run, 0));
     }
+}
+
+/* A pass from the residual at hand. */
+static OstStatus run_pass(Run *run)
+{
+    OstGoal *goal = run->goal;
+    int broken;
+    memcpy(run->start.u, run->u, run->n * sizeof(double));
+    memcpy(run->start.p, run->saddle->p, run->m * sizeof(double));
+    OST_TRY(iterate(run, &broken));
+    while (broken && run->restarts++ < MOST_RESTARTS && goal->end == OST_END_REACHED) {
+        run->tau *= enlarge;
+        run->lanczos.count = 0;
+        ost_log(run->ctx, OST_LOG_VERBOSE, "solver: begun again, the preconditioner scaled by %.3g", run->tau);
+        memcpy(run->u, run->start.u, run->n * sizeof(double));
+        memcpy(run->saddle->p, run->start.p, run->m * sizeof(double));
+        OST_TRY(find_residual(run));
+        OST_TRY(iterate(run, &broken));
+    }
+    if (broken && goal->end == OST_END_REACHED)
+        ost_goal_accepts(goal, -1.0);
+    return OST_SUCCESS;
 }
 
 /* --- passes --- */
@@ -339,7 +376,8 @@ static OstStatus run_passes(Run *run)
     ost_convergence_start(&goal->convergence, goal->norm);
     while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS) {
         const double before = goal->norm;
-        OST_TRY(iterate(run));
+        OST_TRY(run_pass(run));
+        run->passes++;
         OST_TRY(find_residual(run));
         stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
     }
