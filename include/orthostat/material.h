@@ -58,6 +58,9 @@ OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double 
 enum { OST_MODULI_WORDS = 128 };
 void ost_orthotropic_words(const OstOrthotropic *constants, char text[OST_MODULI_WORDS]);
 
+/* Local. Does only the direction of axis 0, 1 or 2 matter: is the material transversely isotropic about it? */
+int ost_orthotropic_is_transverse(const OstOrthotropic *constants, int axis);
+
 /* Local. The shear moduli of eq. 22 for a rule. */
 void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRule rule, double shear_modulus[3]);
 

@@ -40,7 +40,7 @@ typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } O
 
 /* Bits of those that are written unless a case says which: up to the load factors, which are there where a material
  * states strengths. The others follow from them, and are made if asked for. */
-#define OST_FIELDS_BY_DEFAULT ((1U << OST_FIELD_MATERIAL_STRESS) - 1U)
+enum { OST_FIELDS_BY_DEFAULT = (1 << OST_FIELD_MATERIAL_STRESS) - 1 };
 
 OST_API_END
 

@@ -102,6 +102,21 @@ const double *ost_result_node_stress(const OstResult *result);           /* node
 const double *ost_result_tet_error(const OstResult *result); /* owned_tets: each one's error in the norm of the energy,
                                                                 whose squares add up to that of OstAnswerError */
 
+/* A field as the file has it (docs/output.md). Texts are the library's. */
+typedef struct OstFieldValues {
+    const char *unit, *description;
+    const char *component_names; /* with blanks between them; "" if there is one */
+    int components;
+    int is_integer; /* are the values int32_t? Otherwise they are double */
+    OstLocal rows;  /* node_count or owned_tets */
+    void *values;   /* rows × components; NULL: the result has nothing that it could be made of */
+    int is_made; /* were they made for the caller, who frees them by ost_free_memory? Otherwise the result has them */
+} OstFieldValues;
+
+/* Collective. One of the result's fields, or one that follows from them, as von Mises stress does. Raises
+ * OST_OUT_OF_MEMORY. */
+OstStatus ost_result_field(const OstResult *result, OstOutputFieldBit field, OstFieldValues *found);
+
 /* Local. Over the whole body: the largest displacement and, unless NULL, the place of its node; the unknowns. */
 double ost_result_largest_displacement(const OstResult *result, double at[3]);
 OstGlobal ost_result_unknowns(const OstResult *result);
@@ -121,6 +136,8 @@ typedef struct OstWatchedValue {
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
+    int placed;     /* is it a least or largest value, and `place` where it is? */
+    double place[3];
 } OstWatchedValue;
 
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or

@@ -413,7 +413,7 @@ OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
     return ost_case_read_with(ctx, path, 0, NULL, c);
 }
 
-static void release_constraint(OstConstraint *constraint)
+void ost_constraint_release(OstConstraint *constraint)
 {
     ost_selection_release(&constraint->on);
     ost_selection_release(&constraint->to);
@@ -429,10 +429,11 @@ void ost_case_destroy(OstCase **c)
     for (int i = 0; i < (*c)->material_count; i++) {
         OST_FREE((*c)->materials[i].region);
         OST_FREE((*c)->materials[i].eigen_field);
+        OST_FREE((*c)->materials[i].modulus.field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
-        release_constraint(&(*c)->constraints[i]);
+        ost_constraint_release(&(*c)->constraints[i]);
     for (int i = 0; i < (*c)->load_count; i++) {
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
@@ -443,9 +444,11 @@ void ost_case_destroy(OstCase **c)
     for (int i = 0; i < (*c)->watch_count; i++) {
         OST_FREE((*c)->watches[i].name);
         OST_FREE((*c)->watches[i].source);
+        OST_FREE((*c)->watches[i].region);
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);
+    ost_probes_release((*c)->probe_count, &(*c)->probes);
     for (int i = 0; i < (*c)->table_count; i++)
         ost_time_table_release(&(*c)->tables[i]);
     OST_FREE((*c)->tables);
@@ -476,6 +479,15 @@ const char *ost_case_title(const OstCase *c)
 const char *ost_case_output_file(const OstCase *c)
 {
     return c->output_file;
+}
+
+/* Along axes that have turned, where rotations are large. */
+unsigned ost_case_recovers(const OstCase *c)
+{
+    int stress = c->probe_count;
+    for (int w = 0; w < c->watch_count; w++)
+        stress += c->watches[w].kind == OST_WATCH_STRESS;
+    return c->output_fields | (stress > 0 ? 1U << OST_FIELD_STRESS | 1U << OST_FIELD_MATERIAL_STRESS : 0U);
 }
 
 unsigned ost_case_output_fields(const OstCase *c)

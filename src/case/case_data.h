@@ -2,7 +2,9 @@
 #ifndef ORTHOSTAT_CASE_CASE_DATA_H
 #define ORTHOSTAT_CASE_CASE_DATA_H
 
+#include "case/probe/read_probe.h"
 #include "case/yaml/tree.h"
+#include "fields/stress_measure.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -129,6 +131,13 @@ typedef struct OstSpring {
     double direction[3];  /* unit; zero: the surface's normal, or none where along = across */
 } OstSpring;
 
+/* Young's modulus tet by tet: factor × field^power, not below `least`; that of the material is multiplied by it. */
+typedef struct OstModulusField {
+    char *field; /* NULL: there is none */
+    OstPlace place;
+    double factor, power, least;
+} OstModulusField;
+
 typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
@@ -140,6 +149,7 @@ typedef struct OstCaseMaterial {
     char *eigen_field;     /* the mesh file's field of it, tet by tet; or NULL */
     OstPlace eigen_place;
     int eigen_per_unit; /* the field is the change that `eigenstrain` is multiplied by, not the strain itself */
+    OstModulusField modulus;
     OstAxesSpec axes;
 } OstCaseMaterial;
 
@@ -151,7 +161,10 @@ typedef struct OstCaseField {
 } OstCaseField;
 
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
-typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
+typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY, OST_WATCH_STRESS } OstWatchKind;
+
+/* What is taken of the stresses of a region. */
+typedef enum { OST_TAKE_MEAN, OST_TAKE_LEAST, OST_TAKE_LARGEST } OstTake;
 
 enum {
     OST_WATCH_LENGTH = 3, /* instead of a component */
@@ -162,10 +175,14 @@ typedef struct OstWatch {
     char *name;
     OstWatchKind kind;
     int line;
-    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
+    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by the others */
     int of_moment;   /* REACTION: the moment of the reactions about the point `about`? */
     double about[3];
-    int component;   /* 0 to 2, or OST_WATCH_LENGTH */
+    int component; /* 0 to 2, or OST_WATCH_LENGTH; STRESS: OstStressMeasure */
+    char *region;  /* STRESS: of the tets of a region, or "all"; NULL: at the point `at` */
+    OstPlace region_place;
+    double at[3];
+    OstTake take;
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
 } OstWatch;
@@ -241,7 +258,9 @@ struct OstCase {
     int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file; /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields; /* bits of OstOutputField */
-    int load_case_count;    /* 0: there are none. Else loads, supports and springs above are those of all */
+    int probe_count;
+    OstProbe *probes;    /* tables of points, beside the output file */
+    int load_case_count; /* 0: there are none. Else loads, supports and springs above are those of all */
     OstLoadCase *load_cases;
     int sweep_count; /* of keys */
     OstSweepKey *sweep;
@@ -265,6 +284,9 @@ OstStatus ost_case_make(OstContext *ctx, const char *path, const OstCaseText *te
 /* Local. Puts in place of a case the one of its load cases that has this name. Raises OST_INVALID_USAGE with the names
  * there are. */
 OstStatus ost_case_pick(OstCase **c, const char *name);
+
+/* Local. The fields that are to be recovered: those of the output, and what quantities of interest are made of. */
+unsigned ost_case_recovers(const OstCase *c);
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);

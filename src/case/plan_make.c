@@ -49,7 +49,7 @@ static void count_springs(const OstCase *c, OstEffectFacts *facts)
 static void count_recovered(const OstCase *c, OstEffectFacts *facts)
 {
     const unsigned factors = OST_LOAD_FACTORS;
-    const unsigned asked = facts->strengths > 0 ? c->output_fields | factors : c->output_fields & ~factors;
+    const unsigned asked = facts->strengths > 0 ? ost_case_recovers(c) | factors : ost_case_recovers(c) & ~factors;
     const unsigned needed = ost_output_fields_needed(asked);
     for (int f = 0; f < OST_FIELD_COUNT; f++) {
         const OstOutputField field = ost_output_field((OstOutputFieldBit)f);

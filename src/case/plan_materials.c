@@ -40,7 +40,9 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     case OST_AXES_CELLS:
         return "axes differ from tet to tet";
     case OST_AXES_GRADIENT:
-        return "axes follow the gradients of two potentials";
+        return "axes follow the gradients of potentials";
+    case OST_AXES_FIELD:
+        return "axes are a field of the mesh file";
     default:
         return "axes differ from place to place";
     }
@@ -88,6 +90,8 @@ static void add_material(OstContext *ctx, const char *region, const OstMaterial 
 {
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     facts->materials++;
+    if (stated && stated->modulus.field)
+        facts->modulus_region = stated->region;
     facts->strengths += material->strength.known;
     if (stated && is_eigenstrained(stated))
         facts->eigenstrained_region = stated->region;

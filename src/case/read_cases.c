@@ -52,9 +52,11 @@ static void drop_replaced(OstCase *c, int before)
     for (int i = 0; i < c->constraint_count; i++) {
         int replaced = 0;
         for (int k = before; k < c->constraint_count && i < before; k++)
-            replaced |= ost_selections_agree(&c->constraints[i].on, &c->constraints[k].on);
+            replaced |= (c->constraints[i].kind == OST_CONSTRAIN_PERIODIC) ==
+                            (c->constraints[k].kind == OST_CONSTRAIN_PERIODIC) &&
+                        ost_selections_agree(&c->constraints[i].on, &c->constraints[k].on);
         if (replaced)
-            ost_selection_release(&c->constraints[i].on);
+            ost_constraint_release(&c->constraints[i]);
         else
             c->constraints[kept++] = c->constraints[i];
     }

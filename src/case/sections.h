@@ -31,7 +31,12 @@ enum { OST_EVERY_LOAD_CASE = -1 };
 OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c);
 
 /* Parts of sections. */
-OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
+OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstCase *c,
+                        OstAxesSpec *axes);
+OstStatus ost_read_fibre(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstAxesSpec *axes);
+
+/* The name of a field of the mesh file, which the case then reads; `directions`: does it hold them? */
+OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name);
 /* A time table, added to those of the case unless it has the same already; `number` is 1 + its place there. */
 OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, int *number);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
@@ -50,6 +55,7 @@ void ost_selection_release(OstSelection *selection);
 int ost_selections_agree(const OstSelection *one, const OstSelection *other);
 void ost_load_cases_release(OstCase *c);
 void ost_sweep_release(OstCase *c);
+void ost_constraint_release(OstConstraint *constraint);
 struct OstVerify;
 void ost_verify_release(struct OstVerify **verify);
 

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 
 #include "case/case_data.h"
+#include "case/yaml/message.h"
 #include "core/error.h"
 
 #include <errno.h>
@@ -119,6 +120,50 @@ OstStatus ost_cli_read_one(OstContext *ctx, const OstArguments *arguments, OstCa
                      count, (*c)->load_cases[0].name);
 }
 
+/* --- options that nobody knows --- */
+
+enum { MOST_OPTIONS = 64 };
+
+static void add_names(const struct argp_option *options, const char *names[MOST_OPTIONS], int *count)
+{
+    for (; options && (options->name || options->key || options->doc); options++)
+        if (options->name && *count < MOST_OPTIONS)
+            names[(*count)++] = options->name;
+}
+
+/* getopt takes the beginning of a name for the name. */
+static int is_known(const char *word, size_t length, const char *const names[MOST_OPTIONS], int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strncmp(names[i], word, length) == 0)
+            return 1;
+    return 0;
+}
+
+/* A long option that the command does not have, but whose name is near to one that it has: says so. */
+static int refuses_option(OstContext *ctx, const struct argp *argp, int takes_case, int argc, char **argv)
+{
+    const char *names[MOST_OPTIONS] = {"help", "usage"};
+    int count = 2;
+    add_names(common_options, names, &count);
+    add_names(takes_case ? case_options : NULL, names, &count);
+    add_names(argp->options, names, &count);
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        char word[64];
+        const size_t length = strcspn(argv[i], "=");
+        if (strncmp(argv[i], "--", 2) != 0 || is_known(argv[i] + 2, length - 2, names, count))
+            continue;
+        snprintf(word, sizeof word, "%.*s", (int)(length - 2), argv[i] + 2);
+        const char *nearest = ost_nearest_word(word, names, count);
+        if (!nearest)
+            continue;
+        if (ost_rank(ctx) == 0)
+            fprintf(stderr, "%s: there is no option '--%s'; did you mean '--%s'?\n", argv[0], word, nearest);
+        return 1;
+    }
+    return 0;
+}
+
 static int run(OstContext *ctx, int takes_case, const struct argp *argp, int argc, char **argv, void *input,
                OstStatus (*work)(OstContext *ctx, void *input))
 {
@@ -130,6 +175,8 @@ static int run(OstContext *ctx, int takes_case, const struct argp *argp, int arg
             argp_help(&whole, stdout, ARGP_HELP_USAGE | ARGP_HELP_LONG | ARGP_HELP_DOC, argv[0]);
         return 0;
     }
+    if (refuses_option(ctx, argp, takes_case, argc, argv))
+        return ost_status_exit_code(OST_INVALID_USAGE);
     const unsigned flags = ARGP_NO_EXIT | ARGP_NO_HELP | (ost_rank(ctx) == 0 ? 0U : (unsigned)ARGP_NO_ERRS);
     if (argp_parse(&whole, argc, argv, flags, NULL, &common) != 0)
         return ost_status_exit_code(OST_INVALID_USAGE);

@@ -14,6 +14,7 @@ int ost_cli_explain(OstContext *ctx, int argc, char **argv);
 int ost_cli_effects(OstContext *ctx, int argc, char **argv);
 int ost_cli_cost(OstContext *ctx, int argc, char **argv);
 int ost_cli_scale(OstContext *ctx, int argc, char **argv);
+int ost_cli_sweep(OstContext *ctx, int argc, char **argv);
 int ost_cli_verify(OstContext *ctx, int argc, char **argv);
 int ost_cli_mesh(OstContext *ctx, int argc, char **argv);
 int ost_cli_material(OstContext *ctx, int argc, char **argv);

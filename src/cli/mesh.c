@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 #include "cli/installed.h"
-#include "cli/mesh_report.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "formats/export/export.h"
@@ -9,6 +8,7 @@
 #include "formats/serial/formats.h"
 #include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
+#include "cli/mesh_report.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -120,16 +120,16 @@ static OstStatus change(const Request *request, OstMesh **mesh)
 static OstStatus report(const Request *request, const OstMesh *mesh)
 {
     OstContext *ctx = mesh->ctx;
-    OstMeshCounts counts;
-    OstStatus status = ost_mesh_counts_make(mesh, &counts);
+    OstMeshReport counts;
+    OstStatus status = ost_mesh_report_make(mesh, &counts);
     const char *json = request->text['j'];
     if (status == OST_SUCCESS && ost_rank(ctx) == 0) {
         if (ost_log_level(ctx) != OST_LOG_QUIET && !(json && strcmp(json, "-") == 0))
-            ost_mesh_counts_print(mesh, &counts, request->in);
+            ost_mesh_report_print(mesh, &counts, request->in);
         if (json)
-            status = ost_mesh_counts_json(mesh, &counts, request->in, json);
+            status = ost_mesh_report_json(mesh, &counts, request->in, json);
     }
-    ost_mesh_counts_clear(&counts);
+    ost_mesh_report_clear(&counts);
     return ost_agree(ctx, status);
 }
 

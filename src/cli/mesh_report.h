@@ -8,7 +8,7 @@
 enum { OST_QUALITY_BINS = 10 };
 
 /* What is counted in a mesh, over all ranks. */
-typedef struct OstMeshCounts {
+typedef struct OstMeshReport {
     double low[3], high[3];
     double volume, shortest, longest; /* of the tets, of their edges */
     double least_quality, mean_quality;
@@ -22,14 +22,14 @@ typedef struct OstMeshCounts {
     OstGlobal *boundary_items; /* of each boundary */
     double *boundary_area;     /* of those of faces */
     OstComponents *components;
-} OstMeshCounts;
+} OstMeshReport;
 
 /* Collective. Clear it even after a failure. */
-OstStatus ost_mesh_counts_make(const OstMesh *mesh, OstMeshCounts *counts);
-void ost_mesh_counts_clear(OstMeshCounts *counts);
+OstStatus ost_mesh_report_make(const OstMesh *mesh, OstMeshReport *counts);
+void ost_mesh_report_clear(OstMeshReport *counts);
 
 /* Local. Print them, or write them as JSON to a path ("-": standard output). */
-void ost_mesh_counts_print(const OstMesh *mesh, const OstMeshCounts *counts, const char *path);
-OstStatus ost_mesh_counts_json(const OstMesh *mesh, const OstMeshCounts *counts, const char *path, const char *json);
+void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path);
+OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts, const char *path, const char *json);
 
 #endif

@@ -7,9 +7,12 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "core/progress.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "output/summary.h"
 #include "problem/scene_data.h"
+#include "study/forecast/forecast.h"
 #include "study/watch.h"
 
 #include <math.h>
@@ -75,7 +78,10 @@ done:
 /* Numbers that are not finite are never written to the file of fields. */
 static OstStatus write_fields(const Run *run)
 {
-    return run->result->checks.finite ? ost_result_write(run->result, run->c->output_fields, run->file) : OST_SUCCESS;
+    if (!run->result->checks.finite)
+        return OST_SUCCESS;
+    OST_TRY(ost_result_write(run->result, run->c->output_fields, run->file));
+    return run->c->probe_count > 0 ? ost_probe_write(run->scene, run->result, run->file) : OST_SUCCESS;
 }
 
 /* Writes, with --keep, a result that did not converge or failed a check; still returns that failure. */
@@ -171,13 +177,26 @@ static OstStatus check_files(const Run *run)
         OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
         return ost_check_outputs(run->c, 1, &json);
     }
-    return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
+    OST_TRY(ost_check_outputs(run->c, 2, (const char *const[]){run->output, json}));
+    return ost_cli_check_probe_outputs(run->c, run->output, json);
+}
+
+/* For those who wait. */
+static OstStatus foretell(const OstScene *scene)
+{
+    OstRates rates;
+    OstForecast forecast;
+    OST_TRY(ost_rates_load(scene->ctx, &rates));
+    ost_forecast_make(scene->c, &scene->plan, &rates, ost_size(scene->ctx), &forecast);
+    ost_progress_expect(scene->ctx, forecast.in_all);
+    return OST_SUCCESS;
 }
 
 static OstStatus solve_as_given(Run *run)
 {
     const OstCase *c = run->c;
     OST_TRY(ost_scene_create(c, &run->scene));
+    OST_TRY(foretell(run->scene));
     OST_TRY(ost_watch_check(run->scene));
     if (!ost_plan_acts(c, &run->scene->plan))
         ost_warn(c->ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);

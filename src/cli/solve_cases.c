@@ -3,10 +3,12 @@
 
 #include "case/plan.h"
 #include "cli/destination.h"
+#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "solve/cases/load_cases.h"
 #include "study/watch.h"
 
@@ -22,6 +24,7 @@ OstStatus ost_cli_check_case_outputs(const OstCase *c, const char *output)
     for (int k = 0; k < c->load_case_count; k++) {
         ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
         OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
+        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
     }
     return OST_SUCCESS;
 }
@@ -60,6 +63,8 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
     ost_load_case_fields_name(run->how->output, report->name, sizeof file, file);
     if (writes)
         OST_TRY(ost_result_write(result, scene->c->output_fields, file));
+    if (writes && scene->c->probe_count > 0)
+        OST_TRY(ost_probe_write(scene, result, file));
     OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
     if (prints(run)) {
         ost_summary_print(scene, result, writes ? file : NULL);
@@ -94,7 +99,7 @@ static void show_progress(const Run *run, int done, int number)
     char what[128];
     snprintf(what, sizeof what, "load case %s, %d of %d", run->c->load_cases[number].name, done + 1,
              run->c->load_case_count);
-    ost_progress(run->ctx, what, (double)done / run->c->load_case_count);
+    ost_progress_task(run->ctx, what, (double)done / run->c->load_case_count);
     ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
 }
 
@@ -203,7 +208,7 @@ OstStatus ost_cli_solve_cases(const OstCase *c, const OstSolveCases *how)
     }
     OST_THEN(ost_scene_create(c, &run.scene));
     OST_THEN(solve_all(&run));
-    ost_progress(c->ctx, "", -1.0);
+    ost_progress_task(c->ctx, "", -1.0);
     OST_THEN(tell(&run));
     if (status == OST_SUCCESS && run.failed != OST_SUCCESS)
         status = raise_failures(&run);

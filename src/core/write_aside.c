@@ -2,6 +2,7 @@
 #include "core/write_aside.h"
 
 #include "core/error.h"
+#include "core/interrupt/interrupt.h"
 #include "core/memory.h"
 
 #include <errno.h>
@@ -66,6 +67,7 @@ static OstStatus create(OstContext *ctx, OstAside *aside)
         const int descriptor = open(aside->aside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const int reason = errno;
         if (descriptor >= 0) {
+            ost_half_written(aside->aside);
             close(descriptor);
             return OST_SUCCESS;
         }
@@ -121,6 +123,8 @@ OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written)
         status = raise_unwritten(ctx, aside->path, strerror(errno));
     if (aside->aside && status != OST_SUCCESS)
         remove(aside->aside);
+    if (aside->aside)
+        ost_half_written_forget(aside->aside, status == OST_SUCCESS);
     release(aside);
     return status;
 }

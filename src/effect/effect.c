@@ -62,7 +62,10 @@ static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
 /* The constants of each region, its stiffness and compliance in material axes, and its stiffness in world axes. */
 static void several_materials(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->materials > 1)
+    if (f->modulus_region)
+        on(state, 8.0 * (128.0 * f->regions + f->tets), "the modulus of region '%.60s' differs from tet to tet",
+           f->modulus_region);
+    else if (f->materials > 1)
         on(state, 8.0 * 128.0 * f->regions, "%d materials", f->materials);
     else
         off(state, "one material for the whole body");

@@ -54,6 +54,7 @@ typedef struct OstEffectFacts {
     int orthotropic, varying;     /* materials that are not isotropic; those of them whose axes vary */
     char orthotropic_reason[160]; /* of the first of them, in words */
     char varying_reason[160];
+    const char *modulus_region;  /* a region whose Young's modulus is a field of the mesh file, or NULL */
     const char *gradient_region; /* a region whose axes follow potentials, or NULL */
     int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
     int mixed;                   /* 0: the case says no mixed form; 1: where it is useful */

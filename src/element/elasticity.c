@@ -239,7 +239,8 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
     elasticity->looseness = (OstSimd){0} + (elasticity->mixed ? field->mixed.looseness[region] : 0.0);
     examine_region(elasticity, field, region);
     elasticity->by_stretch = elasticity->stretch_suffices && elasticity->stretched;
-    elasticity->about_line = elasticity->by_stretch && elasticity->cylindrical && field->region_varies[region];
+    elasticity->about_line =
+        elasticity->by_stretch && elasticity->cylindrical && field->region_varies[region] && !field->tet_scale;
     elasticity->region = elasticity->about_line || !field->region_varies[region] ? region : -1;
     if (elasticity->about_line)
         elasticity->points = 1;
@@ -295,6 +296,25 @@ static void gather_pressure(OstElasticity *elasticity, const OstMaterialField *f
             elasticity->pressure[v][slot] = field->pressure ? field->pressure[4 * (size_t)tets[slot] + (size_t)v] : 0.0;
 }
 
+/* Multiplies C of each tet by its factor: m and A, which enter twice, by the root. */
+static void scale(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH])
+{
+    OstSimd factor, root;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        factor[slot] = field->tet_scale[tets[slot]];
+        root[slot] = sqrt(field->tet_scale[tets[slot]]);
+    }
+    for (int p = 0; p < 6 && elasticity->by_stretch; p++)
+        elasticity->stretch_tensor[p] *= root;
+    for (int point = 0; point < elasticity->points && !elasticity->by_stretch; point++) {
+        for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+            elasticity->c[point][n] *= factor;
+        for (int p = 0; p < 6 && (elasticity->by_mean || elasticity->mixed); p++)
+            elasticity->m[point][p] *= root;
+    }
+    elasticity->region = -1;
+}
+
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,
                            const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places)
 {
@@ -308,6 +328,8 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
         gather_mixed(elasticity, field, tets, points, places);
     if (elasticity->mixed)
         gather_pressure(elasticity, field, tets);
+    if (field->tet_scale)
+        scale(elasticity, field, tets);
     elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);
     if (elasticity->eigenstrained)
         ost_eigenstrain_gather(elasticity, field, tets, places);

@@ -42,6 +42,9 @@ static const struct {
     const char *ending, *what;
     Way way;
 } others[] = {
+    {".exo", "Exodus", BY_MESHIO},
+    {".ex2", "Exodus", BY_MESHIO},
+    {".e", "Exodus", BY_MESHIO},
     {".xdmf", "XDMF", BY_MESHIO},
     {".xmf", "XDMF", BY_MESHIO},
     {".xml", "DOLFIN", BY_MESHIO},

@@ -94,8 +94,8 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
         constrained[i] = vector[i] - free_part[i];
 }
 
-/* Of nodes that follow others (assembly/links/links.h): what their forces add at their leaders. A follower's own force is all
- * of the link; a leader's is less what its followers add, and what is left of that is the residual. */
+/* Of nodes that follow others (assembly/links/links.h): what their forces add at their leaders. A follower's own force
+ * is all of the link; a leader's is less what its followers add, and what is left of that is the residual. */
 typedef struct LinkForces {
     const OstLinks *links; /* NULL: there are none */
     double *at_leaders;    /* 3 × slots */

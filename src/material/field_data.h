@@ -38,12 +38,20 @@ struct OstMaterialField {
      * is not split; not owned. NULL: 0 everywhere. */
     const double *pressure;
 
+    double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
+
     double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
     double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
 
 /* Local. The first region that is incompressible (nu = 1/2), or -1. */
 int ost_field_incompressible(const OstMaterialField *field);
+
+/* Local. The factor of a tet's stiffness. */
+static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
+{
+    return field->tet_scale ? field->tet_scale[tet] : 1.0;
+}
 
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);

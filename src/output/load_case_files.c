@@ -5,7 +5,9 @@
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
+#include "formats/serial/output_array.h"
 #include "output/path_files.h"
+#include "output/series.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,38 +48,35 @@ void ost_load_case_report_release(OstLoadCaseReport *report)
 
 /* --- names --- */
 
-static int stem_length(const char *output)
-{
-    return (int)(strlen(output) - strlen(".vtkhdf"));
-}
-
 void ost_load_case_fields_name(const char *output, const char *name, size_t size, char *path)
 {
-    snprintf(path, size, "%.*s_%s.vtkhdf", stem_length(output), output, name);
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(path, size, "%.*s_%s%s", (int)stem, output, name, output + stem);
 }
 
 void ost_load_case_table_name(const char *output, size_t size, char *path)
 {
-    snprintf(path, size, "%.*s_cases.csv", stem_length(output), output);
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(path, size, "%.*s_cases.csv", (int)stem, output);
 }
 
 /* --- the list of files --- */
 
 static OstStatus write_series(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output)
 {
-    char name[LONGEST_PATH];
-    json_t *files = json_array();
-    for (int k = 0; k < count; k++) {
-        const char *file = reports[k].file;
-        const char *slash = file ? strrchr(file, '/') : NULL; /* found beside the list */
-        if (file)
-            json_array_append_new(
-                files, json_pack("{s:o, s:i}", "name", ost_json_text(slash ? slash + 1 : file), "time", k + 1));
-    }
-    json_t *document = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof name, name);
-    return document ? ost_json_write(ctx, document, name)
-                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", name);
+    char list[LONGEST_PATH];
+    OstSeriesFile *files = NULL;
+    int written = 0;
+    OST_TRY(OST_NEW(ctx, &files, count));
+    for (int k = 0; k < count; k++)
+        if (reports[k].file)
+            files[written++] = (OstSeriesFile){reports[k].file, k + 1};
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
+    const OstStatus status = ost_series_write(ctx, list, written, files);
+    OST_FREE(files);
+    return status;
 }
 
 /* --- the table --- */

@@ -3,8 +3,10 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/memory.h"
 #include "core/write_aside.h"
-#include "formats/vtu/vtu.h"
+#include "formats/serial/output_array.h"
+#include "output/series.h"
 #include "output/summary.h"
 
 #include <math.h>
@@ -32,51 +34,31 @@ void ost_path_step_name(const char *output, int step, size_t size, char *name)
 
 /* --- the list of files --- */
 
-typedef struct Series {
-    OstPath *path;
-    const char *output;
-} Series;
-
-/* Of a step, without the folder: it is found beside the list. */
-static const char *name_beside(const char *output, int step, size_t size, char *name)
+static OstStatus write_series(OstContext *ctx, OstPath *path, const char *output, OstSeriesFile *files, char *names)
 {
-    ost_path_step_name(output, step, size, name);
-    const char *slash = strrchr(name, '/');
-    return slash ? slash + 1 : name;
-}
-
-static OstStatus write_collection(FILE *file, const void *content)
-{
-    const Series *series = content;
-    char name[4096];
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n", file);
-    for (int i = 0; i < ost_path_done(series->path); i++) {
-        fprintf(file, "<DataSet timestep=\"%.17g\" file=\"", ost_path_step(series->path, i)->t);
-        ost_xml_write(file, name_beside(series->output, i + 1, sizeof name, name));
-        fputs("\"/>\n", file);
+    const size_t length = strlen(output) + 16;
+    char list[4096];
+    for (int i = 0; i < ost_path_done(path); i++) {
+        char *name = names + (size_t)i * length;
+        ost_path_step_name(output, i + 1, length, name);
+        files[i] = (OstSeriesFile){name, ost_path_step(path, i)->t};
     }
-    fputs("</Collection>\n</VTKFile>\n", file);
-    return OST_SUCCESS;
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
+    return ost_series_write(ctx, list, ost_path_done(path), files);
 }
 
 OstStatus ost_path_write_series(OstContext *ctx, OstPath *path, const char *output)
 {
-    const Series series = {path, output};
-    char name[4096], list[4096];
-    size_t stem;
+    OstSeriesFile *files = NULL;
+    char *names = NULL;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
-    if (ost_result_form(output, &stem) != OST_RESULT_VTKHDF)
-        return ost_write_aside(ctx, list, write_collection, &series);
-    json_t *files = json_array();
-    for (int i = 0; i < ost_path_done(path); i++)
-        json_array_append_new(files, json_pack("{s:o, s:f}", "name",
-                                               ost_json_text(name_beside(output, i + 1, sizeof name, name)), "time",
-                                               ost_path_step(path, i)->t));
-    json_t *document = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    return document ? ost_json_write(ctx, document, list)
-                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", list);
+    OstStatus status = OST_NEW(ctx, &files, ost_path_done(path));
+    OST_THEN(OST_NEW(ctx, &names, (size_t)ost_path_done(path) * (strlen(output) + 16)));
+    OST_THEN(write_series(ctx, path, output, files, names));
+    OST_FREE(files);
+    OST_FREE(names);
+    return status;
 }
 
 /* --- the history --- */

@@ -118,6 +118,26 @@ static OstStatus make(const OstResult *result, OstOutputFieldBit field, void **v
     return status;
 }
 
+OstStatus ost_result_field(const OstResult *result, OstOutputFieldBit field, OstFieldValues *found)
+{
+    const OstOutputField about = ost_output_field(field);
+    const OstMesh *mesh = result->mesh;
+    *found = (OstFieldValues){.unit = about.unit,
+                              .description = about.description,
+                              .component_names = about.component_names,
+                              .components = about.components,
+                              .is_integer = about.type == OST_VALUES_INT32,
+                              .rows = about.centring == OST_ON_NODES ? mesh->node_count : mesh->owned_tets,
+                              .values = (void *)values_of(result, field)};
+    if (found->values || !is_made(result, field))
+        return OST_SUCCESS;
+    const OstStatus status = make(result, field, &found->values);
+    found->is_made = status == OST_SUCCESS;
+    if (status != OST_SUCCESS)
+        OST_FREE(found->values);
+    return status;
+}
+
 static OstStatus list_arrays(const OstResult *result, unsigned fields, Arrays *arrays)
 {
     for (int f = 0; f < OST_FIELD_COUNT; f++) {

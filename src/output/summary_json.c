@@ -183,9 +183,10 @@ static json_t *watched_json(const OstWatchedValue *watched, int count)
     for (int w = 0; w < count; w++)
         json_object_set_new(
             values, watched[w].name,
-            json_pack("{s:o, s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
+            json_pack("{s:o, s:o, s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
                       ost_json_number(watched[w].expected), "error", ost_json_number(watched[w].error), "corrected",
-                      ost_json_number(watched[w].by_adjoint ? watched[w].value + watched[w].error : NAN)));
+                      ost_json_number(watched[w].by_adjoint ? watched[w].value + watched[w].error : NAN), "place",
+                      watched[w].placed ? vector_json(watched[w].place) : json_null()));
     return values;
 }
 

@@ -4,6 +4,23 @@
 #include "core/hash.h"
 #include "problem/boundary_conditions.h"
 
+#include <string.h>
+
+/* Who follows whom, and how; not by how much a follower is moved besides. */
+static uint64_t hash_links(const OstLinks *links, uint64_t hash)
+{
+    hash = ost_hash(hash, sizeof links->periodic, &links->periodic);
+    for (OstLocal i = 0; i < links->all; i++) {
+        const OstLink *link = &links->link[i];
+        hash = ost_hash(hash, sizeof link->node, &link->node);
+        hash = ost_hash(hash, (size_t)link->count * sizeof *link->leader, link->leader);
+    }
+    hash = ost_hash(hash, (size_t)links->mesh->owned_nodes * sizeof *links->kept, links->kept);
+    for (int f = 0; f < links->face_count; f++)
+        hash = ost_hash(hash, sizeof links->face[f].constrained, links->face[f].constrained);
+    return hash;
+}
+
 static uint64_t hash_supports(const OstSupports *supports)
 {
     const size_t nodes = (size_t)supports->mesh->node_count;
@@ -13,6 +30,8 @@ static uint64_t hash_supports(const OstSupports *supports)
         hash = ost_hash(hash, sizeof support->constrained, &support->constrained);
         hash = ost_hash(hash, 3 * (size_t)support->constrained * sizeof *support->direction, support->direction);
     }
+    if (supports->links)
+        hash = hash_links(supports->links, hash);
     return supports->spring ? ost_hash(hash, 9 * nodes * sizeof *supports->spring, supports->spring) : hash;
 }
 
@@ -33,11 +52,22 @@ OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash)
         (b) = kept;      \
     } while (0)
 
-/* The supports themselves stay where they are: the system refers to them. */
+/* The supports stay where they are: the system refers to them. Those of the other hold the same directions. */
+static void take_displacements(OstSupports *supports, const OstSupports *other)
+{
+    supports->effects = other->effects;
+    if (supports->count > 0)
+        memcpy(supports->support, other->support, (size_t)supports->count * sizeof *supports->support);
+    if (!supports->links)
+        return;
+    memcpy(supports->links->offset, other->links->offset,
+           3 * (size_t)supports->mesh->node_count * sizeof *supports->links->offset);
+    supports->links->moves = other->links->moves;
+}
+
 void ost_problem_take_loading(OstProblem *problem, OstProblem *other)
 {
-    SWAP(OstSupport *, problem->supports->support, other->supports->support);
-    problem->supports->effects = other->supports->effects;
+    take_displacements(problem->supports, other->supports);
     SWAP(double *, problem->force, other->force);
     SWAP(OstFollower *, problem->follower, other->follower);
     problem->conservative = other->conservative;

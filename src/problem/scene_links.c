@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/scene_links.h"
 
+#include "assembly/links/face_search.h"
 #include "assembly/spread.h"
 #include "case/select.h"
 #include "core/error.h"
@@ -8,7 +9,6 @@
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
-#include "problem/face_search.h"
 
 #include <float.h>
 #include <math.h>

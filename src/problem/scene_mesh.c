@@ -70,7 +70,7 @@ static int has_direction(const OstMeshChunk *chunk, const OstSceneMaterials *mat
 {
     const OstAxesKind kind = materials->axes[region].kind;
     return !materials->material[region].isotropic &&
-           (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT);
+           (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT && kind != OST_AXES_FIELD);
 }
 
 /* By a field on the chunk, in which regions without known axes are isotropic. */

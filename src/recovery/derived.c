@@ -83,6 +83,26 @@ void ost_result_material_stress(const OstResult *result, OstLocal tet, const dou
     ost_tensor_along(stress, axes, own);
 }
 
+OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,
+                             double *value)
+{
+    double several[6];
+    if (measure <= OST_STRESS_MEASURE_ZX)
+        *value = stress[measure];
+    else if (measure <= OST_STRESS_MEASURE_31) {
+        ost_result_material_stress(result, tet, stress, several);
+        *value = several[measure - OST_STRESS_MEASURE_11];
+    } else if (measure == OST_STRESS_MEASURE_VON_MISES)
+        *value = ost_von_mises(stress);
+    else if (measure == OST_STRESS_MEASURE_PRESSURE)
+        *value = -(stress[0] + stress[1] + stress[2]) / 3.0;
+    else {
+        OST_TRY(ost_principal(result->ctx, stress, several, NULL));
+        *value = several[measure - OST_STRESS_MEASURE_LARGEST_PRINCIPAL];
+    }
+    return OST_SUCCESS;
+}
+
 static const OstStrength *strength_of(const OstResult *result, OstLocal tet)
 {
     return &result->field->material[result->field->tet_region[tet]].strength;
@@ -122,8 +142,7 @@ static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit
         *value = ost_von_mises(stress);
         break;
     case OST_FIELD_PRESSURE:
-        *value = -(stress[0] + stress[1] + stress[2]) / 3.0;
-        break;
+        return ost_stress_measure(result, tet, stress, OST_STRESS_MEASURE_PRESSURE, value);
     case OST_FIELD_PRINCIPAL_STRESS:
         return ost_principal(result->ctx, stress, value, NULL);
     case OST_FIELD_PRINCIPAL_DIRECTION_1:
@@ -173,7 +192,7 @@ int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field)
     return has_stress && has_strain;
 }
 
-static void place_of(const OstMesh *mesh, OstLocal tet, double place[3])
+void ost_tet_centre(const OstMesh *mesh, OstLocal tet, double place[3])
 {
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     memset(place, 0, 3 * sizeof *place);
@@ -209,7 +228,7 @@ static OstStatus find_least(const OstResult *result, OstCriterion criterion, Ost
             continue;
         lowest = least->tet = mesh->tet_label[tet];
         least->region = mesh->tet_region[tet];
-        place_of(mesh, tet, least->place);
+        ost_tet_centre(mesh, tet, least->place);
     }
     return share_lowest(ctx, lowest, least);
 }

@@ -121,6 +121,21 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     }
 }
 
+void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
+{
+    const OstElement *element = ost_element_of(result->mesh->nodes_per_tet);
+    OstSimd all[6 * OST_MAX_TET_NODES];
+    OstBatch batch;
+    OstElasticity at_nodes;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_elasticity_clear(&at_nodes);
+    batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
+    ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
+    stress_of_batch(result, element, &batch, &at_nodes, all);
+    for (int n = 0; n < 6 * element->nodes; n++)
+        stress[n] = all[n][0];
+}
+
 static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
                       Sums *sums)
 {

@@ -12,4 +12,7 @@
  * and a material has strengths, finds the least ones. */
 OstStatus ost_result_recover(OstResult *result, unsigned fields);
 
+/* Local. Stress at the nodes of one tet, as it is in that tet: 6 numbers a node, world axes. */
+void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress);
+
 #endif

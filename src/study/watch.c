@@ -138,6 +138,8 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
         watched->value = result->checks.strain_energy;
         watched->error = energy_error(scene, result);
         return ost_energy_scale(result, &watched->scale);
+    case OST_WATCH_STRESS:
+        return ost_watch_stress(scene, result, watch, watched);
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
                      watch->line);
@@ -145,6 +147,7 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
 
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
+    watched->placed = 0;
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
@@ -174,6 +177,8 @@ OstStatus ost_watch_check(const OstScene *scene)
     for (int w = 0; w < c->watch_count; w++) {
         OstWatch placed = c->watches[w]; /* for the warning alone: the solve finds the vertex itself */
         OST_TRY(ost_watch_place(scene->mesh, &placed));
+        if (placed.kind == OST_WATCH_STRESS)
+            OST_TRY(ost_watch_check_stress(scene, &placed));
         if (placed.kind == OST_WATCH_REACTION)
             OST_TRY(check_selection(scene, "the quantity", placed.name, placed.line, &placed.on));
     }
@@ -197,8 +202,13 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
-        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error,
-                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY};
+        (*values)[w] = (OstWatchedValue){watch->name,
+                                         watched.value,
+                                         watch->expected,
+                                         watched.error,
+                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY,
+                                         watched.placed,
+                                         {watched.place[0], watched.place[1], watched.place[2]}};
     }
     return OST_SUCCESS;
 }
@@ -212,6 +222,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
             printf(" +- %.2g", error);
         if (error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+        if (values[w].placed)
+            printf(" at (%.6g, %.6g, %.6g)", values[w].place[0], values[w].place[1], values[w].place[2]);
         if (values[w].by_adjoint)
             printf(", with its error added %.10g", values[w].value + values[w].error);
         if (!isnan(expected) && expected != 0.0)

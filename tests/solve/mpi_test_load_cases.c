@@ -24,11 +24,11 @@ static const char beam[] =
     "  - {name: moved, constraints: [{on: {boundary: xmax}, displacement: [free, free, 0.05]}]}\n"
     "  - {name: sunk, constraints: [{on: {boundary: xmin}, displacement: [0, 0, -0.1]}]}\n";
 
-static OstCase *read_case(const char *settings)
+static OstCase *read_case(const char *body, const char *settings)
 {
     char text[4096];
     OstCase *c = NULL;
-    snprintf(text, sizeof text, "%s%s", beam, settings);
+    snprintf(text, sizeof text, "%s%s", body, settings);
     assert_success(ost_case_parse(ctx, "beam", text, &c));
     return c;
 }
@@ -44,15 +44,16 @@ static double distance(const OstMesh *mesh, const double *u, const double *v)
     return sqrt(sums[0] / sums[1]);
 }
 
-static void compare_with_single_runs(const char *settings, unsigned fields, double tolerance, int newtons)
+static void compare_with_single_runs(const char *body, const char *settings, unsigned fields, double tolerance,
+                                     int newtons)
 {
-    OstCase *c = read_case(settings);
+    OstCase *c = read_case(body, settings);
     OstScene *scene = NULL;
     OstLoadCases *cases = NULL;
     int solved_by_newton = 0;
     assert_success(ost_scene_create(c, &scene));
     assert_success(ost_load_cases_create(scene, &cases));
-    assert_int_equal(ost_load_cases_stiffnesses(cases), 2);
+    assert_int_equal(ost_load_cases_stiffnesses(cases), body == beam ? 2 : 1);
     while (ost_load_cases_left(cases) > 0) {
         const int number = ost_load_cases_next(cases);
         OstScene *alone = NULL;
@@ -82,29 +83,50 @@ static void compare_with_single_runs(const char *settings, unsigned fields, doub
 static void linear_cases_are_their_single_runs(void **state)
 {
     (void)state;
-    compare_with_single_runs("large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: metric}\n",
+    compare_with_single_runs(beam,
+                             "large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: metric}\n",
                              1U << OST_FIELD_ERROR, 1e-7, 0);
-    compare_with_single_runs("large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: direct}\n",
+    compare_with_single_runs(beam,
+                             "large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: direct}\n",
                              1U << OST_FIELD_ERROR, 1e-7, 0);
 }
 
 static void cases_stop_where_the_mesh_is_worse(void **state)
 {
     (void)state;
-    compare_with_single_runs("large_rotation: off\nelement: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-2, 0);
+    compare_with_single_runs(beam, "large_rotation: off\nelement: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-2, 0);
 }
 
 static void large_rotations_are_solved_for_where_they_are(void **state)
 {
     (void)state;
-    compare_with_single_runs("accuracy: {relative_residual: 1e-11}\n", 1U << OST_FIELD_ERROR, 1e-6, 1);
+    compare_with_single_runs(beam, "accuracy: {relative_residual: 1e-11}\n", 1U << OST_FIELD_ERROR, 1e-6, 1);
+}
+
+static const char handle[] =
+    "mesh: {block: {size: [6, 1, 1], divisions: [6, 2, 2]}}\n"
+    "materials: [{region: all, youngs_modulus: [100, 8, 5], poissons_ratio: 0.3}]\n"
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+    "cases:\n"
+    "  - {name: pulled, constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0.01, 0, "
+    "0]}}]}\n"
+    "  - {name: held, loads: [{on: {boundary: ymax}, pressure: 1e-3}],\n"
+    "     constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0, 0, 0]}}]}\n"
+    "  - {name: aside, constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0, 0.02, "
+    "0.01]}}]}\n";
+
+static void a_rigid_face_is_moved_in_each_case_on_one_stiffness(void **state)
+{
+    (void)state;
+    compare_with_single_runs(handle, "large_rotation: off\naccuracy: {relative_residual: 1e-11}\n",
+                             1U << OST_FIELD_ERROR, 1e-7, 0);
 }
 
 /* One pattern and one hierarchy for each way the body is held. */
 static void stiffness_is_made_once_for_all_that_share_supports(void **state)
 {
     (void)state;
-    OstCase *c = read_case("large_rotation: off\n");
+    OstCase *c = read_case(beam, "large_rotation: off\n");
     OstScene *scene = NULL;
     OstLoadCases *cases = NULL;
     const int order[] = {0, 1, 3, 4, 6, 2, 5};
@@ -158,6 +180,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(linear_cases_are_their_single_runs),
     cmocka_unit_test(cases_stop_where_the_mesh_is_worse),
     cmocka_unit_test(large_rotations_are_solved_for_where_they_are),
+    cmocka_unit_test(a_rigid_face_is_moved_in_each_case_on_one_stiffness),
     cmocka_unit_test(stiffness_is_made_once_for_all_that_share_supports),
     cmocka_unit_test(a_case_that_fails_keeps_no_other_from_being_solved),
 };

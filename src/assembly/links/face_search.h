@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_PROBLEM_FACE_SEARCH_H
-#define ORTHOSTAT_PROBLEM_FACE_SEARCH_H
+#ifndef ORTHOSTAT_ASSEMBLY_LINKS_FACE_SEARCH_H
+#define ORTHOSTAT_ASSEMBLY_LINKS_FACE_SEARCH_H
 
 #include "mesh/mesh_data.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/face_search.h"
+#include "assembly/links/face_search.h"
 
 #include "core/error.h"
 #include "core/memory.h"
