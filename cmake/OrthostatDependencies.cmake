@@ -7,18 +7,45 @@ function(orthostat_missing what package)
                       "(scripts/setup installs everything).")
 endfunction()
 
-# Imported target Orthostat::<name> from one header and some libraries.
+# Where a library may be beside CMAKE_PREFIX_PATH, which Spack sets: by the variables of environment modules (METIS_ROOT,
+# METIS_DIR, METIS_HOME, TACC_METIS_DIR) and of EasyBuild (EBROOTMETIS).
+function(orthostat_places name places)
+  string(TOUPPER ${name} upper)
+  set(found "${${upper}_ROOT}" "${${upper}_DIR}")
+  foreach(variable IN ITEMS ${upper}_ROOT ${upper}_DIR ${upper}_HOME ${upper}_PATH ${upper}DIR EBROOT${upper} TACC_${upper}_DIR OLCF_${upper}_ROOT)
+    list(APPEND found "$ENV{${variable}}")
+  endforeach()
+  list(REMOVE_ITEM found "")
+  set(${places} ${found} PARENT_SCOPE)
+endfunction()
+
+# Imported target Orthostat::<name> from one header and some libraries. MODULE: the name that modules know it by.
 function(orthostat_find name what package header libraries)
-  find_path(ORTHOSTAT_${name}_INCLUDE ${header} PATH_SUFFIXES trilinos)
+  cmake_parse_arguments(PARSE_ARGV 5 given "" "MODULE" "ALSO")
+  set(module ${name})
+  if(given_MODULE)
+    set(module ${given_MODULE})
+  endif()
+  orthostat_places(${module} places)
+  find_path(ORTHOSTAT_${name}_INCLUDE ${header} HINTS ${places} PATH_SUFFIXES include include/trilinos trilinos)
   set(found)
   foreach(library IN LISTS libraries)
     string(REGEX REPLACE "^trilinos_" "" unprefixed ${library}) # Debian puts the project's name in front
-    find_library(ORTHOSTAT_${name}_${library} NAMES ${library} ${unprefixed})
+    find_library(ORTHOSTAT_${name}_${library} NAMES ${library} ${unprefixed} NAMES_PER_DIR HINTS ${places} PATH_SUFFIXES lib lib64)
     if(NOT ORTHOSTAT_${name}_${library})
       orthostat_missing("${what} (library ${library})" ${package})
     endif()
     mark_as_advanced(ORTHOSTAT_${name}_${library})
     list(APPEND found ${ORTHOSTAT_${name}_${library}})
+  endforeach()
+  foreach(library IN LISTS given_ALSO) # what a static library of other builds stands on; shared ones bring it
+    string(REGEX REPLACE "^trilinos_" "" unprefixed ${library})
+    find_library(ORTHOSTAT_${name}_${library} NAMES ${library} ${unprefixed} NAMES_PER_DIR HINTS ${places} PATH_SUFFIXES lib lib64)
+    mark_as_advanced(ORTHOSTAT_${name}_${library})
+    list(GET found 0 first)
+    if(ORTHOSTAT_${name}_${library} AND first MATCHES "\\.a$")
+      list(APPEND found ${ORTHOSTAT_${name}_${library}})
+    endif()
   endforeach()
   if(NOT ORTHOSTAT_${name}_INCLUDE)
     orthostat_missing("${what} (header ${header})" ${package})
@@ -39,10 +66,12 @@ add_library(Orthostat::LAPACK INTERFACE IMPORTED)
 set_target_properties(Orthostat::LAPACK PROPERTIES INTERFACE_LINK_LIBRARIES LAPACK::LAPACK)
 orthostat_find(Trilinos "Trilinos (Epetra, AztecOO, ML, Amesos)"
                "libtrilinos-epetra-dev libtrilinos-aztecoo-dev libtrilinos-ml-dev libtrilinos-amesos-dev" ml_include.h
-               "trilinos_ml;trilinos_amesos;trilinos_aztecoo;trilinos_epetra")
-orthostat_find(MUMPS "MUMPS" libmumps-dev dmumps_c.h "dmumps")
-orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml")
-orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson")
+               "trilinos_ml;trilinos_amesos;trilinos_aztecoo;trilinos_epetra"
+               ALSO trilinos_ifpack trilinos_epetraext trilinos_galeri trilinos_teuchoscomm trilinos_teuchosparameterlist
+                    trilinos_teuchoscore)
+orthostat_find(MUMPS "MUMPS" libmumps-dev dmumps_c.h "dmumps" ALSO mumps_common pord scalapack)
+orthostat_find(YAML "libyaml" libyaml-dev yaml.h "yaml" MODULE LIBYAML)
+orthostat_find(JSON "Jansson" libjansson-dev jansson.h "jansson" MODULE JANSSON)
 orthostat_find(ZLIB "zlib" zlib1g-dev zlib.h "z")
 
 # Debian has parallel HDF5 under names of its own, beside a serial one; elsewhere it is the HDF5 that is found first.

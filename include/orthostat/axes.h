@@ -16,7 +16,8 @@ typedef enum {
     OST_AXES_CYLINDRICAL, /* follow an axis: axial, radial, tangential */
     OST_AXES_CURVE,       /* follow a polyline: tangent, normal, binormal */
     OST_AXES_CELLS,       /* nine numbers a tet, from the mesh or a text file */
-    OST_AXES_GRADIENT     /* gradients of two harmonic potentials between named boundaries */
+    OST_AXES_GRADIENT,    /* gradients of two harmonic potentials between named boundaries */
+    OST_AXES_FIELD        /* fields of the mesh file: one or two directions, or all nine numbers */
 } OstAxesKind;
 
 /* Which direction of the frame each material axis takes. */
@@ -41,7 +42,11 @@ typedef struct OstAxesSpec {
     double *points;                   /* CURVE: point_count × 3; closed if the last point is the first */
     double up[3];                     /* CURVE: the normal lies in the plane of tangent and up; zero: least turning */
     char *cells_file;      /* CELLS: text file, nine numbers a line in the mesh file's order; NULL: the mesh's field */
-    char *from[2], *to[2]; /* GRADIENT: boundary names at potential 0 and 1, of e1 and of e2 */
+    char *from[2], *to[2]; /* GRADIENT: boundary names at potential 0 and 1; the second may be NULL */
+    char *field[2];        /* FIELD: names; the second may be NULL */
+    int along[2];          /* GRADIENT, FIELD: the axes (0 to 2) that the two directions are; 0 and 0: e1 and e2. Where
+                              there is one direction, the other axes are any two across it */
+    int single;            /* 1 + the axis that alone was stated; 0: all were */
 } OstAxesSpec;
 
 /* Local. Accepts rows that are orthonormal and right-handed to 1e-6 and makes them so to rounding; raises
@@ -59,6 +64,12 @@ int ost_axes_vary(const OstAxesSpec *spec);
 /* Local. Axes at a point, for the kinds given by a formula (FIXED to CURVE). Raises OST_INVALID_INPUT where they are
  * not defined (on the cylinder's axis, where the curve's tangent is parallel to up). */
 OstStatus ost_axes_at(OstContext *ctx, const OstAxesSpec *spec, const double point[3], double axes[9]);
+
+/* Local. Axes from one direction, or two: the axis along[0] points along d1, along[1] along what of d2 is orthogonal to
+ * it (NULL: across it anywhere). Raises OST_INVALID_INPUT for a direction that is zero or not finite, or parallel ones.
+ */
+OstStatus ost_axes_from_directions(OstContext *ctx, const int along[2], const double d1[3], const double *d2,
+                                   double axes[9]);
 
 /* Local. e1 along g1, e2 along what of g2 is orthogonal to it, e3 = e1 × e2; raises if either is (nearly) zero. */
 OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const double g2[3], double axes[9]);

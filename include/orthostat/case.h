@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_CASE_H
 #define ORTHOSTAT_CASE_H
 
+#include "orthostat/output_field.h"
 #include "orthostat/solver.h"
 
 OST_API_BEGIN
@@ -10,33 +11,26 @@ OST_API_BEGIN
  * the case file's folder; the file it writes, relative to the directory the program is called in. */
 typedef struct OstCase OstCase;
 
-/* Columns: name, its word in the case file. */
-#define OST_OUTPUT_FIELD_TABLE(X)                \
-    X(OST_FIELD_DISPLACEMENT, "displacement")    \
-    X(OST_FIELD_REACTION, "reaction")            \
-    X(OST_FIELD_LOAD, "load")                    \
-    X(OST_FIELD_STRESS, "stress")                \
-    X(OST_FIELD_NODE_STRESS, "node_stress")      \
-    X(OST_FIELD_STRAIN, "strain_tensor")         \
-    X(OST_FIELD_ENERGY, "strain_energy_density") \
-    X(OST_FIELD_AXES, "axes")                    \
-    X(OST_FIELD_REGION, "region")                \
-    X(OST_FIELD_RANK, "rank")                    \
-    X(OST_FIELD_ERROR, "error")
-#define OST_OUTPUT_FIELD_ENUM(name, word) name,
-typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
-#undef OST_OUTPUT_FIELD_ENUM
-
 /* Collective. Reads and checks a case file (rank 0 reads the file, every rank parses). Raises OST_FILE_FAILED if there
  * is none, OST_INVALID_INPUT as "path:line:column: what was found, what was expected, what to do" (unknown keys with
  * the nearest known one). Nothing of the mesh is looked at. */
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **out);
+
+/* Collective. The same, with changes "KEY=VALUE" made to it first, as by the option --set of the program
+ * (docs/commands.md). The path "-" is standard input; files it names are then relative to the current folder. */
+OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **out);
 
 /* Collective. The same for the text of a case, which every rank passes alike: UTF-8 that ends with a zero byte. `path`
  * stands in messages, and files that the case names are relative to its folder; there need be no such file. */
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **out);
 
 void ost_case_destroy(OstCase **c);
+
+/* Local. The load cases (`cases`): how many, 0 if there are none; and one of them by number from 0, which is a case of
+ * its own, with what is stated for all, and lives as long as the case. */
+int ost_case_load_case_count(const OstCase *c);
+const OstCase *ost_case_load_case(const OstCase *c, int number);
+const char *ost_case_load_case_name(const OstCase *c, int number);
 
 /* Local. What stands in the case; texts live as long as it does. */
 const char *ost_case_path(const OstCase *c);

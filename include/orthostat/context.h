@@ -53,13 +53,14 @@ OstStatus ost_agree(OstContext *ctx, OstStatus status);
  */
 OstStatus ost_gather(OstContext *ctx, size_t size, const void *items, OstLocal count, void **all, OstLocal *total);
 
-/* Local; rank 0 prints to standard error, the others are silent. Progress shows only on a terminal; fraction in [0, 1],
- * or negative to erase the line. */
+/* Local; rank 0 prints to standard error, the others are silent. Progress shows where the
+ * program asks for it (core/progress.h); fraction in [0, 1], or negative where it is done. A task is made of phases. */
 void ost_log_set_level(OstContext *ctx, OstLogLevel level);
 OstLogLevel ost_log_level(const OstContext *ctx);
 void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ost_warn(OstContext *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ost_progress(OstContext *ctx, const char *what, double fraction);
+void ost_progress_task(OstContext *ctx, const char *what, double fraction);
 
 /* Local. Hands every warning of rank 0 to `hear` too, quiet or not; NULL ends it. */
 void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener);

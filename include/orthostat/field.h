@@ -44,6 +44,10 @@ OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, in
 OstStatus ost_field_set_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
                                     const double *of_tets);
 
+/* Local. Stiffness tet by tet: that of the region times a factor above 0 for each of `tet_count` tets, ghosts included
+ * (copied; NULL: none any more). Raises OST_INVALID_INPUT for a factor that is not positive and finite. */
+OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const double *factors);
+
 void ost_field_destroy(OstMaterialField **field);
 
 OST_API_END

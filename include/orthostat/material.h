@@ -20,6 +20,15 @@ typedef struct OstOrthotropic {
     double shear_modulus[3];  /* G12 G23 G31 */
 } OstOrthotropic;
 
+/* Strengths along the material axes: the sizes of the stresses at which the material fails, all above 0. */
+typedef struct OstStrength {
+    int known;             /* 0: none are stated */
+    double tension[3];     /* along e1 e2 e3 */
+    double compression[3]; /* likewise */
+    double shear[3];       /* 12 23 31 */
+    double interaction[3]; /* Tsai and Wu's F_ij / sqrt(F_ii F_jj), 12 23 31 */
+} OstStrength;
+
 /* A material ready for use: definite, with what the kernels need. Made by ost_material_create_*; plain data, copy
  * freely. */
 typedef struct OstMaterial {
@@ -31,6 +40,7 @@ typedef struct OstMaterial {
     double stiffness[36];  /* C in material axes: 3×3 normal block, diagonal shear block */
     double compliance[36]; /* S = C^-1, eq. 4 */
     double condition;      /* largest over smallest eigenvalue of the normalised normal block */
+    OstStrength strength;  /* 0 where nobody sets it */
 } OstMaterial;
 
 /* Local. Constants of the isotropic body, of the stable one-parameter family (eq. 18 and 22), and of the transversely
@@ -45,6 +55,9 @@ OstOrthotropic ost_orthotropic_transverse(double e_plane, double e_axis, double 
  * is called so where the material is transversely isotropic about it. */
 enum { OST_MODULI_WORDS = 128 };
 void ost_orthotropic_words(const OstOrthotropic *constants, char text[OST_MODULI_WORDS]);
+
+/* Local. Does only the direction of axis 0, 1 or 2 matter: is the material transversely isotropic about it? */
+int ost_orthotropic_is_transverse(const OstOrthotropic *constants, int axis);
 
 /* Local. The shear moduli of eq. 22 for a rule. */
 void ost_orthotropic_shear(const double youngs_modulus[3], double nu, OstShearRule rule, double shear_modulus[3]);
@@ -72,6 +85,27 @@ void ost_material_rotate_compliance(const double compliance[36], const double ax
 
 /* Local. A strain in world axes, from one along the axes e1, e2, e3 (rows). */
 void ost_strain_to_world(const double strain[6], const double axes[9], double world[6]);
+
+/* The criteria of failure that are known: Tsai and Wu's, Hill's, and the largest stress. */
+typedef enum { OST_TSAI_WU, OST_HILL, OST_MAXIMUM_STRESS, OST_CRITERIA } OstCriterion;
+
+/* A load factor says by how much a stress may grow until the material fails: below 1 it has failed. It is at most this
+ * (also of no stress, and of stresses that a criterion allows whatever their size). */
+#define OST_MOST_LOAD_FACTOR 1e9
+
+/* Local. The load factor of a stress along the material axes (11 22 33 12 23 31), of known strengths. With F the
+ * criterion's form, it is the f > 0 of F(f stress) = 1. Tsai and Wu: sum of (1/T_i - 1/C_i) s_i + s_i^2 / (T_i C_i)
+ * + 2 F_ij s_i s_j + (s_ij / S_ij)^2. Hill: with X_i the
+ * smaller of T_i and C_i, sum of 1/2 (1/X_j^2 + 1/X_k^2 - 1/X_i^2) (s_j - s_k)^2 + (s_ij / S_ij)^2. Largest stress:
+ * each stress against its strength. */
+double ost_load_factor(const OstStrength *strength, OstCriterion criterion, const double stress[6]);
+
+/* Local. Do strengths differ from direction to direction, so that the material's axes count? Not of unknown ones. */
+int ost_strength_has_directions(const OstStrength *strength);
+
+/* Local. Does a criterion of these strengths leave stresses of any size unseen: is its form of second order not
+ * positive (less than 0 in some direction)? */
+int ost_criterion_is_open(const OstStrength *strength, OstCriterion criterion);
 
 /* How near constants are to losing definiteness. Of any constants with positive Young's moduli; Local. */
 

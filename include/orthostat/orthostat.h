@@ -28,6 +28,7 @@
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"
+#include "orthostat/output_field.h"
 #include "orthostat/path.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"

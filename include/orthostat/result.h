@@ -2,6 +2,8 @@
 #ifndef ORTHOSTAT_RESULT_H
 #define ORTHOSTAT_RESULT_H
 
+#include "orthostat/material.h"
+#include "orthostat/output_field.h"
 #include "orthostat/solver.h"
 
 OST_API_BEGIN
@@ -63,6 +65,20 @@ typedef struct OstAnswerError {
     double place[3]; /* centroid of the tet with the largest share */
 } OstAnswerError;
 
+/* Where the body is nearest to failure by one criterion: by how much the load may grow until the mean stress of a tet
+ * fails (OST_MOST_LOAD_FACTOR: nowhere), and which tet that is. */
+typedef struct OstLeastFactor {
+    double factor;
+    OstGlobal tet; /* its label */
+    int region;
+    double place[3]; /* its centroid */
+} OstLeastFactor;
+
+typedef struct OstFailure {
+    int known; /* 0: no material has strengths, or no load factor was asked for */
+    OstLeastFactor least[OST_CRITERIA];
+} OstFailure;
+
 /* One rank's piece of the answer, on one piece of a mesh; the mesh outlives it. */
 typedef struct OstResult OstResult;
 
@@ -86,6 +102,21 @@ const double *ost_result_node_stress(const OstResult *result);           /* node
 const double *ost_result_tet_error(const OstResult *result); /* owned_tets: each one's error in the norm of the energy,
                                                                 whose squares add up to that of OstAnswerError */
 
+/* A field as the file has it (docs/output.md). Texts are the library's. */
+typedef struct OstFieldValues {
+    const char *unit, *description;
+    const char *component_names; /* with blanks between them; "" if there is one */
+    int components;
+    int is_integer; /* are the values int32_t? Otherwise they are double */
+    OstLocal rows;  /* node_count or owned_tets */
+    void *values;   /* rows × components; NULL: the result has nothing that it could be made of */
+    int is_made; /* were they made for the caller, who frees them by ost_free_memory? Otherwise the result has them */
+} OstFieldValues;
+
+/* Collective. One of the result's fields, or one that follows from them, as von Mises stress does. Raises
+ * OST_OUT_OF_MEMORY. */
+OstStatus ost_result_field(const OstResult *result, OstOutputFieldBit field, OstFieldValues *found);
+
 /* Local. Over the whole body: the largest displacement and, unless NULL, the place of its node; the unknowns. */
 double ost_result_largest_displacement(const OstResult *result, double at[3]);
 OstGlobal ost_result_unknowns(const OstResult *result);
@@ -96,6 +127,7 @@ const OstSolveReport *ost_result_solve_report(const OstResult *result);
 const OstChecks *ost_result_checks(const OstResult *result);
 const OstNewtonReport *ost_result_newton_report(const OstResult *result);
 const OstAnswerError *ost_result_answer_error(const OstResult *result);
+const OstFailure *ost_result_failure(const OstResult *result);
 
 /* A quantity of interest (`watch` in a case), as the answer has it. */
 typedef struct OstWatchedValue {
@@ -104,11 +136,15 @@ typedef struct OstWatchedValue {
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
+    int placed;     /* is it a least or largest value, and `place` where it is? */
+    double place[3];
 } OstWatchedValue;
 
-/* Collective. Writes the VTKHDF file of a result, with those of the fields (bits of OstOutputFieldBit) that the result
- * has. A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it), field data
- * `refused`, the reasons in /Orthostat/Objections. Raises OST_FILE_FAILED. */
+/* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or
+ * that follow from them; its form is that of the ending of `path`, .vtkhdf, .hdf, .vtu or .pvtu (with a .vtu beside it;
+ * docs/output.md). A result with objections is marked: attribute Status of /VTKHDF (as ost_result_status gives it),
+ * field data `refused`, the reasons in /Orthostat/Objections. Raises OST_FILE_FAILED, OST_INVALID_USAGE for another
+ * ending. */
 OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path);
 
 /* Local. Frees the result; the pointer is nulled. */

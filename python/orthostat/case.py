@@ -15,26 +15,34 @@ from .result import Result
 
 
 def _plain(value):
-    """What json does not know: numpy's arrays and numbers, and paths."""
+    """What json knows, for numpy's arrays and numbers, and paths; in lists None and nan are the case's `free`."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
-        return value.tolist()
-    return os.fspath(value)
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return ["free" if item is None or item != item else _plain(item) for item in value]
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def _text_of(sections):
+    """A dict as the text of a case, a line for each section: messages name the line."""
+    return "{" + ",\n".join(f"{json.dumps(key)}: {json.dumps(_plain(value))}" for key, value in sections.items()) + "\n}\n"
 
 
 class Case:
     """A case, read from a file, from text, or from a dict of the same keys.
 
-    source: a path; a text (a str with a line break); or a dict, in which arrays of numpy may stand for lists.
+    source: a path; a text (a str with a line break or ": "); or a dict, in which arrays of numpy may stand for lists,
+    and None for the case's word `free`.
     name: what messages call a text or a dict; files that it names are relative to the folder of this name.
     """
 
     def __init__(self, source, name="case", comm=None):
         self.context = context_of(comm)
         box = self.context.box("OstCase")
-        if isinstance(source, dict):  # a line for each section: messages name the line
-            rows = (f"{json.dumps(key)}: {json.dumps(value, default=_plain)}" for key, value in source.items())
-            source = "{" + ",\n".join(rows) + "\n}\n"
-        if isinstance(source, str) and "\n" in source:
+        source = _text_of(source) if isinstance(source, dict) else source
+        if isinstance(source, str) and ("\n" in source or ": " in source):
             status = lib.ost_case_parse(self.context.pointer, os.fspath(name).encode(), source.encode(), box)
         else:
             status = lib.ost_case_read(self.context.pointer, os.fspath(source).encode(), box)
@@ -45,6 +53,9 @@ class Case:
     output_file = property(lambda self: text_of(lib.ost_case_output_file(self.pointer)), doc="None: the case names none")
     has_path = property(lambda self: bool(lib.ost_case_has_path(self.pointer)))
     asks_error = property(lambda self: bool(lib.ost_case_asks_error(self.pointer)), doc="is an accuracy asked for?")
+
+    def __repr__(self):
+        return f"<orthostat.Case: {self.title}>"
 
     def scene(self, mesh=None):
         """Collective. Mesh, materials and axes made; `mesh`: MeshArrays in place of the case's own."""

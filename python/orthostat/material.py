@@ -22,12 +22,20 @@ class Material:
         if numpy.ndim(youngs_modulus) == 0:
             constants[0] = lib.ost_orthotropic_isotropic(youngs_modulus, poissons_ratio)
         elif shear_modulus is None:
+            if numpy.ndim(poissons_ratio) or isinstance(poissons_ratio, dict):
+                raise ValueError("shear_modulus: three Poisson's ratios want three shear moduli, G12 G23 G31")
+            if shear_rule not in _RULES:
+                raise ValueError(f"shear_rule: '{shear_rule}' is none of {', '.join(_RULES)}")
             moduli = array(youngs_modulus, (3,), "youngs_modulus")
             constants[0] = lib.ost_orthotropic_family(pointer_to(moduli), poissons_ratio, getattr(lib, _RULES[shear_rule]))
         else:
             _nine(context, name, youngs_modulus, poissons_ratio, shear_modulus, constants)
         self.struct = ffi.new("OstMaterial *")
         context.check(lib.ost_material_create(context.pointer, name.encode(), constants, density, self.struct))
+
+    def __repr__(self):
+        e, nu, g = self.youngs_modulus, self.poissons_ratio, self.shear_modulus
+        return f"<orthostat.Material {self.name}: E {e}, nu12 nu23 nu31 {nu}, G12 G23 G31 {g}>"
 
     name = property(lambda self: text_of(self.struct.name))
     density = property(lambda self: self.struct.density)

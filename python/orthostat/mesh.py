@@ -109,6 +109,9 @@ class Mesh:
         mesh._take(context, ffi.cast("OstMesh *", pointer), owner)
         return mesh
 
+    def __repr__(self):
+        return f"<orthostat.Mesh: {self.global_nodes} nodes, {self.global_tets} tets of {self.nodes_per_tet} nodes>"
+
     def _made(self, make, *arguments):
         box = self.context.box("OstMesh")
         self.context.check(make(self.pointer, *arguments, box))

@@ -181,12 +181,15 @@ def _constraints(mesh, constraints):
 def _constraint(mesh, nodes, displacement, direction=None):
     nodes = numpy.asarray(nodes)
     nodes = numpy.flatnonzero(nodes) if nodes.dtype == bool else nodes.astype(numpy.int32)
-    nodes = nodes[nodes < mesh.owned_nodes]  # ghosts are another rank's
+    wrong = nodes[(nodes < 0) | (nodes >= mesh.node_count)]
+    if len(wrong):
+        raise ValueError(f"constraints: there is no node {wrong[0]}; this rank's are 0 to {mesh.node_count - 1}")
+    own = nodes < mesh.owned_nodes  # ghosts are another rank's
     if direction is not None:
-        return (nodes, numpy.broadcast_to(numpy.asarray(direction, float), (len(nodes), 3)),
-                numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes),)))
+        directions = numpy.broadcast_to(numpy.asarray(direction, float), (len(nodes), 3))
+        return nodes[own], directions[own], numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes),))[own]
     values = numpy.broadcast_to(numpy.asarray(displacement, float), (len(nodes), 3))
-    node, component = numpy.nonzero(~numpy.isnan(values))
+    node, component = numpy.nonzero(~numpy.isnan(values) & own[:, None])
     return nodes[node], numpy.eye(3)[component], values[node, component]
 
 
@@ -209,7 +212,7 @@ class Analysis:
         self.problem, self.context = problem, problem.context
         scene = problem.scene
         default = lib.ost_case_solver_options(scene.case.pointer)[0] if scene else lib.ost_solver_default_options()
-        self._fields = lib.ost_case_output_fields(scene.case.pointer) if scene else bits_of("all")
+        self._fields = lib.ost_case_output_fields(scene.case.pointer) if scene else lib.OST_FIELDS_BY_DEFAULT
         box = self.context.box("OstAnalysis")
         self.context.check(lib.ost_analysis_create(problem.pointer, _options(default, options), box))
         self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_analysis_destroy, problem)
@@ -223,7 +226,7 @@ class Analysis:
         if force is not None:
             self.problem.set_load(force)
         box = self.context.box("OstResult")
-        bits = self._fields if fields is None else bits_of(fields)
+        bits = bits_of(fields, self._fields)
         status = lib.ost_analysis_solve(self.pointer, bits, box)
         return take_result(self.context, status, box, self.problem.mesh, self.problem.scene, self.problem)
 
@@ -245,7 +248,7 @@ class Path:
     def advance(self, fields=None):
         """Collective. Takes the next step."""
         box = self.context.box("OstResult")
-        status = lib.ost_path_advance(self.pointer, self._fields if fields is None else bits_of(fields), box)
+        status = lib.ost_path_advance(self.pointer, bits_of(fields, self._fields), box)
         step = None if status else struct(lib.ost_path_step(self.pointer, self.done - 1)[0])
         return take_result(self.context, status, box, self.mesh, self.scene, self, step=step)
 

@@ -8,8 +8,10 @@ from ._declarations import FIELDS
 from ._library import ffi, lib, pointer_to, struct, text_of, view
 
 
-def bits_of(fields):
-    """Fields by their words in a case's `output` ("stress", "error", …), or "all"."""
+def bits_of(fields, default):
+    """Fields by their words in a case's `output` ("stress", "error", …), or "all"; None: the default."""
+    if fields is None:
+        return default
     words = FIELDS if fields == "all" else [fields] if isinstance(fields, str) else fields
     unknown = [word for word in words if word not in FIELDS]
     if unknown:
@@ -70,6 +72,22 @@ class Result:
         """(owned_tets,): each one's error in the norm of the energy; their squares add up to that of error.energy_norm"""
         return self._view(lib.ost_result_tet_error(self.pointer), self.mesh.owned_tets)
 
+    def field(self, word):
+        """Collective. Any field of docs/output.md, as the file has it, those that follow from others among them
+        ("von_mises", "principal_stress", "strain_tensor", …). On nodes (node_count) or on tets (owned_tets); None where
+        there is nothing that it could be made of."""
+        if word not in FIELDS:
+            raise ValueError(f"field: '{word}' is none of {', '.join(FIELDS)}")
+        found = ffi.new("OstFieldValues *")
+        self.context.check(lib.ost_result_field(self.pointer, FIELDS[word], found))
+        if found.values == ffi.NULL:
+            return None
+        owner = self.owner
+        if found.is_made:
+            owner = self.context.handle_of(found.values, lambda box: lib.ost_free_memory(box[0]), self.owner)
+        shape = {1: (), 9: (3, 3)}.get(found.components, (found.components,))
+        return view(ffi.cast("int32_t *" if found.is_integer else "double *", found.values), (found.rows, *shape), owner)
+
     # --- the whole body ---
 
     @property
@@ -101,6 +119,8 @@ class Result:
                       doc="OstNewtonReport of orthostat/result.h")
     error = property(lambda self: struct(lib.ost_result_answer_error(self.pointer)[0]),
                      doc="the estimated error that the mesh makes: OstAnswerError of orthostat/result.h")
+    failure = property(lambda self: struct(lib.ost_result_failure(self.pointer)[0]),
+                       doc="the least load factors to failure: OstFailure of orthostat/result.h")
     strain_energy = property(lambda self: lib.ost_result_checks(self.pointer).strain_energy)
     work = property(lambda self: lib.ost_result_checks(self.pointer).work)
 
@@ -123,9 +143,11 @@ class Result:
             lib.ost_free_memory(box[0])
         return values
 
-    def write(self, path, fields="all"):
-        """Collective. Writes the file of fields for ParaView, with those of `fields` that the answer has."""
-        self.context.check(lib.ost_result_write(self.pointer, bits_of(fields), os.fspath(path).encode()))
+    def write(self, path, fields=None):
+        """Collective. Writes the file of fields for ParaView (.vtkhdf, .hdf, .vtu, .pvtu): those of `fields` that the
+        answer has, or that follow from them; None: what the case's `output` says."""
+        default = lib.ost_case_output_fields(self.scene.case.pointer) if self.scene else lib.OST_FIELDS_BY_DEFAULT
+        self.context.check(lib.ost_result_write(self.pointer, bits_of(fields, default), os.fspath(path).encode()))
 
     def __repr__(self):
         return (f"<orthostat.Result: {self.status}, {self.unknowns} unknowns, moves by {self.largest_displacement:.6g} at "

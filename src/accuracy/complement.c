@@ -111,14 +111,28 @@ static OstStatus constrain(OstComplement *complement, OstLocal function, int cou
     return OST_SUCCESS;
 }
 
+/* Are a face's nodes all followers, or all leaders? What the other face does between its nodes is not known here. On
+ * an edge of a periodic cell nodes of one face are both. */
+static int is_linked(const OstLinks *links, int count, const OstLocal *nodes)
+{
+    int follow = links != NULL, lead = links != NULL, either = links && links->periodic;
+    for (int a = 0; a < count && links; a++) {
+        const int follows = links->of_node[nodes[a]] >= 0;
+        follow &= follows;
+        lead &= links->leads[nodes[a]];
+        either &= follows || links->leads[nodes[a]];
+    }
+    return follow || lead || either;
+}
+
 static OstStatus constrain_faces(OstComplement *complement, const OstSupports *supports, const OstSurface *surface)
 {
     const int n = surface->nodes_per_face;
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *nodes = surface->nodes + (size_t)n * (size_t)f;
         OstLocal functions[4];
-        double direction[9];
-        const int common = find_common(supports, n, nodes, direction);
+        double direction[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+        const int common = is_linked(supports->links, n, nodes) ? 3 : find_common(supports, n, nodes, direction);
         const int count = common > 0 ? ost_complement_of_face(complement, nodes, functions) : 0;
         for (int k = 0; k < count; k++)
             if (ost_complement_owns(complement, functions[k]))

@@ -47,6 +47,14 @@ static OstStatus create(OstEstimate *estimate)
     return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
 }
 
+OstStatus ost_estimate_take_loading(OstEstimate *estimate)
+{
+    if (!estimate->problem->scene)
+        return OST_SUCCESS;
+    ost_surplus_loads_clear(&estimate->loads);
+    return ost_surplus_loads_create(estimate->problem, &estimate->complement, &estimate->loads);
+}
+
 /* Takes the stiffness to u. */
 static OstStatus move(OstEstimate *estimate, const double *u)
 {
@@ -118,15 +126,9 @@ static OstStatus dot(const Search *search, const double *a, const double *b, dou
 }
 
 /* The rows' part of forces on nodes. */
-static void take_rows(const Search *search, double *vector)
+static OstStatus take_rows(const Search *search, double *vector)
 {
-    const OstSystem *system = search->estimate->problem->system;
-    for (OstLocal row = 0; row < system->matrix->rows; row++) {
-        const OstLocal node = system->node_of_row[row];
-        double projector[9];
-        ost_supports_get(system->supports, node, projector, NULL);
-        ost_apply3(projector, search->force + 3 * (size_t)node, vector + 3 * (size_t)row);
-    }
+    return ost_system_take_rows(search->estimate->problem->system, search->force, vector);
 }
 
 /* q = A p */
@@ -139,9 +141,8 @@ static OstStatus multiply(Search *search)
     ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, search->u, search->force);
-    take_rows(search, search->q);
     ost_complement_project(&search->estimate->complement, of_functions);
-    return OST_SUCCESS;
+    return take_rows(search, search->q);
 }
 
 /* z = B r */
@@ -250,9 +251,8 @@ static OstStatus find_residual(Search *search, double t, const double *u)
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)
         search->force[i] = own[i] - search->force[i];
     OST_FREE(own);
-    if (status == OST_SUCCESS)
-        take_rows(search, search->r);
-    return ost_agree(problem->ctx, status);
+    status = ost_agree(problem->ctx, status);
+    return status == OST_SUCCESS ? take_rows(search, search->r) : status;
 }
 
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
@@ -327,7 +327,7 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 /* --- a quantity of interest --- */
 
 /* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
-static void adjoint_load(Search *search, const OstInterest *interest)
+static OstStatus adjoint_load(Search *search, const OstInterest *interest)
 {
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
@@ -342,7 +342,7 @@ static void adjoint_load(Search *search, const OstInterest *interest)
         for (size_t i = 0; i < numbers; i++)
             search->force[i] = -search->force[i];
     }
-    take_rows(search, search->q);
+    return take_rows(search, search->q);
 }
 
 /* r: what z leaves of the adjoint problem on the functions. */
@@ -352,7 +352,7 @@ static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
     const OstComplement *complement = &search->estimate->complement;
     double *of_functions = search->r + search->rows;
     OstSolveReport report;
-    adjoint_load(search, interest);
+    OST_TRY(adjoint_load(search, interest));
     OST_TRY(ost_solver_solve(search->solver, search->q, search->z, &report));
     OST_TRY(ost_system_displacement(problem->system, 0.0, search->z, search->u));
     for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)

@@ -17,6 +17,9 @@ typedef struct OstEstimate OstEstimate;
 /* Collective. What is kept between calls for one problem. */
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate);
 
+/* Collective. The problem has got another loading (problem/load_case.h). */
+OstStatus ost_estimate_take_loading(OstEstimate *estimate);
+
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
  * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
  * NULL. surplus: e at the owned nodes (3 numbers each), lengthened by what the steps that were not taken would add; or

@@ -44,9 +44,16 @@ static OstStatus of_displacement(const OstProblem *problem, const OstWatch *watc
     return ost_sum(problem->ctx, 1, &interest->value);
 }
 
-/* The whole reaction of the nodes: the internal force there, less the load. */
-static OstStatus find_reaction(const OstProblem *problem, double t, const double *u, OstLocal count,
-                               const OstLocal *nodes, double sum[3])
+/* How a node's place is seen from the point that a moment is about. */
+static void find_arm(const OstProblem *problem, const OstWatch *watch, OstLocal node, double arm[3])
+{
+    for (size_t i = 0; i < 3; i++)
+        arm[i] = problem->mesh->coordinates[3 * (size_t)node + i] - watch->about[i];
+}
+
+/* The whole reaction of the nodes, or its moment: the internal force there, less the load. */
+static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                               OstLocal count, const OstLocal *nodes, double sum[3])
 {
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *force = NULL, *load = NULL;
@@ -56,9 +63,17 @@ static OstStatus find_reaction(const OstProblem *problem, double t, const double
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, u, load);
     memset(sum, 0, 3 * sizeof *sum);
-    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
-        for (size_t i = 0; i < 3 && nodes[n] < problem->mesh->owned_nodes; i++)
-            sum[i] += force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
+        double of_node[3], arm[3], moment[3];
+        if (nodes[n] >= problem->mesh->owned_nodes)
+            continue;
+        find_arm(problem, watch, nodes[n], arm);
+        for (size_t i = 0; i < 3; i++)
+            of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
+        ost_cross3(arm, of_node, moment);
+        for (int i = 0; i < 3; i++)
+            sum[i] += watch->of_moment ? moment[i] : of_node[i];
+    }
     OST_FREE(force);
     OST_FREE(load);
     OST_TRY(ost_agree(problem->ctx, status));
@@ -72,11 +87,16 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     double sum[3], direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
     OST_TRY(ost_select_nodes(problem->scene->c, problem->mesh, &watch->on, &count, &nodes));
-    const OstStatus status = find_reaction(problem, t, u, count, nodes, sum);
+    const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, sum);
     take_direction(watch, sum, direction);
     interest->value = ost_dot3(direction, sum);
-    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
+        double arm[3];
+        find_arm(problem, watch, nodes[n], arm);
         memcpy(interest->moved + 3 * (size_t)nodes[n], direction, sizeof direction);
+        if (watch->of_moment)
+            ost_cross3(direction, arm, interest->moved + 3 * (size_t)nodes[n]);
+    }
     OST_FREE(nodes);
     return status;
 }

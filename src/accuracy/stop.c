@@ -15,7 +15,7 @@ static const double small_share = 0.5;
 
 void ost_solve_stop_close(OstSolveStop *stop)
 {
-    ost_estimate_destroy(&stop->estimate);
+    ost_estimate_destroy(&stop->own);
     OST_FREE(stop->displacement);
 }
 
@@ -50,12 +50,13 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
     return status;
 }
 
-OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, double *tet_error,
-                              double *surplus, OstAnswerError *answer, OstSolveStop *stop)
+OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, OstEstimate *estimate,
+                              double *tet_error, double *surplus, OstAnswerError *answer, OstSolveStop *stop)
 {
     *stop = (OstSolveStop){.stop = {.ask = ask, .data = stop, .first = largest_error, .relative = 1},
                            .problem = problem,
                            .solver = solver,
+                           .estimate = estimate,
                            .share = share,
                            .tet_error = tet_error,
                            .surplus = surplus,
@@ -63,7 +64,10 @@ OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, doub
     ost_ledger_enter(problem->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status =
         ost_agree(problem->ctx, OST_NEW(problem->ctx, &stop->displacement, 3 * (size_t)problem->mesh->node_count));
-    OST_THEN(ost_estimate_create(problem, &stop->estimate));
+    if (!estimate) {
+        OST_THEN(ost_estimate_create(problem, &stop->own));
+        stop->estimate = stop->own;
+    }
     ost_ledger_leave(problem->ctx);
     if (status != OST_SUCCESS)
         ost_solve_stop_close(stop);

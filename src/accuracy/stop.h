@@ -12,6 +12,7 @@ typedef struct OstSolveStop {
     const OstProblem *problem;
     OstSolver *solver;
     OstEstimate *estimate;
+    OstEstimate *own;       /* the same where it was made here; else NULL */
     double share;           /* of the discretisation error */
     double *displacement;   /* 3 × node_count */
     double *tet_error;      /* of the last estimate: owned_tets; the caller's, or NULL */
@@ -20,10 +21,11 @@ typedef struct OstSolveStop {
     int settled;            /* the discretisation error is known */
 } OstSolveStop;
 
-/* Collective. For solves at t = 1; `tet_error`, `surplus` and `answer` are filled by the solve. The stop does not move.
+/* Collective. For solves at t = 1; `estimate` is one for the problem, or NULL; `tet_error`, `surplus` and `answer` are
+ * filled by the solve. The stop does not move.
  */
-OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, double *tet_error,
-                              double *surplus, OstAnswerError *answer, OstSolveStop *stop);
+OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, OstEstimate *estimate,
+                              double *tet_error, double *surplus, OstAnswerError *answer, OstSolveStop *stop);
 void ost_solve_stop_close(OstSolveStop *stop);
 
 /* Local. The next solve goes on from where one was stopped, to this error. */

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "problem/scene_parts.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 #include "solve/strategy.h"
 
 OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)

@@ -75,6 +75,8 @@ static int any_displaced(const OstSupports *supports)
 {
     if (!ost_effect_on(supports->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT))
         return 0;
+    if (supports->links && supports->links->moves)
+        return 1;
     for (OstLocal s = 0; s < supports->count; s++)
         if (is_displaced(&supports->support[s]))
             return 1;
@@ -88,6 +90,9 @@ static int touches_displaced(const OstMesh *mesh, const OstSupports *supports, O
         const OstLocal index = supports->index[nodes[a]];
         if (index >= 0 && is_displaced(&supports->support[index]))
             return 1;
+        for (size_t i = 3 * (size_t)nodes[a]; supports->links && i < 3 * (size_t)nodes[a] + 3; i++)
+            if (supports->links->offset[i] != 0.0)
+                return 1;
     }
     return 0;
 }
@@ -106,7 +111,7 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
     OST_TRY(OST_NEW(system->ctx, &g, 3 * (size_t)mesh->node_count));
     for (OstLocal node = 0; node < mesh->node_count; node++) {
         double projector[9];
-        if (system->supports->index[node] >= 0)
+        if (system->supports->index[node] >= 0 || system->supports->links)
             ost_supports_get(system->supports, node, projector, g + 3 * (size_t)node);
     }
     ost_elasticity_clear(&batch.elasticity);
@@ -166,17 +171,16 @@ static OstStatus find_other_forces(const OstSystem *system, const OstMaterialFie
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
                                      const double *force, double *rhs)
 {
-    double *others = NULL;
-    const OstStatus status = find_other_forces(system, field, share, &others);
-    for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
-        const size_t node = (size_t)system->node_of_row[row];
-        double total[3];
-        double projector[9];
-        for (size_t i = 0; i < 3; i++)
-            total[i] = force[3 * node + i] + (others ? others[3 * node + i] : 0.0);
-        ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
-        ost_apply3(projector, total, rhs + 3 * (size_t)row);
-    }
-    OST_FREE(others);
+    const size_t count = 3 * (size_t)system->mesh->owned_nodes;
+    double *total = NULL;
+    OstStatus status = find_other_forces(system, field, share, &total);
+    if (status == OST_SUCCESS && !total)
+        status = OST_NEW(system->ctx, &total, count);
+    for (size_t i = 0; i < count && status == OST_SUCCESS; i++)
+        total[i] += force[i];
+    if (system->supports->links)
+        status = ost_agree(system->ctx, status);
+    OST_THEN(ost_system_take_rows(system, total, rhs));
+    OST_FREE(total);
     return status;
 }

@@ -72,6 +72,33 @@ static void project_modes(const OstSystem *system, double *modes)
     }
 }
 
+/* The rows of a rigid face's carriers are its point's displacement, and its rotation times a length. */
+static void take_faces(const OstSystem *system, const OstRigidFace *face, const double middle[3], double *modes)
+{
+    const OstMesh *mesh = system->mesh;
+    const size_t length = 3 * (size_t)system->matrix->rows;
+    const double arm[3] = {face->point[0] - middle[0], face->point[1] - middle[1], face->point[2] - middle[2]};
+    for (size_t c = 0; c < 2; c++) {
+        const OstGlobal node = face->carrier[c] - mesh->first_node;
+        if (face->carrier[c] < 0 || node < 0 || node >= mesh->owned_nodes)
+            continue;
+        for (size_t m = 0; m < 6; m++) {
+            const double axis[3] = {m % 3 == 0, m % 3 == 1, m % 3 == 2};
+            double *mode = modes + m * length + 3 * (size_t)system->row_of_node[node];
+            if (m < 3)
+                memcpy(mode, axis, sizeof axis);
+            else
+                ost_cross3(axis, arm, mode);
+            for (size_t i = 0; i < 3; i++) {
+                if (c == 1)
+                    mode[i] = m < 3 ? 0.0 : face->length * axis[i];
+                if (face->constrained[3 * c + i])
+                    mode[i] = 0.0;
+            }
+        }
+    }
+}
+
 OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes)
 {
     const OstLocal rows = system->matrix->rows;
@@ -87,6 +114,9 @@ OstStatus ost_system_modes(const OstSystem *system, const double *displacement, 
         ost_rigid_body_modes(rows, moved, middle, modes);
         project_modes(system, modes);
     }
+    const OstLinks *links = system->supports->links;
+    for (int f = 0; links && f < links->face_count && status == OST_SUCCESS; f++)
+        take_faces(system, &links->face[f], middle, modes);
     OST_FREE(moved);
     return status;
 }

@@ -190,6 +190,11 @@ OstStatus ost_system_restore_scatter(OstSystem *system)
     const OstMesh *mesh = system->mesh;
     const int n = mesh->nodes_per_tet;
     const size_t pairs = (size_t)ost_pair_count(n);
+    if (system->supports->links) {
+        system->unlinked = *system->supports;
+        system->unlinked.links = NULL;
+        return system->whole ? OST_SUCCESS : ost_system_create(mesh, &system->unlinked, &system->whole);
+    }
     OST_TRY(OST_NEW(system->ctx, &system->block_of_tet, pairs * (size_t)mesh->tet_count));
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
         OstLocal ordered[OST_MAX_TET_NODES];

@@ -132,10 +132,7 @@ OstStatus ost_spread_over_faces(const OstMesh *mesh, OstLocal count, const OstLo
                                 const OstResultant *resultant, OstSpread *spread)
 {
     const Carrier on = {mesh, count, faces, nodes_per_face};
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_MOMENT);
-    const OstStatus status = spread_over(&on, resultant, spread);
-    ost_ledger_leave(mesh->ctx);
-    return status;
+    return spread_over(&on, resultant, spread);
 }
 
 OstStatus ost_spread_over_vertices(const OstMesh *mesh, OstLocal count, const OstLocal *nodes,

@@ -22,7 +22,7 @@ typedef struct OstSpread {
 void ost_spread_at(const OstSpread *spread, const double place[3], double value[3]);
 
 /* Collective. Faces and vertices are listed, and forces added, as assembly/loads.h says. Raises OST_INVALID_INPUT where
- * no forces on the selection have this moment: on one point, or on a line along the moment. OST_EFFECT_MOMENT. */
+ * no forces on the selection have this moment: on one point, or on a line along the moment. */
 OstStatus ost_spread_over_faces(const OstMesh *mesh, OstLocal count, const OstLocal *faces, int nodes_per_face,
                                 const OstResultant *resultant, OstSpread *spread);
 OstStatus ost_spread_over_vertices(const OstMesh *mesh, OstLocal count, const OstLocal *nodes,

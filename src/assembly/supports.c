@@ -47,6 +47,7 @@ void ost_supports_destroy(OstSupports **supports)
     OST_FREE((*supports)->support);
     OST_FREE((*supports)->spring);
     OST_FREE((*supports)->bed);
+    ost_links_destroy(&(*supports)->links);
     OST_FREE(*supports);
 }
 
@@ -180,25 +181,15 @@ static OstStatus check_anything_constrained(const OstSupports *supports)
 {
     OstGlobal constrained = supports->count;
     OST_TRY(ost_sum_numbers(supports->ctx, 1, &constrained));
-    if (constrained == 0 && !supports->spring)
+    if (constrained == 0 && !supports->spring && !supports->links)
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "nothing is constrained: no vertex has a prescribed displacement or slides on a plane, so the "
                          "body can move away as a whole; add constraints");
     return OST_SUCCESS;
 }
 
-OstStatus ost_supports_complete(OstSupports *supports)
-{
-    ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
-    OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
-    OST_THEN(share_with_ghosts(supports));
-    if (status == OST_SUCCESS && supports->spring)
-        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
-    ost_ledger_leave(supports->ctx);
-    return status;
-}
-
-int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
+/* Without the offsets of links. */
+static int find_support(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
 {
     const OstLocal index = supports->index[node];
     const OstSupport *support = index < 0 ? NULL : &supports->support[index];
@@ -218,11 +209,45 @@ int ost_supports_get(const OstSupports *supports, OstLocal node, double projecto
     return constrained;
 }
 
+static OstStatus complete_links(OstSupports *supports)
+{
+    OstHeld *held = NULL;
+    OstStatus status = ost_agree(supports->ctx, OST_NEW(supports->ctx, &held, supports->mesh->owned_nodes));
+    for (OstLocal n = 0; n < supports->mesh->owned_nodes && status == OST_SUCCESS; n++)
+        held[n].constrained = find_support(supports, n, held[n].projector, held[n].prescribed);
+    OST_THEN(ost_links_complete(supports->links, held));
+    OST_FREE(held);
+    return status;
+}
+
+OstStatus ost_supports_complete(OstSupports *supports)
+{
+    ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
+    OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
+    OST_THEN(share_with_ghosts(supports));
+    if (status == OST_SUCCESS && supports->spring)
+        status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
+    if (status == OST_SUCCESS && supports->links)
+        status = complete_links(supports);
+    ost_ledger_leave(supports->ctx);
+    return status;
+}
+
+int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3])
+{
+    const int constrained = find_support(supports, node, projector, prescribed);
+    for (int i = 0; i < 3 && prescribed && supports->links; i++)
+        prescribed[i] += supports->links->offset[3 * (size_t)node + (size_t)i];
+    return constrained;
+}
+
 void ost_supports_add(const OstSupports *supports, double factor, double *u)
 {
     for (OstLocal node = 0; node < supports->mesh->node_count; node++) {
         const OstLocal index = supports->index[node];
         const OstSupport *support = index < 0 ? NULL : &supports->support[index];
+        for (size_t i = 3 * (size_t)node; supports->links && i < 3 * (size_t)node + 3; i++)
+            u[i] += factor * supports->links->offset[i];
         for (int k = 0; support && k < support->constrained; k++)
             for (int i = 0; i < 3; i++)
                 u[3 * (size_t)node + (size_t)i] += factor * support->prescribed[k] * support->direction[3 * k + i];

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 #define ORTHOSTAT_ASSEMBLY_SUPPORTS_H
 
+#include "assembly/links/links.h"
 #include "effect/effect.h"
 #include "mesh/mesh_data.h"
 
@@ -24,6 +25,7 @@ typedef struct OstSupports {
     OstSupport *support;
     double
         *spring; /* 9 × node_count: stiffness of the springs at each node (assembly/springs.h); NULL: there are none */
+    OstLinks *links;    /* nodes that follow others (assembly/links/links.h), or NULL */
     struct OstBed *bed; /* owned_nodes: what of it acts along surface normals alone; NULL: nothing on this rank */
 } OstSupports;
 
@@ -44,7 +46,7 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
                                    OstSupports **supports);
 
 /* Local. P (9 numbers) and g (NULL: not asked for) of a node; returns the number of constrained directions (0: P is the
- * identity). */
+ * identity). Of a node that follows others, g is its offset. */
 int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3]);
 
 /* Local. Adds `factor` times what the supports prescribe to a displacement of all local nodes. */

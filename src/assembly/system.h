@@ -8,15 +8,18 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/formulation.h"
 
-/* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Fully
- * constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+/* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Where nodes
+ * follow others (assembly/links/links.h), it is that of T' K T: followers have no row, and the matrix is made anew by
+ * each fill. Fully constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
 typedef struct OstSystem {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstSupports *supports;
     OstBlockMatrix *matrix;
-    OstLocal *row_of_node;  /* node_count: local row or ghost column, -1 if fully constrained */
-    OstLocal *node_of_row;  /* matrix->columns */
+    OstSupports unlinked;    /* the supports without links, where there are links: */
+    struct OstSystem *whole; /* that of all nodes, from which the matrix is made (condense.c); else NULL */
+    OstLocal *row_of_node;   /* node_count: local row or ghost column, -1 if fully constrained */
+    OstLocal *node_of_row;   /* matrix->columns */
     OstLocal *block_of_tet; /* tet_count × n(n+1)/2, the scatter map: which block of matrix->value each pair of a tet's
                                nodes adds to, -1: none. Only the upper triangle is summed, and then mirrored. NULL after
                                ost_system_release_scatter */
@@ -56,9 +59,16 @@ OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *fie
 void ost_system_release_scatter(OstSystem *system);
 OstStatus ost_system_restore_scatter(OstSystem *system);
 
-/* Local. Right-hand side of the rows, P (force - K g + share × B'C e0): `force` are the loads on local nodes (3 ×
- * node_count, complete on owned nodes); K g is computed only on tets that touch a node with g != 0, and the last term
- * only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
+/* Local; collective where nodes follow others. P T' force, the rows' part of forces on owned nodes (3 × owned_nodes).
+ */
+OstStatus ost_system_take_rows(const OstSystem *system, const double *force, double *of_rows);
+
+/* Collective, a step of ost_system_fill. Makes the matrix T' K T from K of all nodes, where nodes follow others. */
+OstStatus ost_system_condense(OstSystem *system);
+
+/* Local; collective where nodes follow others. Right-hand side of the rows, P (force - K g + share × B'C e0): `force`
+ * are the loads on local nodes (3 × node_count, complete on owned nodes); K g is computed only on tets that touch a
+ * node with g != 0, and the last term only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,
                                      const double *force, double *rhs);
 

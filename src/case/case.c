@@ -3,6 +3,7 @@
 
 #include "case/sections.h"
 #include "case/verify.h"
+#include "case/yaml/set.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/memory.h"
@@ -11,6 +12,9 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+
+/* What messages call a case that comes from there. */
+static const char standard_input[] = "stdin";
 
 int ost_has_ending(const char *path, const char *ending)
 {
@@ -66,6 +70,24 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
+/* Where nodes follow others, only linear theory is there. */
+static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
+{
+    for (int i = 0; i < c->constraint_count; i++) {
+        const OstConstraint *constraint = &c->constraints[i];
+        if (ost_constraint_links(constraint) && c->large_rotation == OST_LARGE_ROTATION_ON)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: rigid, tied and periodic faces are solved by linear theory alone; say "
+                             "large_rotation: off",
+                             yaml->path, constraint->line);
+        if (constraint->kind == OST_CONSTRAIN_RIGID && c->path_steps > 0)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: a rigid face has no path yet: its answer grows with its loads; leave out 'path'",
+                             yaml->path, constraint->line);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const OstCase *c)
 {
     if (path && c->verify)
@@ -108,7 +130,20 @@ static void settle_fraction(OstCase *c)
         c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
 }
 
-static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
+/* Steps of a path follow each other; load cases do not. */
+static OstStatus check_load_cases(const OstYaml *yaml, const OstYamlNode *cases, const OstCase *c)
+{
+    if (cases && c->path_steps > 0)
+        return ost_yaml_raise(yaml, cases,
+                              "load cases stand beside each other, and the steps of a path follow one another; leave "
+                              "out 'cases' or 'path', or write a file for each case that has a path");
+    if (cases && c->verify)
+        return ost_yaml_raise(yaml, cases, "a formula is of one answer; leave out 'cases' or 'verify'");
+    return OST_SUCCESS;
+}
+
+/* `number`: of the load case (from 0), or OST_EVERY_LOAD_CASE. */
+static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
 {
     enum {
         TITLE,
@@ -126,6 +161,8 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         LARGE_ROTATION,
         FORMULATION,
         VERIFY,
+        SWEEP,
+        CASES,
         SECTIONS
     };
     OstYamlKey keys[SECTIONS] = {
@@ -144,6 +181,8 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [LARGE_ROTATION] = {.name = "large_rotation"},
         [FORMULATION] = {.name = "formulation"},
         [VERIFY] = {.name = "verify"},
+        [SWEEP] = {.name = "sweep"},
+        [CASES] = {.name = "cases"},
     };
     OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
         [MESH] = ost_read_mesh,
@@ -160,27 +199,32 @@ static OstStatus read_sections(const OstYaml *yaml, OstCase *c)
         [LARGE_ROTATION] = ost_read_large_rotation,
         [FORMULATION] = ost_read_formulation,
         [VERIFY] = ost_read_verify,
+        [SWEEP] = ost_read_sweep,
     };
     OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
     if (keys[TITLE].value)
         OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
     else
         OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
-    for (int s = MESH; s < SECTIONS; s++)
+    for (int s = MESH; s < CASES; s++)
         if (keys[s].value)
             OST_TRY(read[s](yaml, keys[s].value, c));
+    if (keys[CASES].value)
+        OST_TRY(ost_read_load_cases(yaml, keys[CASES].value, number, c));
     if (c->free_body && c->spring_count > 0)
         return ost_yaml_raise(yaml, keys[SPRINGS].value,
                               "nothing holds a free body, and springs would; leave out these, or free_body");
     OST_TRY(check_materials(yaml, c));
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
+    OST_TRY(check_load_cases(yaml, keys[CASES].value, c));
     if (c->interest > 0 && c->free_body)
         return ost_yaml_raise(yaml, keys[ACCURACY].value,
                               "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "
                               "'of' out",
                               c->watches[c->interest - 1].name);
     settle_fraction(c);
+    OST_TRY(check_links(yaml, c));
     return check_density(yaml, c);
 }
 
@@ -221,6 +265,8 @@ static OstStatus read_vertex_files(OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++)
         OST_TRY(read_vertex_file(c, &c->constraints[i].on));
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(read_vertex_file(c, &c->constraints[i].to));
     for (int i = 0; i < c->load_count; i++)
         OST_TRY(read_vertex_file(c, &c->loads[i].on));
     for (int i = 0; i < c->spring_count; i++)
@@ -232,9 +278,9 @@ static OstStatus read_vertex_files(OstCase *c)
     return OST_SUCCESS;
 }
 
-static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, size_t size, OstCase **c)
+/* A case with its defaults. */
+static OstStatus begin(OstContext *ctx, const char *path, OstCase **c)
 {
-    OstYaml *yaml = NULL;
     OST_TRY(OST_NEW(ctx, c, 1));
     (*c)->ctx = ctx;
     (*c)->solver = ost_solver_default_options();
@@ -242,11 +288,35 @@ static OstStatus parse(OstContext *ctx, const char *path, const char *bytes, siz
     (*c)->relative_error = 0.02;
     (*c)->solver.accept_attainable = 1; /* until the case asks for a residual */
     (*c)->formulation = OST_FORMULATION_CONSISTENT;
-    (*c)->output_fields = (1U << OST_FIELD_COUNT) - 1;
-    (*c)->text_hash = ost_hash(OST_HASH_START, size, bytes);
-    OST_TRY(ost_copy_string(ctx, path, &(*c)->path));
-    OST_TRY(ost_yaml_parse(ctx, (*c)->path, bytes, size, &yaml));
-    const OstStatus status = read_sections(yaml, *c);
+    (*c)->output_fields = OST_FIELDS_BY_DEFAULT;
+    return ost_copy_string(ctx, path, &(*c)->path);
+}
+
+/* Each load case is a case of its own, of which all but its loads, supports and watches is the same. */
+static OstStatus read_each_load_case(const OstYaml *yaml, OstCase *c)
+{
+    for (int k = 0; k < c->load_case_count; k++) {
+        OstLoadCase *load_case = &c->load_cases[k];
+        OST_TRY(begin(yaml->ctx, c->path, &load_case->c));
+        OST_TRY(read_sections(yaml, k, load_case->c));
+        load_case->c->text_hash = c->text_hash;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus parse(OstContext *ctx, const char *path, const OstCaseText *text, OstCase **c)
+{
+    OstYaml *yaml = NULL;
+    OST_TRY(begin(ctx, path, c));
+    OST_TRY(ost_yaml_parse(ctx, (*c)->path, text->bytes, text->size, &yaml));
+    OstStatus status = OST_SUCCESS;
+    (*c)->text_hash = ost_hash(OST_HASH_START, text->size, text->bytes);
+    for (int s = 0; s < text->settings && status == OST_SUCCESS; s++) {
+        status = ost_yaml_set(yaml, text->setting[s]);
+        (*c)->text_hash = ost_hash((*c)->text_hash, strlen(text->setting[s]), text->setting[s]);
+    }
+    OST_THEN(read_sections(yaml, OST_EVERY_LOAD_CASE, *c));
+    OST_THEN(read_each_load_case(yaml, *c));
     ost_yaml_destroy(&yaml);
     return status;
 }
@@ -271,6 +341,8 @@ static OstStatus read_stream(OstContext *ctx, const char *path, FILE *file, char
 
 static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size_t *size)
 {
+    if (strcmp(path, "-") == 0)
+        return read_stream(ctx, standard_input, stdin, bytes, size);
     FILE *file = fopen(path, "rb");
     if (!file)
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
@@ -279,13 +351,13 @@ static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size
     return status;
 }
 
-/* Collective. The bytes of a file, read by rank 0 and broadcast; memory from the context. */
-static OstStatus read_and_share(OstContext *ctx, const char *path, char **bytes, size_t *size)
+OstStatus ost_case_bytes(OstContext *ctx, const char *path, char **bytes, size_t *size)
 {
     OstStatus status = OST_SUCCESS;
     OstGlobal length = 0;
     *bytes = NULL;
     *size = 0;
+    ost_ledger_enter(ctx, OST_LEDGER_CASE);
     if (ost_rank(ctx) == 0)
         status = read_file(ctx, path, bytes, size);
     OST_TRY_DONE(ost_agree(ctx, status));
@@ -299,23 +371,20 @@ static OstStatus read_and_share(OstContext *ctx, const char *path, char **bytes,
 done:
     if (status != OST_SUCCESS)
         OST_FREE(*bytes);
+    ost_ledger_leave(ctx);
     return status;
 }
 
-/* `text` is NULL if it must be read from the file. */
-static OstStatus create(OstContext *ctx, const char *path, const char *text, OstCase **c)
+OstStatus ost_case_make(OstContext *ctx, const char *path, const OstCaseText *text, OstCase **c)
 {
-    char *bytes = NULL;
-    size_t size = text ? strlen(text) : 0;
     OstStatus status = OST_SUCCESS;
     *c = NULL;
     ost_ledger_enter(ctx, OST_LEDGER_CASE);
-    if (!text)
-        OST_TRY_DONE(read_and_share(ctx, path, &bytes, &size));
-    OST_TRY_DONE(ost_agree(ctx, parse(ctx, path, text ? text : bytes, size, c)));
+    OST_TRY_DONE(ost_agree(ctx, parse(ctx, strcmp(path, "-") == 0 ? standard_input : path, text, c)));
     OST_TRY_DONE(read_vertex_files(*c));
+    for (int k = 0; k < (*c)->load_case_count; k++)
+        OST_TRY_DONE(read_vertex_files((*c)->load_cases[k].c));
 done:
-    OST_FREE(bytes);
     if (status != OST_SUCCESS)
         ost_case_destroy(c);
     ost_ledger_leave(ctx);
@@ -324,12 +393,33 @@ done:
 
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **c)
 {
-    return create(ctx, path, text, c);
+    return ost_case_make(ctx, path, &(OstCaseText){.bytes = text, .size = strlen(text)}, c);
+}
+
+OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **c)
+{
+    OstCaseText text = {.settings = count, .setting = settings};
+    char *bytes = NULL;
+    *c = NULL;
+    OST_TRY(ost_case_bytes(ctx, path, &bytes, &text.size));
+    text.bytes = bytes;
+    const OstStatus status = ost_case_make(ctx, path, &text, c);
+    OST_FREE(bytes);
+    return status;
 }
 
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)
 {
-    return create(ctx, path, NULL, c);
+    return ost_case_read_with(ctx, path, 0, NULL, c);
+}
+
+void ost_constraint_release(OstConstraint *constraint)
+{
+    ost_selection_release(&constraint->on);
+    ost_selection_release(&constraint->to);
+    for (int p = 0; p < 3; p++)
+        for (int side = 0; side < 2; side++)
+            OST_FREE(constraint->pair[p][side]);
 }
 
 void ost_case_destroy(OstCase **c)
@@ -339,10 +429,11 @@ void ost_case_destroy(OstCase **c)
     for (int i = 0; i < (*c)->material_count; i++) {
         OST_FREE((*c)->materials[i].region);
         OST_FREE((*c)->materials[i].eigen_field);
+        OST_FREE((*c)->materials[i].modulus.field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
-        ost_selection_release(&(*c)->constraints[i].on);
+        ost_constraint_release(&(*c)->constraints[i]);
     for (int i = 0; i < (*c)->load_count; i++) {
         ost_selection_release(&(*c)->loads[i].on);
         OST_FREE((*c)->loads[i].region);
@@ -353,14 +444,18 @@ void ost_case_destroy(OstCase **c)
     for (int i = 0; i < (*c)->watch_count; i++) {
         OST_FREE((*c)->watches[i].name);
         OST_FREE((*c)->watches[i].source);
+        OST_FREE((*c)->watches[i].region);
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);
+    ost_probes_release((*c)->probe_count, &(*c)->probes);
     for (int i = 0; i < (*c)->table_count; i++)
         ost_time_table_release(&(*c)->tables[i]);
     OST_FREE((*c)->tables);
     OST_FREE((*c)->path_times);
     ost_verify_release(&(*c)->verify);
+    ost_load_cases_release(*c);
+    ost_sweep_release(*c);
     OST_FREE((*c)->materials);
     OST_FREE((*c)->constraints);
     OST_FREE((*c)->loads);
@@ -384,6 +479,15 @@ const char *ost_case_title(const OstCase *c)
 const char *ost_case_output_file(const OstCase *c)
 {
     return c->output_file;
+}
+
+/* Along axes that have turned, where rotations are large. */
+unsigned ost_case_recovers(const OstCase *c)
+{
+    int stress = c->probe_count;
+    for (int w = 0; w < c->watch_count; w++)
+        stress += c->watches[w].kind == OST_WATCH_STRESS;
+    return c->output_fields | (stress > 0 ? 1U << OST_FIELD_STRESS | 1U << OST_FIELD_MATERIAL_STRESS : 0U);
 }
 
 unsigned ost_case_output_fields(const OstCase *c)

@@ -2,7 +2,9 @@
 #ifndef ORTHOSTAT_CASE_CASE_DATA_H
 #define ORTHOSTAT_CASE_CASE_DATA_H
 
+#include "case/probe/read_probe.h"
 #include "case/yaml/tree.h"
+#include "fields/stress_measure.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/axes.h"
 #include "orthostat/case.h"
@@ -38,18 +40,48 @@ typedef struct OstSelection {
     char *vertices_file; /* resolved path, or NULL */
 } OstSelection;
 
-typedef enum { OST_CONSTRAIN_DISPLACEMENT, OST_CONSTRAIN_SLIDE } OstConstraintKind;
+typedef enum {
+    OST_CONSTRAIN_DISPLACEMENT,
+    OST_CONSTRAIN_SLIDE,
+    OST_CONSTRAIN_RIGID,   /* the selection moves as a rigid body */
+    OST_CONSTRAIN_TIED,    /* its vertices follow other faces */
+    OST_CONSTRAIN_PERIODIC /* opposite boundaries move alike, but for a mean strain */
+} OstConstraintKind;
 
 typedef struct OstConstraint {
     OstConstraintKind kind;
     int line;
-    OstSelection on;
-    int constrained[3]; /* DISPLACEMENT: is the component constrained? (0: the word free) */
+    OstSelection on;    /* not used by PERIODIC */
+    int constrained[3]; /* DISPLACEMENT, RIGID: is the component constrained? (0: the word free) */
     int exact[3];       /* DISPLACEMENT: is it prescribed by the formula (the word exact)? See assembly/closed_form.h */
-    double displacement[3]; /* DISPLACEMENT: the prescribed value, at factor 1 */
-    int table;              /* DISPLACEMENT: 0 if it grows with t, or 1 + its place in the case's tables */
+    double displacement[3]; /* DISPLACEMENT, RIGID: the prescribed value, at factor 1 */
+    int table;              /* 0 if it grows with t, or 1 + its place in the case's tables */
     double normal[3];       /* SLIDE: the plane's normal */
+    double point[3];        /* RIGID */
+    int turn_constrained[3];
+    double rotation[3];
+    OstSelection to;  /* TIED: the faces that are followed */
+    double tolerance; /* TIED: how far away; negative: 1e-3 of the body's size */
+    int pair_count;   /* PERIODIC */
+    char *pair[3][2]; /* names of boundaries: those that lead, those that follow */
+    double strain[6]; /* xx yy zz xy yz zx, of the tensor */
 } OstConstraint;
+
+/* Local. Does a constraint prescribe a displacement, a rotation or a strain other than zero? */
+static inline int ost_constraint_moves(const OstConstraint *constraint)
+{
+    const OstConstraint *k = constraint;
+    int moves = k->exact[0] || k->exact[1] || k->exact[2];
+    for (int i = 0; i < 6; i++)
+        moves |= k->strain[i] != 0.0 || (i < 3 && (k->displacement[i] != 0.0 || k->rotation[i] != 0.0));
+    return moves;
+}
+
+/* Local. Does a constraint make vertices follow others? */
+static inline int ost_constraint_links(const OstConstraint *constraint)
+{
+    return constraint->kind >= OST_CONSTRAIN_RIGID;
+}
 
 typedef enum {
     OST_LOAD_TOTAL_FORCE, /* over the selection */
@@ -99,6 +131,13 @@ typedef struct OstSpring {
     double direction[3];  /* unit; zero: the surface's normal, or none where along = across */
 } OstSpring;
 
+/* Young's modulus tet by tet: factor × field^power, not below `least`; that of the material is multiplied by it. */
+typedef struct OstModulusField {
+    char *field; /* NULL: there is none */
+    OstPlace place;
+    double factor, power, least;
+} OstModulusField;
+
 typedef struct OstCaseMaterial {
     char *region; /* "all" or a region's name */
     OstPlace region_place, axes_place;
@@ -110,11 +149,22 @@ typedef struct OstCaseMaterial {
     char *eigen_field;     /* the mesh file's field of it, tet by tet; or NULL */
     OstPlace eigen_place;
     int eigen_per_unit; /* the field is the change that `eigenstrain` is multiplied by, not the strain itself */
+    OstModulusField modulus;
     OstAxesSpec axes;
 } OstCaseMaterial;
 
+/* A field of the mesh file that a material asks for. */
+typedef struct OstCaseField {
+    const char *name; /* a material's */
+    OstPlace place;
+    int directions; /* are its numbers a fibre's direction? */
+} OstCaseField;
+
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
-typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY } OstWatchKind;
+typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY, OST_WATCH_STRESS } OstWatchKind;
+
+/* What is taken of the stresses of a region. */
+typedef enum { OST_TAKE_MEAN, OST_TAKE_LEAST, OST_TAKE_LARGEST } OstTake;
 
 enum {
     OST_WATCH_LENGTH = 3, /* instead of a component */
@@ -125,8 +175,14 @@ typedef struct OstWatch {
     char *name;
     OstWatchKind kind;
     int line;
-    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by STRAIN_ENERGY */
-    int component;   /* 0 to 2, or OST_WATCH_LENGTH */
+    OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by the others */
+    int of_moment;   /* REACTION: the moment of the reactions about the point `about`? */
+    double about[3];
+    int component; /* 0 to 2, or OST_WATCH_LENGTH; STRESS: OstStressMeasure */
+    char *region;  /* STRESS: of the tets of a region, or "all"; NULL: at the point `at` */
+    OstPlace region_place;
+    double at[3];
+    OstTake take;
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
 } OstWatch;
@@ -142,6 +198,20 @@ typedef enum {
 
 /* Is the case solved for large rotations? AUTO: where linear theory is off by more than the accuracy asked for. */
 typedef enum { OST_LARGE_ROTATION_AUTO, OST_LARGE_ROTATION_ON, OST_LARGE_ROTATION_OFF } OstLargeRotation;
+
+/* One of several loadings of the body. */
+typedef struct OstLoadCase {
+    char *name;
+    int line;
+    struct OstCase *c; /* a case with what is stated for all, and its own */
+} OstLoadCase;
+
+/* Values for one number of the case, or for any key (case/yaml/set.h). */
+typedef struct OstSweepKey {
+    char *key;
+    int count;
+    char **value; /* as they are written */
+} OstSweepKey;
 
 struct OstCase {
     OstContext *ctx;
@@ -174,7 +244,8 @@ struct OstCase {
     int table_count;
     OstTimeTable *tables; /* of loads and prescribed displacements, each different */
     int first_table_line;
-    const OstCaseMaterial *eigen_field; /* the first material that has one; NULL: none has */
+    int field_count; /* fields of the mesh file that the materials ask for, each once */
+    OstCaseField fields[OST_MOST_TET_FIELDS];
     int eigen_table;    /* which of them the eigenstrains follow: 0 if they grow with t, or 1 + its place */
     uint64_t text_hash; /* of the case's text */
     int watch_count;
@@ -186,8 +257,35 @@ struct OstCase {
     int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file; /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields; /* bits of OstOutputField */
-    unsigned without;       /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int probe_count;
+    OstProbe *probes;    /* tables of points, beside the output file */
+    int load_case_count; /* 0: there are none. Else loads, supports and springs above are those of all */
+    OstLoadCase *load_cases;
+    int sweep_count; /* of keys */
+    OstSweepKey *sweep;
+    unsigned without; /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
+
+/* The text of a case, and changes to it (case/yaml/set.h). */
+typedef struct OstCaseText {
+    const char *bytes;
+    size_t size;
+    int settings;
+    const char *const *setting; /* "KEY=VALUE" */
+} OstCaseText;
+
+/* Collective. The bytes of a case file, or for "-" of standard input, read by rank 0; the caller's to free. */
+OstStatus ost_case_bytes(OstContext *ctx, const char *path, char **bytes, size_t *size);
+
+/* Collective. ost_case_read of that text. */
+OstStatus ost_case_make(OstContext *ctx, const char *path, const OstCaseText *text, OstCase **c);
+
+/* Local. Puts in place of a case the one of its load cases that has this name. Raises OST_INVALID_USAGE with the names
+ * there are. */
+OstStatus ost_case_pick(OstCase **c, const char *name);
+
+/* Local. The fields that are to be recovered: those of the output, and what quantities of interest are made of. */
+unsigned ost_case_recovers(const OstCase *c);
 
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
@@ -196,6 +294,9 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. The number of a field that a material asks for, or -1. */
+int ost_case_find_field(const OstCase *c, const char *name);
 
 /* Local. Does a strain differ from direction to direction? */
 int ost_strain_has_directions(const double strain[6]);

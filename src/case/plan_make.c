@@ -3,6 +3,7 @@
 
 #include "algebra/solver_plan.h"
 #include "core/error.h"
+#include "fields/output_field.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,11 +14,11 @@ static void count_constraints(const OstCase *c, OstEffectFacts *facts)
     facts->free_body = c->free_body;
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        const double *u = constraint->displacement;
-        const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
         facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
-        facts->prescribed +=
-            constraint->kind == OST_CONSTRAIN_DISPLACEMENT && (exact || u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+        facts->prescribed += ost_constraint_moves(constraint);
+        facts->rigid_faces += constraint->kind == OST_CONSTRAIN_RIGID;
+        facts->ties += constraint->kind == OST_CONSTRAIN_TIED;
+        facts->periodic += constraint->kind == OST_CONSTRAIN_PERIODIC;
     }
 }
 
@@ -41,6 +42,19 @@ static void count_springs(const OstCase *c, OstEffectFacts *facts)
     facts->springs = c->spring_count;
     for (int i = 0; i < c->spring_count; i++)
         facts->foundations += c->springs[i].kind == OST_SPRING_FOUNDATION;
+}
+
+/* Numbers a tet and a node of what is computed after the solve; load factors are made of stress. */
+static void count_recovered(const OstCase *c, OstEffectFacts *facts)
+{
+    const unsigned factors = OST_LOAD_FACTORS;
+    const unsigned asked = facts->strengths > 0 ? ost_case_recovers(c) | factors : ost_case_recovers(c) & ~factors;
+    const unsigned needed = ost_output_fields_needed(asked);
+    for (int f = 0; f < OST_FIELD_COUNT; f++) {
+        const OstOutputField field = ost_output_field((OstOutputFieldBit)f);
+        if (needed >> f & 1U && field.is_recovered)
+            *(field.centring == OST_ON_NODES ? &facts->node_fields : &facts->cell_fields) += field.components;
+    }
 }
 
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
@@ -78,12 +92,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.accuracy = c->relative_error;
     facts.path_steps = c->path_steps;
     facts.tables = c->table_count;
-    facts.cell_fields = 6 * ost_plan_writes(c, OST_FIELD_STRAIN) + 6 * ost_plan_writes(c, OST_FIELD_STRESS) +
-                        ost_plan_writes(c, OST_FIELD_ENERGY);
     facts.asks_error = c->asks_error && c->path_steps == 0;
     facts.watches = c->watch_count;
     facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
-    facts.node_fields = 6 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
+    count_recovered(c, &facts);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);

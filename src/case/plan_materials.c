@@ -24,6 +24,8 @@ static void say_why_orthotropic(const char *region, const OstOrthotropic *k, con
         snprintf(reason, 160, "%d different Poisson's ratios in region '%.60s'", ratios, region);
     else if (stated && (stated->eigen_field || ost_strain_has_directions(stated->eigenstrain)))
         snprintf(reason, 160, "the eigenstrain of region '%.60s' has directions", region);
+    else if (stated && ost_strength_has_directions(&stated->material.strength))
+        snprintf(reason, 160, "the strengths of region '%.60s' have directions", region);
     else
         snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
 }
@@ -38,7 +40,9 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     case OST_AXES_CELLS:
         return "axes differ from tet to tet";
     case OST_AXES_GRADIENT:
-        return "axes follow the gradients of two potentials";
+        return "axes follow the gradients of potentials";
+    case OST_AXES_FIELD:
+        return "axes are a field of the mesh file";
     default:
         return "axes differ from place to place";
     }
@@ -86,6 +90,9 @@ static void add_material(OstContext *ctx, const char *region, const OstMaterial 
 {
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     facts->materials++;
+    if (stated && stated->modulus.field)
+        facts->modulus_region = stated->region;
+    facts->strengths += material->strength.known;
     if (stated && is_eigenstrained(stated))
         facts->eigenstrained_region = stated->region;
     if (ost_orthotropic_eigenvalues(ctx, &material->constants, eigenvalues) == OST_SUCCESS)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver_plan.h"
 #include "case/plan.h"
+#include "fields/output_field.h"
 
 #include <math.h>
 
@@ -108,15 +109,17 @@ int ost_plan_writes(const OstCase *c, OstOutputFieldBit field)
     return (c->output_fields >> field & 1U) != 0;
 }
 
+/* Of the file: places and labels of nodes; nodes, offset, type and label of tets; and the fields. */
 static double output_bytes(const OstCase *c, const OstPlan *plan)
 {
-    const double node = 24.0 + 24.0 * ost_plan_writes(c, OST_FIELD_DISPLACEMENT) +
-                        24.0 * ost_plan_writes(c, OST_FIELD_REACTION) + 24.0 * ost_plan_writes(c, OST_FIELD_LOAD) +
-                        48.0 * ost_plan_writes(c, OST_FIELD_NODE_STRESS);
-    const double tet = 32.0 + 8.0 + 1.0 + 48.0 * ost_plan_writes(c, OST_FIELD_STRESS) +
-                       48.0 * ost_plan_writes(c, OST_FIELD_STRAIN) + 8.0 * ost_plan_writes(c, OST_FIELD_ENERGY) +
-                       8.0 * ost_plan_writes(c, OST_FIELD_ERROR) + 72.0 * ost_plan_writes(c, OST_FIELD_AXES) +
-                       4.0 * ost_plan_writes(c, OST_FIELD_REGION) + 4.0 * ost_plan_writes(c, OST_FIELD_RANK);
+    const unsigned absent = ost_effect_on(&plan->effects, OST_EFFECT_STRENGTH) ? 0U : OST_LOAD_FACTORS;
+    double node = 24.0, tet = 32.0 + 8.0 + 1.0;
+    for (int f = 0; f < OST_FIELD_COUNT; f++) {
+        const OstOutputField field = ost_output_field((OstOutputFieldBit)f);
+        if ((c->output_fields & ~absent) >> f & 1U)
+            *(field.centring == OST_ON_NODES ? &node : &tet) +=
+                field.components * (field.type == OST_VALUES_INT32 ? 4.0 : 8.0);
+    }
     return node * (double)plan->nodes + tet * (double)plan->tets;
 }
 

@@ -4,6 +4,23 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+/* Three components, each a number or the word free. */
+static OstStatus read_components(const OstYaml *yaml, const OstYamlNode *node, int constrained[3], double value[3])
+{
+    static const char expected[] = "a list of three, each a number or the word free";
+    int count;
+    OST_TRY(ost_yaml_list(yaml, node, expected, &count));
+    if (count != 3)
+        return ost_yaml_raise_type(yaml, node, expected, "");
+    const OstYamlNode *item = ost_yaml_first(yaml, node);
+    for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item)) {
+        constrained[i] = !ost_yaml_says(yaml, item, "free");
+        if (constrained[i])
+            OST_TRY(ost_yaml_number(yaml, item, &value[i]));
+    }
+    return OST_SUCCESS;
+}
+
 /* Three components, each a number or the word free or exact; or the one word exact, which stands for the closed-form
  * solution of the case (assembly/closed_form.h). */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
@@ -34,45 +51,155 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
 static OstStatus read_displacement_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c,
                                         OstConstraint *constraint)
 {
-    const double *u = constraint->displacement;
-    const int exact = constraint->exact[0] || constraint->exact[1] || constraint->exact[2];
-    if (constraint->kind == OST_CONSTRAIN_SLIDE || (!exact && u[0] == 0.0 && u[1] == 0.0 && u[2] == 0.0))
+    if (!ost_constraint_moves(constraint))
         return ost_yaml_raise(yaml, node, "'time' belongs to a displacement other than zero; leave it out here");
     return ost_read_time(yaml, node, c, &constraint->table);
 }
 
+/* A point, or {at, displacement, rotation}. */
+static OstStatus read_rigid(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+{
+    enum { AT, DISPLACEMENT, ROTATION };
+    OstYamlKey keys[] = {
+        [AT] = {.name = "at", .needed = 1},
+        [DISPLACEMENT] = {.name = "displacement"},
+        [ROTATION] = {.name = "rotation"},
+    };
+    if (ost_yaml_is(yaml, node, OST_YAML_SEQUENCE))
+        return ost_yaml_numbers(yaml, node, 3, constraint->point);
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_numbers(yaml, keys[AT].value, 3, constraint->point));
+    if (keys[DISPLACEMENT].value)
+        OST_TRY(read_components(yaml, keys[DISPLACEMENT].value, constraint->constrained, constraint->displacement));
+    return keys[ROTATION].value
+               ? read_components(yaml, keys[ROTATION].value, constraint->turn_constrained, constraint->rotation)
+               : OST_SUCCESS;
+}
+
+static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, double strain[6])
+{
+    static const char *const names[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    OstYamlKey keys[6];
+    for (int k = 0; k < 6; k++)
+        keys[k] = (OstYamlKey){.name = names[k]};
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, 6));
+    for (int k = 0; k < 6; k++)
+        if (keys[k].value)
+            OST_TRY(ost_yaml_number(yaml, keys[k].value, &strain[k]));
+    return OST_SUCCESS;
+}
+
+/* One to three pairs of boundaries. */
+static OstStatus read_pairs(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+{
+    static const char expected[] = "one to three pairs of boundaries, as in [[xmin, xmax], [ymin, ymax]]";
+    int count, two;
+    OST_TRY(ost_yaml_list(yaml, node, expected, &count));
+    if (count < 1 || count > 3)
+        return ost_yaml_raise_type(yaml, node, expected, "");
+    const OstYamlNode *pair = ost_yaml_first(yaml, node);
+    for (int p = 0; p < count; p++, pair = ost_yaml_next(yaml, pair)) {
+        OST_TRY(ost_yaml_list(yaml, pair, expected, &two));
+        if (two != 2)
+            return ost_yaml_raise_type(yaml, pair, expected, "");
+        const OstYamlNode *name = ost_yaml_first(yaml, pair);
+        OST_TRY(ost_read_string(yaml, name, &constraint->pair[p][0]));
+        OST_TRY(ost_read_string(yaml, ost_yaml_next(yaml, name), &constraint->pair[p][1]));
+        constraint->pair_count = p + 1;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance)
+{
+    OST_TRY(ost_yaml_number(yaml, node, tolerance));
+    return *tolerance >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a distance, 0 or above", "");
+}
+
+enum {
+    CONSTRAINT_KINDS = OST_CONSTRAIN_PERIODIC + 1,
+    CONSTRAINT_ON = CONSTRAINT_KINDS,
+    CONSTRAINT_TIME,
+    TOLERANCE,
+    STRAIN,
+    CONSTRAINT_KEYS
+};
+
+/* Refuses keys that the kind of constraint does not have, and asks for those it needs. */
+static OstStatus check_constraint_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
+{
+    const OstYamlNode *on = keys[CONSTRAINT_ON].value;
+    if (kind == OST_CONSTRAIN_PERIODIC && on)
+        return ost_yaml_raise(yaml, on, "'periodic' names its boundaries itself, and has no 'on'; leave it out");
+    if (kind != OST_CONSTRAIN_PERIODIC && !on)
+        return ost_yaml_raise(yaml, node, "'%s' needs 'on': what it constrains", keys[kind].name);
+    if (kind != OST_CONSTRAIN_TIED && keys[TOLERANCE].value)
+        return ost_yaml_raise(yaml, keys[TOLERANCE].value, "'tolerance' belongs to tied_to, not to '%s'",
+                              keys[kind].name);
+    if (kind != OST_CONSTRAIN_PERIODIC && keys[STRAIN].value)
+        return ost_yaml_raise(yaml, keys[STRAIN].value, "'strain' belongs to periodic, not to '%s'", keys[kind].name);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_kind(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
+{
+    switch (constraint->kind) {
+    case OST_CONSTRAIN_SLIDE:
+        return ost_yaml_direction(yaml, node, constraint->normal);
+    case OST_CONSTRAIN_RIGID:
+        return read_rigid(yaml, node, constraint);
+    case OST_CONSTRAIN_TIED:
+        return ost_read_selection(yaml, node, &constraint->to);
+    case OST_CONSTRAIN_PERIODIC:
+        return read_pairs(yaml, node, constraint);
+    case OST_CONSTRAIN_DISPLACEMENT:
+        break;
+    }
+    return read_displacement(yaml, node, constraint);
+}
+
 static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstConstraint *constraint)
 {
-    enum { KINDS = 2, ON = KINDS, TIME };
-    OstYamlKey keys[] = {
+    OstYamlKey keys[CONSTRAINT_KEYS] = {
         [OST_CONSTRAIN_DISPLACEMENT] = {.name = "displacement"},
         [OST_CONSTRAIN_SLIDE] = {.name = "slide"},
-        [ON] = {.name = "on", .needed = 1},
-        [TIME] = {.name = "time"},
+        [OST_CONSTRAIN_RIGID] = {.name = "rigid"},
+        [OST_CONSTRAIN_TIED] = {.name = "tied_to"},
+        [OST_CONSTRAIN_PERIODIC] = {.name = "periodic"},
+        [CONSTRAINT_ON] = {.name = "on"},
+        [CONSTRAINT_TIME] = {.name = "time"},
+        [TOLERANCE] = {.name = "tolerance", .read = read_tolerance, .into = &constraint->tolerance},
+        [STRAIN] = {.name = "strain"},
     };
     int kind;
+    constraint->tolerance = -1.0;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_yaml_one_of(yaml, node, keys, KINDS, &kind));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, CONSTRAINT_KINDS, &kind));
+    OST_TRY(check_constraint_keys(yaml, node, keys, kind));
     constraint->kind = (OstConstraintKind)kind;
     constraint->line = ost_yaml_line(node);
-    OST_TRY(ost_read_selection(yaml, keys[ON].value, &constraint->on));
-    OST_TRY(constraint->kind == OST_CONSTRAIN_SLIDE ? ost_yaml_direction(yaml, keys[kind].value, constraint->normal)
-                                                    : read_displacement(yaml, keys[kind].value, constraint));
-    return keys[TIME].value ? read_displacement_time(yaml, keys[TIME].value, c, constraint) : OST_SUCCESS;
+    if (keys[CONSTRAINT_ON].value)
+        OST_TRY(ost_read_selection(yaml, keys[CONSTRAINT_ON].value, &constraint->on));
+    OST_TRY(read_kind(yaml, keys[kind].value, constraint));
+    if (keys[STRAIN].value)
+        OST_TRY(read_strain(yaml, keys[STRAIN].value, constraint->strain));
+    return keys[CONSTRAINT_TIME].value ? read_displacement_time(yaml, keys[CONSTRAINT_TIME].value, c, constraint)
+                                       : OST_SUCCESS;
 }
 
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     int count;
-    c->free_body = ost_yaml_says(yaml, node, "free_body"); /* in place of a list */
-    if (c->free_body)
+    const int before = c->constraint_count;
+    c->free_body |= ost_yaml_says(yaml, node, "free_body"); /* in place of a list */
+    if (ost_yaml_says(yaml, node, "free_body"))
         return OST_SUCCESS;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of constraints (- {on: ..., displacement: ...})", &count));
-    OST_TRY(OST_NEW(yaml->ctx, &c->constraints, count));
-    c->constraint_count = count;
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->constraints, before + count));
+    c->constraint_count += count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_constraint(yaml, item, c, &c->constraints[i]));
+        OST_TRY(read_constraint(yaml, item, c, &c->constraints[before + i]));
     return OST_SUCCESS;
 }
 
@@ -193,10 +320,11 @@ OstStatus ost_read_loads(const OstYaml *yaml, const OstYamlNode *node, OstCase *
 {
     int count;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of loads (- {on: ..., total_force: ...})", &count));
-    OST_TRY(OST_NEW(yaml->ctx, &c->loads, count));
-    c->load_count = count;
+    const int before = c->load_count;
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->loads, before + count));
+    c->load_count += count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_load(yaml, item, c, &c->loads[i]));
+        OST_TRY(read_load(yaml, item, c, &c->loads[before + i]));
     return OST_SUCCESS;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
+#include "case/strength/read_strength.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -45,6 +46,37 @@ static OstStatus read_youngs(const OstYaml *yaml, const OstYamlNode *node, State
     OST_TRY(ost_yaml_positive(yaml, node, &stated->youngs[0]));
     stated->youngs[1] = stated->youngs[2] = stated->youngs[0];
     return OST_SUCCESS;
+}
+
+/* {field: NAME, factor, power, least, ratios}: E is factor × field^power tet by tet, not below `least`; `ratios` are
+ * the moduli of the axes over it, in any of the forms above. */
+static OstStatus read_youngs_field(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material,
+                                   Stated *stated)
+{
+    enum { FIELD, FACTOR, POWER, LEAST, RATIOS };
+    OstModulusField *modulus = &material->modulus;
+    OstYamlKey keys[] = {[FIELD] = {.name = "field", .needed = 1},
+                         [FACTOR] = {.name = "factor", .read = ost_yaml_positive, .into = &modulus->factor},
+                         [POWER] = {.name = "power", .read = ost_yaml_number, .into = &modulus->power},
+                         [LEAST] = {.name = "least", .read = ost_yaml_positive, .into = &modulus->least},
+                         [RATIOS] = {.name = "ratios"}};
+    modulus->factor = modulus->power = 1.0;
+    modulus->place = ost_yaml_at(node);
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_read_field(yaml, keys[FIELD].value, 0, c, &modulus->field));
+    if (keys[RATIOS].value)
+        return read_youngs(yaml, keys[RATIOS].value, stated);
+    stated->youngs_form = YOUNGS_NUMBER;
+    stated->youngs[0] = stated->youngs[1] = stated->youngs[2] = 1.0;
+    return OST_SUCCESS;
+}
+
+static OstStatus read_youngs_or_field(const OstYaml *yaml, const OstYamlNode *node, OstCase *c,
+                                      OstCaseMaterial *material, Stated *stated)
+{
+    return ost_yaml_is(yaml, node, OST_YAML_MAPPING) && ost_yaml_has(yaml, node, "field")
+               ? read_youngs_field(yaml, node, c, material, stated)
+               : read_youngs(yaml, node, stated);
 }
 
 static OstStatus read_poissons(const OstYaml *yaml, const OstYamlNode *node, Stated *stated)
@@ -192,7 +224,7 @@ static OstStatus read_strain(const OstYaml *yaml, const OstYamlNode *node, doubl
     return ost_yaml_numbers(yaml, node, count, strain);
 }
 
-/* All eigenstrains of a case follow the same function of time, and are read from one field at most. */
+/* All eigenstrains of a case follow the same function of time. */
 static OstStatus agree_with_others(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material,
                                    int table, OstCase *c)
 {
@@ -202,31 +234,50 @@ static OstStatus agree_with_others(const OstYaml *yaml, const OstYamlNode *node,
                                   "this eigenstrain follows another time table than that of region '%.80s' in line %d; "
                                   "give all eigenstrains the same, or none",
                                   other->region, other->line);
-        if (other->eigen_field && material->eigen_field && strcmp(other->eigen_field, material->eigen_field) != 0)
-            return ost_yaml_raise(yaml, node, "found the field '%.80s', and '%.80s' in line %d; a case reads one",
-                                  material->eigen_field, other->eigen_field, other->line);
     }
     c->eigen_table = table;
-    if (material->eigen_field && !c->eigen_field)
-        c->eigen_field = material;
     return OST_SUCCESS;
 }
 
-static OstStatus take_field(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+int ost_case_find_field(const OstCase *c, const char *name)
+{
+    for (int f = 0; f < c->field_count; f++)
+        if (strcmp(c->fields[f].name, name) == 0)
+            return f;
+    return -1;
+}
+
+OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name)
+{
+    OST_TRY(ost_read_string(yaml, node, name));
+    const int known = ost_case_find_field(c, *name);
+    if (known >= 0 && c->fields[known].directions != directions)
+        return ost_yaml_raise(yaml, node,
+                              "the field '%.80s' stands for directions here or in line %d, and for numbers in "
+                              "the other place",
+                              *name, c->fields[known].place.line);
+    if (known < 0 && c->field_count == OST_MOST_TET_FIELDS)
+        return ost_yaml_raise(yaml, node, "a case reads %d fields of the mesh file at most", OST_MOST_TET_FIELDS);
+    if (known < 0)
+        c->fields[c->field_count++] = (OstCaseField){*name, ost_yaml_at(node), directions};
+    return OST_SUCCESS;
+}
+
+static OstStatus take_eigen_field(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     material->eigen_place = ost_yaml_at(node);
-    return ost_read_string(yaml, node, &material->eigen_field);
+    return ost_read_field(yaml, node, 0, c, &material->eigen_field);
 }
 
 /* A number, or {field: NAME}. */
-static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCaseMaterial *material)
+static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     double change = 1.0;
     OstYamlKey field = {.name = "field", .needed = 1};
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING)) {
         material->eigen_per_unit = 1;
         OST_TRY(ost_yaml_mapping(yaml, node, &field, 1));
-        return take_field(yaml, field.value, material);
+        return take_eigen_field(yaml, field.value, c, material);
     }
     OST_TRY(ost_yaml_number(yaml, node, &change));
     for (int p = 0; p < 6; p++)
@@ -236,7 +287,7 @@ static OstStatus read_change(const OstYaml *yaml, const OstYamlNode *node, OstCa
 
 enum { VALUE, PER_UNIT, FIELD, EIGEN_FORMS, CHANGE = EIGEN_FORMS, TIME, EIGEN_KEYS };
 
-static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys,
+static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, OstCase *c,
                                        OstCaseMaterial *material)
 {
     int form;
@@ -247,9 +298,9 @@ static OstStatus read_eigenstrain_keys(const OstYaml *yaml, const OstYamlNode *n
     if (form != PER_UNIT && keys[CHANGE].value)
         return ost_yaml_raise(yaml, keys[CHANGE].value, "'change' belongs to 'per_unit', not to '%s'", keys[form].name);
     if (form == FIELD)
-        return take_field(yaml, keys[FIELD].value, material);
+        return take_eigen_field(yaml, keys[FIELD].value, c, material);
     OST_TRY(read_strain(yaml, keys[form].value, material->eigenstrain));
-    return form == PER_UNIT ? read_change(yaml, keys[CHANGE].value, material) : OST_SUCCESS;
+    return form == PER_UNIT ? read_change(yaml, keys[CHANGE].value, c, material) : OST_SUCCESS;
 }
 
 /* A strain; or one for each unit of a change (of temperature, of moisture), and the change; or a field of the file. */
@@ -263,7 +314,7 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
                                    [TIME] = {.name = "time"}};
     material->eigenstrained = 1;
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING))
-        OST_TRY(read_eigenstrain_keys(yaml, node, keys, material));
+        OST_TRY(read_eigenstrain_keys(yaml, node, keys, c, material));
     else
         OST_TRY(read_strain(yaml, node, material->eigenstrain));
     if (keys[TIME].value)
@@ -273,9 +324,62 @@ static OstStatus read_eigenstrain(const OstYaml *yaml, const OstYamlNode *node, 
     return agree_with_others(yaml, node, material, table, c);
 }
 
+/* Are an eigenstrain and strengths the same in all directions across an axis? */
+static int is_same_across(const OstCaseMaterial *material, int axis)
+{
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const double *e = material->eigenstrain;
+    const OstStrength *s = &material->material.strength;
+    const int strain = e[a] == e[b] && e[3] == 0.0 && e[4] == 0.0 && e[5] == 0.0 &&
+                       (!material->eigen_field || material->eigen_per_unit);
+    return strain && s->tension[a] == s->tension[b] && s->compression[a] == s->compression[b] &&
+           s->shear[axis] == s->shear[b];
+}
+
+/* One direction is enough where the material is transversely isotropic about it. */
+static OstStatus check_single(const OstYaml *yaml, const OstYamlNode *node, const OstCaseMaterial *material)
+{
+    const int axis = material->axes.single - 1;
+    char moduli[OST_MODULI_WORDS];
+    if (axis < 0 || material->material.isotropic ||
+        (ost_orthotropic_is_transverse(&material->material.constants, axis) && is_same_across(material, axis)))
+        return OST_SUCCESS;
+    ost_orthotropic_words(&material->material.constants, moduli);
+    return ost_yaml_raise(yaml, node,
+                          "e%d alone does not place a material that differs across it too, in its moduli (%s), "
+                          "eigenstrain or strengths; give e1 and e2",
+                          axis + 1, moduli);
+}
+
+/* axes, or the fibre of a transversely isotropic material. Without either it lies along the world's axes, which is said
+ * where the case calls one direction the axis. */
+static OstStatus read_directions(const OstYaml *yaml, const OstYamlNode *axes, const OstYamlNode *fibre,
+                                 const Stated *stated, OstCase *c, OstCaseMaterial *material)
+{
+    if (axes && fibre)
+        return ost_yaml_raise(yaml, fibre, "give the fibre, or the axes, not both");
+    if (fibre && stated->youngs_form != YOUNGS_PLANE)
+        return ost_yaml_raise(yaml, fibre,
+                              "a fibre belongs to youngs_modulus: {plane: E, axis: E}, whose axis it is; "
+                              "for other moduli give axes");
+    if (fibre) {
+        OST_TRY(ost_read_fibre(yaml, fibre, c, &material->axes));
+        return check_single(yaml, fibre, material);
+    }
+    if (axes) {
+        OST_TRY(ost_read_axes(yaml, axes, material->region, c, &material->axes));
+        return check_single(yaml, axes, material);
+    }
+    if (stated->youngs_form == YOUNGS_PLANE)
+        ost_warn(yaml->ctx,
+                 "%s:%d: the axis of region '%.80s' lies along z, as nothing else is said; state it: fibre: [0, 0, 1]",
+                 c->path, material->line, material->region);
+    return OST_SUCCESS;
+}
+
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
-    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, EIGENSTRAIN };
+    enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, FIBRE, EIGENSTRAIN, STRENGTHS };
     OstYamlKey keys[] = {
         [REGION] = {.name = "region", .needed = 1},
         [YOUNGS] = {.name = "youngs_modulus", .needed = 1},
@@ -283,7 +387,9 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
         [SHEAR] = {.name = "shear_modulus"},
         [DENSITY] = {.name = "density"},
         [AXES] = {.name = "axes"},
+        [FIBRE] = {.name = "fibre"},
         [EIGENSTRAIN] = {.name = "eigenstrain"},
+        [STRENGTHS] = {.name = "strengths"},
     };
     Stated stated = {.nu_axis = NAN};
     OstOrthotropic constants;
@@ -293,9 +399,11 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     OST_TRY(ost_read_string(yaml, keys[REGION].value, &material->region));
     material->line = ost_yaml_line(node);
     material->region_place = ost_yaml_at(keys[REGION].value);
-    material->axes_place = ost_yaml_at(keys[AXES].value ? keys[AXES].value : node);
+    material->axes_place = ost_yaml_at(keys[AXES].value    ? keys[AXES].value
+                                       : keys[FIBRE].value ? keys[FIBRE].value
+                                                           : node);
     snprintf(what, sizeof what, "region '%.80s'", material->region);
-    OST_TRY(read_youngs(yaml, keys[YOUNGS].value, &stated));
+    OST_TRY(read_youngs_or_field(yaml, keys[YOUNGS].value, c, material, &stated));
     OST_TRY(read_poissons(yaml, keys[POISSONS].value, &stated));
     if (keys[SHEAR].value)
         OST_TRY(read_shear(yaml, keys[SHEAR].value, &stated));
@@ -309,7 +417,11 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
     if (keys[EIGENSTRAIN].value)
         OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
-    return keys[AXES].value ? ost_read_axes(yaml, keys[AXES].value, material->region, &material->axes) : OST_SUCCESS;
+    if (keys[STRENGTHS].value)
+        OST_TRY(ost_read_strength(yaml, keys[STRENGTHS].value, &material->material.strength));
+    if (ost_strength_has_directions(&material->material.strength)) /* as of an eigenstrain */
+        material->material.isotropic = 0;
+    return read_directions(yaml, keys[AXES].value, keys[FIBRE].value, &stated, c, material);
 }
 
 OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/sections.h"
 #include "core/error.h"
+#include "formats/serial/formats.h"
 
 #include <string.h>
 
@@ -120,13 +121,7 @@ static OstStatus read_file(const OstYaml *yaml, const OstYamlNode *node, OstCase
 {
     OST_TRY(ost_read_path(yaml, node, &c->mesh_file));
     c->mesh_place = ost_yaml_at(node);
-    static const char *const endings[] = {".msh", ".msh.gz", ".veg", ".vtkhdf"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (ost_has_ending(c->mesh_file, endings[i]))
-            return OST_SUCCESS;
-    return ost_yaml_raise(yaml, node,
-                          "found the mesh file '%s', expected a name that ends with .msh, .msh.gz, .veg or .vtkhdf",
-                          c->mesh_file);
+    return ost_yaml_located(yaml, node, ost_mesh_file_check_name(yaml->ctx, c->mesh_file));
 }
 
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)

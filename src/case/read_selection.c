@@ -165,3 +165,24 @@ void ost_selection_release(OstSelection *selection)
     OST_FREE(selection->ranges);
     OST_FREE(selection->vertices_file);
 }
+
+static int names_agree(const OstNames *one, const OstNames *other)
+{
+    int agree = one->count == other->count;
+    for (int n = 0; n < one->count && agree; n++)
+        agree = strcmp(one->name[n], other->name[n]) == 0;
+    return agree;
+}
+
+int ost_selections_agree(const OstSelection *one, const OstSelection *other)
+{
+    const char *file = one->vertices_file ? one->vertices_file : "";
+    const char *other_file = other->vertices_file ? other->vertices_file : "";
+    return one->kind == other->kind && names_agree(&one->boundaries, &other->boundaries) &&
+           memcmp(one->point, other->point, sizeof one->point) == 0 &&
+           memcmp(one->direction, other->direction, sizeof one->direction) == 0 &&
+           memcmp(one->radii, other->radii, sizeof one->radii) == 0 && one->tolerance == other->tolerance &&
+           strcmp(file, other_file) == 0 && one->range_count == other->range_count &&
+           (one->range_count == 0 ||
+            memcmp(one->ranges, other->ranges, (size_t)one->range_count * sizeof *one->ranges) == 0);
+}

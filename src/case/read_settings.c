@@ -3,6 +3,7 @@
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/output_array.h"
 
 #include <float.h>
 #include <string.h>
@@ -54,6 +55,11 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
         return ost_yaml_raise(yaml, node,
                               "'%.80s' is not watched; name a quantity of the section 'watch', or energy for the norm "
                               "of the energy",
+                              name);
+    if (c->watches[c->interest - 1].kind == OST_WATCH_STRESS)
+        return ost_yaml_raise(yaml, node,
+                              "'%.80s' is a stress, whose error is not estimated; name a displacement, a reaction or "
+                              "the strain energy",
                               name);
     return OST_SUCCESS;
 }
@@ -198,18 +204,22 @@ static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsig
 
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { FILE_NAME, FIELDS };
+    enum { FILE_NAME, FIELDS, PROBES };
     OstYamlKey keys[] = {
         [FILE_NAME] = {.name = "file"},
         [FIELDS] = {.name = "fields"},
+        [PROBES] = {.name = "probes"},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[FIELDS].value)
         OST_TRY(read_fields(yaml, keys[FIELDS].value, &c->output_fields));
+    if (keys[PROBES].value)
+        OST_TRY(ost_read_probes(yaml, keys[PROBES].value, &c->probe_count, &c->probes));
     if (!keys[FILE_NAME].value)
         return OST_SUCCESS;
     OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));
-    return ost_has_ending(c->output_file, ".vtkhdf")
+    size_t stem;
+    return ost_result_form(c->output_file, &stem) != OST_RESULT_FORMS
                ? OST_SUCCESS
-               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with .vtkhdf", "");
+               : ost_yaml_raise_type(yaml, keys[FILE_NAME].value, "a name that ends with " OST_RESULT_ENDINGS, "");
 }

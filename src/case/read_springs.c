@@ -62,10 +62,11 @@ OstStatus ost_read_springs(const OstYaml *yaml, const OstYamlNode *node, OstCase
 {
     int count;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of springs (- {on: ..., foundation: ...})", &count));
-    OST_TRY(OST_NEW(yaml->ctx, &c->springs, count));
-    c->spring_count = count;
+    const int before = c->spring_count;
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->springs, before + count));
+    c->spring_count += count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
-        OST_TRY(read_spring(yaml, item, &c->springs[i]));
+        OST_TRY(read_spring(yaml, item, &c->springs[before + i]));
     return OST_SUCCESS;
 }

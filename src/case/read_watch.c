@@ -14,6 +14,41 @@ static OstStatus read_component(const OstYaml *yaml, const OstYamlKey *key, OstW
                       : OST_SUCCESS;
 }
 
+/* At a point, or of the tets of a region. */
+static OstStatus read_stress(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
+{
+    enum { AT, REGION };
+    OstYamlKey keys[] = {[AT] = {.name = "at"}, [REGION] = {.name = "region"}};
+    int form;
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_one_of(yaml, node, keys, OST_COUNT_OF(keys), &form));
+    if (form == AT)
+        return ost_yaml_vector(yaml, keys[AT].value, watch->at);
+    watch->region_place = ost_yaml_at(keys[REGION].value);
+    return ost_read_string(yaml, keys[REGION].value, &watch->region);
+}
+
+static OstStatus read_stress_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlNode *stress,
+                                  const OstYamlNode *component, const OstYamlNode *take, OstWatch *watch)
+{
+#define MEASURE_WORD(name, word) [name] = word,
+    static const char *const words[] = {OST_STRESS_MEASURE_TABLE(MEASURE_WORD)};
+#undef MEASURE_WORD
+    static const char *const takes[] = {
+        [OST_TAKE_MEAN] = "mean", [OST_TAKE_LEAST] = "least", [OST_TAKE_LARGEST] = "largest"};
+    int which = OST_TAKE_MEAN;
+    if (!component)
+        return ost_yaml_raise(yaml, node, "a stress has many numbers; say which, as in component: von_mises");
+    OST_TRY(ost_yaml_word(yaml, component, "component", words, OST_STRESS_MEASURES, &watch->component));
+    OST_TRY(read_stress(yaml, stress, watch));
+    if (take && !watch->region)
+        return ost_yaml_raise(yaml, take, "'take' is of the tets of a region; at a point there is one stress");
+    if (take)
+        OST_TRY(ost_yaml_word(yaml, take, "value", takes, OST_COUNT_OF(takes), &which));
+    watch->take = (OstTake)which;
+    return OST_SUCCESS;
+}
+
 /* A quantity must be the same at every refinement: a vertex is, the mean over selected vertices is not. */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
@@ -57,14 +92,26 @@ static OstStatus read_expected(const OstYaml *yaml, const OstYamlNode *expected,
     return source ? ost_read_string(yaml, source, &watch->source) : OST_SUCCESS;
 }
 
+/* With a point, the moment of the reactions about it is watched in place of their sum. */
+static OstStatus read_about(const OstYaml *yaml, const OstYamlNode *about, OstWatch *watch)
+{
+    if (about && watch->kind != OST_WATCH_REACTION)
+        return ost_yaml_raise(yaml, about, "'about' belongs to a reaction, of which it asks for the moment");
+    watch->of_moment = about != NULL;
+    return about ? ost_yaml_numbers(yaml, about, 3, watch->about) : OST_SUCCESS;
+}
+
 static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
-    enum { FORMS = OST_WATCH_STRAIN_ENERGY + 1, COMPONENT = FORMS, EXPECTED, SOURCE };
+    enum { FORMS = OST_WATCH_STRESS + 1, COMPONENT = FORMS, TAKE, ABOUT, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
         [OST_WATCH_DISPLACEMENT] = {.name = "displacement"},
         [OST_WATCH_REACTION] = {.name = "reaction"},
         [OST_WATCH_STRAIN_ENERGY] = {.name = "strain_energy"},
+        [OST_WATCH_STRESS] = {.name = "stress"},
         [COMPONENT] = {.name = "component"},
+        [TAKE] = {.name = "take"},
+        [ABOUT] = {.name = "about"},
         [EXPECTED] = {.name = "expected"},
         [SOURCE] = {.name = "source"},
     };
@@ -76,9 +123,14 @@ static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWat
         return read_word(yaml, node, watch);
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_one_of(yaml, node, keys, FORMS, &form));
-    OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
     OST_TRY(read_expected(yaml, keys[EXPECTED].value, keys[SOURCE].value, watch));
     watch->kind = (OstWatchKind)form;
+    OST_TRY(read_about(yaml, keys[ABOUT].value, watch));
+    if (watch->kind == OST_WATCH_STRESS)
+        return read_stress_keys(yaml, node, keys[form].value, keys[COMPONENT].value, keys[TAKE].value, watch);
+    if (keys[TAKE].value)
+        return ost_yaml_raise(yaml, keys[TAKE].value, "'take' belongs to the stress of a region");
+    OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
     if (watch->kind == OST_WATCH_STRAIN_ENERGY)
         return read_energy(yaml, keys[form].value, keys[COMPONENT].value);
     return watch->kind == OST_WATCH_DISPLACEMENT ? read_displacement(yaml, keys[form].value, watch)
@@ -104,11 +156,13 @@ OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase
         return ost_yaml_raise(yaml, node,
                               "'watch' names no quantity; leave it out, or name one, as in tip: "
                               "{displacement: {nearest: [1, 0, 0]}}");
-    if (count > OST_MOST_WATCHES)
-        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", count, OST_MOST_WATCHES);
-    OST_TRY(OST_NEW(yaml->ctx, &c->watches, count));
+    const int before = c->watch_count;
+    if (before + count > OST_MOST_WATCHES)
+        return ost_yaml_raise(yaml, node, "found %d quantities to watch, expected at most %d", before + count,
+                              OST_MOST_WATCHES);
+    OST_TRY(OST_RESIZE(yaml->ctx, &c->watches, before + count));
     const OstYamlNode *key = ost_yaml_first(yaml, node);
-    for (int w = 0; w < count; w++) {
+    for (int w = before; w < before + count; w++) {
         const OstYamlNode *value = ost_yaml_next(yaml, key);
         OstWatch *watch = &c->watches[w];
         const char *name;

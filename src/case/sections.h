@@ -6,7 +6,8 @@
 #include "case/yaml/read.h"
 
 /* The sections of a case file, each read from its node into the case. All are local. What they allocate belongs to the
- * case at once, so a failure leaks nothing. */
+ * case at once, so a failure leaks nothing. Constraints, springs, loads and watches are added to those that are there.
+ */
 OstStatus ost_read_mesh(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
@@ -22,8 +23,20 @@ OstStatus ost_read_load_path(const OstYaml *yaml, const OstYamlNode *node, OstCa
 OstStatus ost_read_watches(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_verify(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 
+OstStatus ost_read_sweep(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+
+/* The load case of this number: what it states is added to the case. For OST_EVERY_LOAD_CASE the names of all, and
+ * their loads, supports and springs. */
+enum { OST_EVERY_LOAD_CASE = -1 };
+OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c);
+
 /* Parts of sections. */
-OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstAxesSpec *axes);
+OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstCase *c,
+                        OstAxesSpec *axes);
+OstStatus ost_read_fibre(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstAxesSpec *axes);
+
+/* The name of a field of the mesh file, which the case then reads; `directions`: does it hold them? */
+OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name);
 /* A time table, added to those of the case unless it has the same already; `number` is 1 + its place there. */
 OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, int *number);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
@@ -38,6 +51,11 @@ int ost_has_ending(const char *path, const char *ending);
 void ost_time_table_release(OstTimeTable *table);
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
+/* Do both say the same, word by word? */
+int ost_selections_agree(const OstSelection *one, const OstSelection *other);
+void ost_load_cases_release(OstCase *c);
+void ost_sweep_release(OstCase *c);
+void ost_constraint_release(OstConstraint *constraint);
 struct OstVerify;
 void ost_verify_release(struct OstVerify **verify);
 

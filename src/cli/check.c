@@ -2,13 +2,14 @@
 #include "case/select.h"
 #include "cli/command.h"
 #include "cli/destination.h"
+#include "cli/solve_cases.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "output/path_files.h"
-#include "problem/scene_data.h"
+#include "problem/load_case.h"
 #include "study/watch.h"
 
 #include <stdio.h>
@@ -80,7 +81,8 @@ static OstStatus check_conditions(const OstScene *scene, Findings *findings)
     const OstCase *c = scene->c;
     for (int i = 0; i < c->constraint_count; i++) {
         OstGlobal nodes = 0;
-        OST_TRY(count_nodes(scene, &c->constraints[i].on, &nodes));
+        if (c->constraints[i].kind != OST_CONSTRAIN_PERIODIC) /* names boundaries, which the dry run looks for */
+            OST_TRY(count_nodes(scene, &c->constraints[i].on, &nodes));
         findings->constrained += nodes;
     }
     for (int i = 0; i < c->load_count; i++)
@@ -113,7 +115,7 @@ static OstStatus dry_run(const OstScene *scene)
     return says_exact(c) || is_unsupported(c) ? OST_SUCCESS : ost_scene_dry_run(scene);
 }
 
-static void look_for_oddities(const OstScene *scene, const Findings *findings)
+static void look_for_oddities(const OstScene *scene)
 {
     OstContext *ctx = scene->ctx;
     const OstCase *c = scene->c;
@@ -122,14 +124,21 @@ static void look_for_oddities(const OstScene *scene, const Findings *findings)
     if (!ost_plan_acts(c, &scene->plan))
         ost_warn(ctx, "%s: nothing acts on the body: there is no load, no prescribed displacement and no eigenstrain",
                  c->path);
-    if ((c->path_steps > 0 ? ost_cli_check_path_outputs(c, findings->output)
-                           : ost_check_outputs(c, 1, (const char *const[]){findings->output})) != OST_SUCCESS)
-        ost_warn(ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(ctx));
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind != OST_AXES_NONE && !ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
             ost_warn(ctx, "%s: axes are set, but every material is isotropic, so they have no effect", c->path);
             break;
         }
+}
+
+static void check_output(const OstCase *c, const Findings *findings)
+{
+    const OstStatus status = c->path_steps > 0 ? ost_cli_check_path_outputs(c, findings->output)
+                             : c->load_case_count > 0
+                                 ? ost_cli_check_case_outputs(c, findings->output)
+                                 : ost_check_outputs(c, 1, (const char *const[]){findings->output});
+    if (status != OST_SUCCESS)
+        ost_warn(c->ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(c->ctx));
 }
 
 static const char *plural(OstGlobal count)
@@ -149,7 +158,10 @@ static void print_findings(const OstScene *scene, const Findings *findings)
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
            (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", springs, c->load_count,
            plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
-    if (c->path_steps > 0)
+    if (c->load_case_count > 0)
+        printf("solve will write the fields of %d load case%s beside %s, which lists them in a .hdf.series\n",
+               c->load_case_count, plural(c->load_case_count), findings->output);
+    else if (c->path_steps > 0)
         printf("solve will write the fields of %d step%s beside %s, the first to %s\n", c->path_steps,
                plural(c->path_steps), findings->output, findings->first_step);
     else
@@ -165,16 +177,38 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
         json_array_append_new(regions, json_string(mesh->regions.name[r]));
     for (int b = 0; b < mesh->boundary_count; b++)
         json_array_append_new(boundaries, json_string(mesh->boundaries[b].name));
-    json_t *root =
-        json_pack("{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:i, s:s, s:o}", "case", scene->c->path, "vertices",
-                  (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions,
-                  "boundaries", boundaries, "constraints", scene->c->constraint_count, "constrained_vertices",
-                  (json_int_t)findings->constrained, "springs", scene->c->spring_count, "loads", scene->c->load_count,
-                  "output", findings->output, "warnings", ost_json_warnings(scene->ctx));
+    json_t *root = json_pack(
+        "{s:s, s:I, s:I, s:o, s:o, s:i, s:I, s:i, s:i, s:i, s:s, s:o}", "case", scene->c->path, "vertices",
+        (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "regions", regions, "boundaries",
+        boundaries, "constraints", scene->c->constraint_count, "constrained_vertices",
+        (json_int_t)findings->constrained, "springs", scene->c->spring_count, "loads", scene->c->load_count,
+        "load_cases", scene->c->load_case_count, "output", findings->output, "warnings", ost_json_warnings(scene->ctx));
     if (!root)
         return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);
     return ost_json_write(scene->ctx, root, "-");
+}
+
+/* What is solved: the case, or one of its load cases. */
+static OstStatus check_scene(const OstScene *scene, Findings *findings)
+{
+    OST_TRY(check_conditions(scene, findings));
+    OST_TRY(dry_run(scene));
+    OST_TRY(ost_watch_check(scene));
+    look_for_oddities(scene);
+    return OST_SUCCESS;
+}
+
+static OstStatus check_load_cases(const OstScene *scene, Findings *findings)
+{
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < scene->c->load_case_count && status == OST_SUCCESS; k++) {
+        OstScene *of_case = NULL;
+        status = ost_scene_load_case(scene, k, &of_case);
+        OST_THEN(check_scene(of_case, findings));
+        ost_scene_destroy(&of_case);
+    }
+    return status;
 }
 
 static OstStatus check_case(OstContext *ctx, void *input)
@@ -184,14 +218,12 @@ static OstStatus check_case(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
     OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
     ost_path_step_name(findings.output, 1, sizeof findings.first_step, findings.first_step);
     OST_TRY_DONE(ost_scene_create(c, &scene));
-    OST_TRY_DONE(check_conditions(scene, &findings));
-    OST_TRY_DONE(dry_run(scene));
-    OST_TRY_DONE(ost_watch_check(scene));
-    look_for_oddities(scene, &findings);
+    OST_TRY_DONE(c->load_case_count > 0 ? check_load_cases(scene, &findings) : check_scene(scene, &findings));
+    check_output(c, &findings);
     if (ost_rank(ctx) == 0 && arguments->text['j'])
         status = print_json(scene, &findings);
     else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
@@ -206,5 +238,5 @@ done:
 int ost_cli_check(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &check_argp, argc, argv, &arguments, check_case);
+    return ost_cli_run_on_case(ctx, &check_argp, argc, argv, &arguments, check_case);
 }

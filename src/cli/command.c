@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 
+#include "case/case_data.h"
+#include "case/yaml/message.h"
+#include "core/error.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,9 +15,39 @@ static const struct argp_option common_options[] = {
     {0},
 };
 
+enum { SET = 0x100, LOAD_CASE };
+
+static const struct argp_option case_options[] = {
+    {"set", SET, "KEY=VALUE", 0, "Change the case before it is used: loads.0.pressure=2e5; as often as needed", -2},
+    {"case", LOAD_CASE, "NAME", 0, "Take the one of its load cases that has this name", -2},
+    {0},
+};
+
+static error_t take_change(int key, char *value, struct argp_state *state)
+{
+    OstArguments *arguments = state->input;
+    switch (key) {
+    case SET:
+        if (arguments->settings == OST_MOST_SETTINGS) {
+            argp_error(state, "--set is possible %d times; put some into the case", OST_MOST_SETTINGS);
+            return EINVAL;
+        }
+        arguments->setting[arguments->settings++] = value;
+        return 0;
+    case LOAD_CASE:
+        arguments->load_case = value;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp case_argp = {.options = case_options, .parser = take_change};
+
 typedef struct Common {
     OstContext *ctx;
     void *input; /* of the command's own parser */
+    int takes_case;
 } Common;
 
 static error_t parse_common(int key, char *value, struct argp_state *state)
@@ -23,6 +57,8 @@ static error_t parse_common(int key, char *value, struct argp_state *state)
     switch (key) {
     case ARGP_KEY_INIT:
         state->child_inputs[0] = common->input;
+        if (common->takes_case)
+            state->child_inputs[1] = common->input;
         return 0;
     case 'q':
         ost_log_set_level(common->ctx, OST_LOG_QUIET);
@@ -55,9 +91,9 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
         return EINVAL;
     }
     if (key == ARGP_KEY_ARG) {
-        arguments->case_path = strcmp(value, "-") == 0 ? "/dev/stdin" : value;
+        arguments->case_path = value;
     } else if (key == ARGP_KEY_END && !path) {
-        argp_error(state, "which case? Give the path of its YAML file");
+        argp_error(state, "which case? Give the path of its YAML file, or - for standard input");
         return EINVAL;
     } else if (key > 0 && key <= 'z') {
         arguments->text[key] = value ? value : "";
@@ -67,17 +103,80 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
-                OstStatus (*work)(OstContext *ctx, void *input))
+OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c)
 {
-    const struct argp_child children[] = {{argp, 0, NULL, 0}, {0}};
+    OST_TRY(ost_case_read_with(ctx, arguments->case_path, arguments->settings, arguments->setting, c));
+    return arguments->load_case ? ost_case_pick(c, arguments->load_case) : OST_SUCCESS;
+}
+
+OstStatus ost_cli_read_one(OstContext *ctx, const OstArguments *arguments, OstCase **c)
+{
+    OST_TRY(ost_cli_read(ctx, arguments, c));
+    const int count = (*c)->load_case_count;
+    if (count == 0)
+        return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_INVALID_USAGE,
+                     "%s: there are %d load cases, and this command takes one: name it, as in --case %s", (*c)->path,
+                     count, (*c)->load_cases[0].name);
+}
+
+/* --- options that nobody knows --- */
+
+enum { MOST_OPTIONS = 64 };
+
+static void add_names(const struct argp_option *options, const char *names[MOST_OPTIONS], int *count)
+{
+    for (; options && (options->name || options->key || options->doc); options++)
+        if (options->name && *count < MOST_OPTIONS)
+            names[(*count)++] = options->name;
+}
+
+/* getopt takes the beginning of a name for the name. */
+static int is_known(const char *word, size_t length, const char *const names[MOST_OPTIONS], int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strncmp(names[i], word, length) == 0)
+            return 1;
+    return 0;
+}
+
+/* A long option that the command does not have, but whose name is near to one that it has: says so. */
+static int refuses_option(OstContext *ctx, const struct argp *argp, int takes_case, int argc, char **argv)
+{
+    const char *names[MOST_OPTIONS] = {"help", "usage"};
+    int count = 2;
+    add_names(common_options, names, &count);
+    add_names(takes_case ? case_options : NULL, names, &count);
+    add_names(argp->options, names, &count);
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        char word[64];
+        const size_t length = strcspn(argv[i], "=");
+        if (strncmp(argv[i], "--", 2) != 0 || is_known(argv[i] + 2, length - 2, names, count))
+            continue;
+        snprintf(word, sizeof word, "%.*s", (int)(length - 2), argv[i] + 2);
+        const char *nearest = ost_nearest_word(word, names, count);
+        if (!nearest)
+            continue;
+        if (ost_rank(ctx) == 0)
+            fprintf(stderr, "%s: there is no option '--%s'; did you mean '--%s'?\n", argv[0], word, nearest);
+        return 1;
+    }
+    return 0;
+}
+
+static int run(OstContext *ctx, int takes_case, const struct argp *argp, int argc, char **argv, void *input,
+               OstStatus (*work)(OstContext *ctx, void *input))
+{
+    const struct argp_child children[] = {{argp, 0, NULL, 0}, {takes_case ? &case_argp : NULL, 0, NULL, 0}, {0}};
     const struct argp whole = {common_options, parse_common, NULL, NULL, children, NULL, NULL};
-    Common common = {ctx, input};
+    Common common = {ctx, input, takes_case};
     if (asks_for_help(argc, argv)) {
         if (ost_rank(ctx) == 0)
             argp_help(&whole, stdout, ARGP_HELP_USAGE | ARGP_HELP_LONG | ARGP_HELP_DOC, argv[0]);
         return 0;
     }
+    if (refuses_option(ctx, argp, takes_case, argc, argv))
+        return ost_status_exit_code(OST_INVALID_USAGE);
     const unsigned flags = ARGP_NO_EXIT | ARGP_NO_HELP | (ost_rank(ctx) == 0 ? 0U : (unsigned)ARGP_NO_ERRS);
     if (argp_parse(&whole, argc, argv, flags, NULL, &common) != 0)
         return ost_status_exit_code(OST_INVALID_USAGE);
@@ -89,4 +188,16 @@ int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv,
             fprintf(stderr, "orthostat: %s, raised at %s\n", ost_status_name(status), ost_error_origin(ctx));
     }
     return ost_status_exit_code(status);
+}
+
+int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                OstStatus (*work)(OstContext *ctx, void *input))
+{
+    return run(ctx, 0, argp, argc, argv, input, work);
+}
+
+int ost_cli_run_on_case(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                        OstStatus (*work)(OstContext *ctx, void *input))
+{
+    return run(ctx, 1, argp, argc, argv, input, work);
 }

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_CLI_COMMAND_H
 #define ORTHOSTAT_CLI_COMMAND_H
 
-#include "orthostat/context.h"
+#include "orthostat/case.h"
 
 #include <argp.h>
 
@@ -14,7 +14,9 @@ int ost_cli_explain(OstContext *ctx, int argc, char **argv);
 int ost_cli_effects(OstContext *ctx, int argc, char **argv);
 int ost_cli_cost(OstContext *ctx, int argc, char **argv);
 int ost_cli_scale(OstContext *ctx, int argc, char **argv);
+int ost_cli_sweep(OstContext *ctx, int argc, char **argv);
 int ost_cli_verify(OstContext *ctx, int argc, char **argv);
+int ost_cli_mesh(OstContext *ctx, int argc, char **argv);
 int ost_cli_material(OstContext *ctx, int argc, char **argv);
 
 /* Collective. Parses by argp into `input`, does the work, and returns the program's exit code. Rank 0 prints help, and
@@ -24,11 +26,24 @@ int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv,
 
 /* What a command that takes a case is called with. First member of `input` where ost_cli_take is the argp's parser, or
  * is called by it. */
+enum { OST_MOST_SETTINGS = 200 };
 typedef struct OstArguments {
     const char *case_path;
     const char *text['z' + 1]; /* by the option's letter: its value, "" for an option without one; NULL: not given */
+    int settings;
+    const char *setting[OST_MOST_SETTINGS]; /* --set */
+    const char *load_case;                  /* --case, or NULL */
 } OstArguments;
 
 error_t ost_cli_take(int key, char *value, struct argp_state *state);
+
+/* Collective. ost_cli_run of a command that takes a case: with the options --set and --case. */
+int ost_cli_run_on_case(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                        OstStatus (*work)(OstContext *ctx, void *input));
+
+/* Collective. The case, as the arguments change it, or the one of its load cases that they name. ost_cli_read_one
+ * refuses several load cases of which none is named. */
+OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c);
+OstStatus ost_cli_read_one(OstContext *ctx, const OstArguments *arguments, OstCase **c);
 
 #endif

@@ -162,7 +162,7 @@ static OstStatus run_study(OstContext *ctx, void *input)
     if (arguments->calibrate)
         return calibrate(ctx, text['j']);
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
-    OST_TRY_DONE(ost_case_read(ctx, arguments->common.case_path, &c));
+    OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
     if (ost_cli_is_stdout(text['p']))
         OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 3, paths));
@@ -181,5 +181,5 @@ int ost_cli_cost(OstContext *ctx, int argc, char **argv)
     arguments.variants.accuracy_count = 2;
     arguments.variants.accuracy[0] = 0.1;
     arguments.variants.accuracy[1] = 0.03;
-    return ost_cli_run(ctx, &cost_argp, argc, argv, &arguments, run_study);
+    return ost_cli_run_on_case(ctx, &cost_argp, argc, argv, &arguments, run_study);
 }

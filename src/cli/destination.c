@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/destination.h"
 
-#include "case/sections.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
 #include "formats/serial/formats.h"
+#include "formats/vtu/vtu.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -46,9 +46,10 @@ OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_L
         snprintf(path, OST_LONGEST_PATH, "%.*s.vtkhdf", stem, name);
         return check_length(c->ctx, path);
     }
-    if (!ost_has_ending(name, ".vtkhdf"))
-        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' does not end with .vtkhdf, which the file of fields must",
-                         name);
+    size_t length;
+    if (ost_result_form(name, &length) == OST_RESULT_FORMS)
+        return OST_RAISE(c->ctx, OST_INVALID_USAGE,
+                         "'%s' does not end with " OST_RESULT_ENDINGS ", which the file of fields must", name);
     snprintf(path, OST_LONGEST_PATH, "%s", name);
     return OST_SUCCESS;
 }
@@ -145,6 +146,19 @@ int ost_cli_is_stdout(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
+/* A .pvtu brings another file. */
+static OstStatus check_piece(const OstCase *c, const char *path)
+{
+    char piece[OST_LONGEST_PATH], *target = NULL;
+    size_t stem;
+    if (ost_result_form(path, &stem) != OST_RESULT_PVTU)
+        return OST_SUCCESS;
+    ost_pvtu_piece(path, sizeof piece, piece);
+    const OstStatus status = check_file(c, piece, &target);
+    OST_FREE(target);
+    return status;
+}
+
 /* Paths that are NULL are not written. */
 static OstStatus check_files(const OstCase *c, int count, const char *const *paths)
 {
@@ -155,6 +169,7 @@ static OstStatus check_files(const OstCase *c, int count, const char *const *pat
             continue;
         if (!ost_cli_is_stdout(paths[i]))
             status = check_file(c, paths[i], &target[i]);
+        OST_THEN(check_piece(c, paths[i]));
         for (int j = 0; j < i && status == OST_SUCCESS; j++)
             if (ost_cli_is_stdout(paths[i]) ? ost_cli_is_stdout(paths[j])
                                             : target[j] && is_same_place(target[i], target[j]))

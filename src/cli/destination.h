@@ -7,7 +7,8 @@
 enum { OST_LONGEST_PATH = 4096 };
 
 /* Local. Where the fields of a case go: `asked` (--output, or NULL), the case's output file, or the case's name with
- * .vtkhdf for its ending, in the current folder. Raises if the name does not end with .vtkhdf or is too long. */
+ * .vtkhdf for its ending, in the current folder. Raises if the name has no ending of a file of fields,
+ * or is too long. */
 OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_LONGEST_PATH]);
 
 /* Collective; rank 0 looks. Can a file be written to each path (NULL: none; "-": standard output)? Each must be

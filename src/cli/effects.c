@@ -47,7 +47,7 @@ static OstStatus run_study(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstEffectStudy study;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read_one(ctx, arguments, &c));
     if (ost_cli_is_stdout(paths[1]))
         OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 2, paths));
@@ -61,5 +61,5 @@ done:
 int ost_cli_effects(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &effects_argp, argc, argv, &arguments, run_study);
+    return ost_cli_run_on_case(ctx, &effects_argp, argc, argv, &arguments, run_study);
 }

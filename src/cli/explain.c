@@ -137,8 +137,23 @@ static void axes_words(const OstAxesSpec *axes, char *text, size_t size)
         snprintf(text, size, "e1, e2, e3 as %.200s has them", axes->cells_file ? axes->cells_file : "the mesh");
         return;
     case OST_AXES_GRADIENT:
-        snprintf(text, size, "e1 from '%.80s' to '%.80s', e2 from '%.80s' to '%.80s', e3 across both", axes->from[0],
-                 axes->to[0], axes->from[1], axes->to[1]);
+        if (!axes->from[1])
+            snprintf(text, size, "e%d from '%.80s' to '%.80s', the others across it", axes->along[0] + 1, axes->from[0],
+                     axes->to[0]);
+        else
+            snprintf(text, size, "e%d from '%.80s' to '%.80s', e%d from '%.80s' to '%.80s', e%d across both",
+                     axes->along[0] + 1, axes->from[0], axes->to[0], axes->along[1] + 1, axes->from[1], axes->to[1],
+                     4 - axes->along[0] - axes->along[1]);
+        return;
+    case OST_AXES_FIELD:
+        if (axes->along[0] < 0)
+            snprintf(text, size, "e1, e2, e3 as the field '%.80s' has them", axes->field[0]);
+        else if (axes->field[1])
+            snprintf(text, size, "e%d along the field '%.80s', e%d along '%.80s'", axes->along[0] + 1, axes->field[0],
+                     axes->along[1] + 1, axes->field[1]);
+        else
+            snprintf(text, size, "e%d along the field '%.80s', the others across it", axes->along[0] + 1,
+                     axes->field[0]);
         return;
     case OST_AXES_NONE:
     case OST_AXES_FIXED:
@@ -173,7 +188,8 @@ static void print_materials(const OstCase *c)
         const OstCaseMaterial *stated = &c->materials[i];
         char words[512];
         ost_orthotropic_words(&stated->material.constants, words);
-        printf("  %-20s %s\n", stated->region, words);
+        printf("  %-20s %s%s%.80s%s\n", stated->region, words, stated->modulus.field ? ", times the field '" : "",
+               stated->modulus.field ? stated->modulus.field : "", stated->modulus.field ? "'" : "");
         if (stated->material.isotropic)
             continue;
         axes_words(&stated->axes, words, sizeof words);
@@ -230,6 +246,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, const Future *futu
     print_materials(c);
     print_solver(&plan->solver);
     printf("  %-20s %g\n", "relative residual", c->solver.relative_residual);
+    if (c->load_case_count > 0)
+        printf("  %-20s %d, with one stiffness and one hierarchy for all that share supports\n", "load cases",
+               c->load_case_count);
     printf("\nSize\n  %-20s %14lld\n  %-20s %14lld\n  %-20s %14lld at most (before supports)\n", "vertices",
            (long long)plan->nodes, "tets", (long long)plan->tets, "unknowns", (long long)plan->unknowns);
     if (plan->least_ranks > ranks)
@@ -286,7 +305,7 @@ static OstStatus explain(OstContext *ctx, void *input)
     OstPlan plan;
     Future future;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, arguments->case_path, &c));
+    OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
     OST_TRY_DONE(make_plan(ctx, c, &plan));
     OST_TRY_DONE(foretell(ctx, c, &plan, &future));
     if (ost_rank(ctx) == 0 && arguments->text['j']) {
@@ -305,5 +324,5 @@ done:
 int ost_cli_explain(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &explain_argp, argc, argv, &arguments, explain);
+    return ost_cli_run_on_case(ctx, &explain_argp, argc, argv, &arguments, explain);
 }

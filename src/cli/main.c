@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/yaml/message.h"
 #include "cli/command.h"
-#include "cli/start.h"
 #include "core/address_space.h"
+#include "core/interrupt/interrupt.h"
+#include "core/progress.h"
 
 #include <errno.h>
 #include <mpi.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/uio.h>
+#include <unistd.h>
 
 static const struct {
     const char *name, *summary;
@@ -21,7 +26,9 @@ static const struct {
     {"cost", "measure what accuracy costs: errors, seconds and memory by order, refinement and tolerance",
      ost_cli_cost},
     {"scale", "measure how a case scales: seconds, iterations and messages by size and number of ranks", ost_cli_scale},
+    {"sweep", "solve for several values of a number, and list the watched quantities", ost_cli_sweep},
     {"verify", "compare answers with closed-form solutions", ost_cli_verify},
+    {"mesh", "inspect, convert, refine and repair a mesh", ost_cli_mesh},
     {"material", "print a material's stiffness, its eigenvalues and its stable range", ost_cli_material},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -44,6 +51,22 @@ static int is_one_of(const char *word, const char *a, const char *b)
     return strcmp(word, a) == 0 || strcmp(word, b) == 0;
 }
 
+/* With the nearest command, or with all. */
+static void refuse_command(const char *name)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        names[i] = commands[i].name;
+    const char *nearest = ost_nearest_word(name, names, COMMAND_COUNT);
+    fprintf(stderr, "orthostat: error: there is no command '%s'", name);
+    if (nearest) {
+        fprintf(stderr, "; did you mean '%s'?\n", nearest);
+        return;
+    }
+    fputs("\n\n", stderr);
+    print_help(stderr);
+}
+
 static int run_command(OstContext *ctx, int argc, char **argv)
 {
     const char *name = argv[1];
@@ -55,10 +78,8 @@ static int run_command(OstContext *ctx, int argc, char **argv)
         argv[1] = title;
         return commands[i].run(ctx, argc - 1, argv + 1);
     }
-    if (ost_rank(ctx) == 0) {
-        fprintf(stderr, "orthostat: error: there is no command '%s'\n\n", name);
-        print_help(stderr);
-    }
+    if (ost_rank(ctx) == 0)
+        refuse_command(name);
     return ost_status_exit_code(OST_INVALID_USAGE);
 }
 
@@ -132,10 +153,111 @@ static int has_room_to_start(void)
     return 0;
 }
 
+enum { LONGEST_PATH = 4096, MOST_LAUNCHED = 4096 };
+
+/* Could another process's memory be read? Containers often forbid it, and Open MPI then complains at every start. */
+static int may_read_memory(void)
+{
+    char from = 1, to = 0;
+    const struct iovec local = {&to, 1}, remote = {&from, 1};
+    return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == 1;
+}
+
+/* Sets what MPI and the BLAS read from the environment, unless it is set: one thread a rank, as there is one rank a
+ * core; no look for GPUs on an X server; and no copies from another process's memory where the system forbids them.
+ * OpenBLAS reads it before main: where that was missing, the program starts itself again. */
+static void settle_environment(char **argv)
+{
+    const int late = getenv("OPENBLAS_NUM_THREADS") == NULL;
+    setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    setenv("OMP_NUM_THREADS", "1", 0);
+    setenv("MKL_NUM_THREADS", "1", 0);
+    setenv("HWLOC_COMPONENTS", "-gl", 0);
+    if (!may_read_memory())
+        setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+    if (late)
+        execv("/proc/self/exe", argv); /* returns only if there is no /proc: then the BLAS keeps its threads */
+}
+
+/* Was the process started by mpirun, srun or the like? */
+static int is_launched(void)
+{
+    static const char *const signs[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "MPI_LOCALNRANKS",
+                                        "SLURM_STEP_ID"};
+    for (size_t s = 0; s < sizeof signs / sizeof signs[0]; s++)
+        if (getenv(signs[s]))
+            return 1;
+    return 0;
+}
+
+static int count_cores(void)
+{
+    cpu_set_t mine;
+    return sched_getaffinity(0, sizeof mine, &mine) == 0 ? CPU_COUNT(&mine) : 1;
+}
+
+/* The largest number of --ranks; the cores, if there is no such option; 0 for what is not to be started. */
+static int ranks_asked_for(int argc, char **argv)
+{
+    const char *list = NULL;
+    long most = 0;
+    for (int i = 2; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0 || strcmp(argv[i], "-?") == 0)
+            return 0;
+        if (strncmp(argv[i], "--ranks=", 8) == 0)
+            list = argv[i] + 8;
+        else if (strcmp(argv[i], "--ranks") == 0 && i + 1 < argc)
+            list = argv[i + 1];
+    }
+    if (!list)
+        return count_cores();
+    for (char *end = NULL; *list; list = *end ? end + 1 : end) {
+        const long ranks = strtol(list, &end, 10);
+        if (end == list)
+            return 0; /* the command says what is wrong with it */
+        most = ranks > most ? ranks : most;
+    }
+    return most <= MOST_LAUNCHED ? (int)most : 0;
+}
+
+/* `scale` without mpirun becomes mpirun with as many ranks as its list asks for. Returns if there is nothing to start,
+ * or nothing to start it with. */
+static void launch_scale(int argc, char **argv)
+{
+    char program[LONGEST_PATH] = "", count[16];
+    int command = 1;
+    while (command < argc && argv[command][0] == '-') /* -q and -v may come first */
+        command++;
+    if (command >= argc || strcmp(argv[command], "scale") != 0 || is_launched())
+        return;
+    const int ranks = ranks_asked_for(argc, argv);
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (ranks < 2 || length <= 0)
+        return;
+    char **words = calloc((size_t)argc + 5, sizeof *words);
+    if (!words)
+        return;
+    snprintf(count, sizeof count, "%d", ranks);
+    char *const start[] = {"mpirun", "--quiet", "-n", count, program};
+    for (size_t i = 0; i < 5; i++)
+        words[i] = start[i];
+    for (int i = 1; i < argc; i++)
+        words[4 + i] = argv[i];
+    /* More ranks than cores are meant, and so is root, who has started this program. */
+    setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+    if (isatty(STDERR_FILENO))
+        setenv("ORTHOSTAT_ON_TERMINAL", "1", 0);
+    execvp("mpirun", words);
+    perror("orthostat: mpirun could not be started; there is one rank");
+    free(words);
+}
+
 int main(int argc, char **argv)
 {
-    ost_cli_settle_environment(argv);
-    ost_cli_launch_scale(argc, argv);
+    settle_environment(argv);
+    launch_scale(argc, argv);
     const OstLogLevel level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)
@@ -151,11 +273,14 @@ int main(int argc, char **argv)
     int exit_code = 1;
     if (ost_context_create(MPI_COMM_WORLD, &ctx) == OST_SUCCESS) {
         ost_log_set_level(ctx, level);
+        ost_end_when_interrupted(ost_rank(ctx) == 0);
+        ost_progress_start(ctx);
         exit_code = run_command(ctx, argc, argv);
     } else {
         fputs("orthostat: error: out of memory at the start\n", stderr);
     }
     exit_code = end_with(exit_code);
+    ost_progress_end();
     ost_context_destroy(&ctx);
     MPI_Finalize();
     return exit_code;

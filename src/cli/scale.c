@@ -126,6 +126,11 @@ static OstStatus report(const OstScale *scale, const char *csv, const char *json
     return ost_agree(scale->ctx, status);
 }
 
+static OstStatus read_again(OstContext *ctx, const void *from, OstCase **c)
+{
+    return ost_cli_read_one(ctx, from, c);
+}
+
 /* Where reports go is checked before anything runs. */
 static OstStatus run_study(OstContext *ctx, void *input)
 {
@@ -135,15 +140,16 @@ static OstStatus run_study(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstScale *scale = NULL;
     OstStatus status = OST_SUCCESS;
-    if (strcmp(arguments->common.case_path, "/dev/stdin") == 0)
+    const char *path = arguments->common.case_path;
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0)
         return OST_RAISE(ctx, OST_INVALID_USAGE,
                          "the case is read anew for each number of ranks: name a file, not standard input");
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
-    OST_TRY_DONE(ost_case_read(ctx, arguments->common.case_path, &c));
+    OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
     if (ost_cli_is_stdout(text['p']))
         OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 3, paths));
-    OST_TRY_DONE(ost_scale_create(c, &arguments->variants, &scale));
+    OST_TRY_DONE(ost_scale_create(c, read_again, &arguments->common, &arguments->variants, &scale));
     ost_case_destroy(&c);
     OST_TRY_DONE(ost_scale_run(scale));
     status = report(scale, text['c'], text['j'], text['p']);
@@ -156,5 +162,5 @@ done:
 int ost_cli_scale(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {.variants = ost_scale_default_variants(ost_size(ctx))};
-    return ost_cli_run(ctx, &scale_argp, argc, argv, &arguments, run_study);
+    return ost_cli_run_on_case(ctx, &scale_argp, argc, argv, &arguments, run_study);
 }

@@ -2,13 +2,17 @@
 #include "adapt/adapt.h"
 #include "cli/command.h"
 #include "cli/destination.h"
+#include "cli/solve_cases.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "core/progress.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "output/summary.h"
 #include "problem/scene_data.h"
+#include "study/forecast/forecast.h"
 #include "study/watch.h"
 
 #include <math.h>
@@ -74,7 +78,10 @@ done:
 /* Numbers that are not finite are never written to the file of fields. */
 static OstStatus write_fields(const Run *run)
 {
-    return run->result->checks.finite ? ost_result_write(run->result, run->c->output_fields, run->file) : OST_SUCCESS;
+    if (!run->result->checks.finite)
+        return OST_SUCCESS;
+    OST_TRY(ost_result_write(run->result, run->c->output_fields, run->file));
+    return run->c->probe_count > 0 ? ost_probe_write(run->scene, run->result, run->file) : OST_SUCCESS;
 }
 
 /* Writes, with --keep, a result that did not converge or failed a check; still returns that failure. */
@@ -166,28 +173,56 @@ static OstStatus check_files(const Run *run)
     if (run->arguments->text['r'])
         return OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "%s: --resume goes on with a path, and the case has none",
                          run->c->path);
-    return ost_check_outputs(run->c, 2, (const char *const[]){run->output, json});
+    if (run->c->load_case_count > 0) {
+        OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
+        return ost_check_outputs(run->c, 1, &json);
+    }
+    OST_TRY(ost_check_outputs(run->c, 2, (const char *const[]){run->output, json}));
+    return ost_cli_check_probe_outputs(run->c, run->output, json);
+}
+
+/* For those who wait. */
+static OstStatus foretell(const OstScene *scene)
+{
+    OstRates rates;
+    OstForecast forecast;
+    OST_TRY(ost_rates_load(scene->ctx, &rates));
+    ost_forecast_make(scene->c, &scene->plan, &rates, ost_size(scene->ctx), &forecast);
+    ost_progress_expect(scene->ctx, forecast.in_all);
+    return OST_SUCCESS;
 }
 
 static OstStatus solve_as_given(Run *run)
 {
     const OstCase *c = run->c;
     OST_TRY(ost_scene_create(c, &run->scene));
+    OST_TRY(foretell(run->scene));
     OST_TRY(ost_watch_check(run->scene));
     if (!ost_plan_acts(c, &run->scene->plan))
         ost_warn(c->ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
     return c->path_steps > 0 ? solve_path(run) : solve_once(run);
 }
 
+static OstStatus solve_cases(const Run *run)
+{
+    OstAdaptLimits limits;
+    OST_TRY(read_limits(run, &limits));
+    const OstSolveCases how = {run->output, run->arguments->text['j'], run->arguments->text['k'] != NULL, &limits};
+    return ost_cli_solve_cases(run->c, &how);
+}
+
 static OstStatus solve(OstContext *ctx, void *input)
 {
     Run run = {.arguments = input};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_case_read(ctx, run.arguments->case_path, &run.c));
+    OST_TRY_DONE(ost_cli_read(ctx, run.arguments, &run.c));
     OST_TRY_DONE(ost_choose_output(run.c, run.arguments->text['o'], run.output));
     memcpy(run.file, run.output, sizeof run.file);
     OST_TRY_DONE(check_files(&run));
-    status = run.c->asks_error && run.c->path_steps == 0 ? solve_accurately(&run) : solve_as_given(&run);
+    if (run.c->load_case_count > 0)
+        status = solve_cases(&run);
+    else
+        status = run.c->asks_error && run.c->path_steps == 0 ? solve_accurately(&run) : solve_as_given(&run);
 done:
     if (!run.adaption) {
         ost_result_destroy(&run.result);
@@ -202,5 +237,5 @@ done:
 int ost_cli_solve(OstContext *ctx, int argc, char **argv)
 {
     OstArguments arguments = {0};
-    return ost_cli_run(ctx, &solve_argp, argc, argv, &arguments, solve);
+    return ost_cli_run_on_case(ctx, &solve_argp, argc, argv, &arguments, solve);
 }

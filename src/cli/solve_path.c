@@ -5,10 +5,21 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 #include "output/summary.h"
 #include "study/watch.h"
 
 #include <stdio.h>
+
+OstStatus ost_cli_check_probe_outputs(const OstCase *c, const char *fields, const char *json)
+{
+    char name[OST_LONGEST_PATH];
+    for (int p = 0; p < c->probe_count; p++) {
+        ost_probe_file_name(fields, &c->probes[p], sizeof name, name);
+        OST_TRY(ost_check_outputs(c, 2, (const char *const[]){name, json}));
+    }
+    return OST_SUCCESS;
+}
 
 OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output)
 {
@@ -22,6 +33,7 @@ OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output)
     for (int i = 1; i <= c->path_steps; i++) {
         ost_path_step_name(output, i, sizeof step, step);
         OST_TRY(ost_check_outputs(c, 1, (const char *const[]){step}));
+        OST_TRY(ost_cli_check_probe_outputs(c, step, NULL));
     }
     return OST_SUCCESS;
 }
@@ -46,6 +58,8 @@ static OstStatus write_step(const OstScene *scene, const char *output, OstPath *
     OST_TRY(note_watched(scene, result, ost_path_step(path, done - 1)));
     ost_path_step_name(output, done, sizeof name, name);
     OST_TRY(ost_result_write(result, scene->c->output_fields, name));
+    if (scene->c->probe_count > 0)
+        OST_TRY(ost_probe_write(scene, result, name));
     OST_TRY(ost_agree(ctx, ost_path_write_history(scene, path, output)));
     OST_TRY(ost_agree(ctx, ost_path_write_series(ctx, path, output)));
     ost_path_file_name(output, OST_PATH_CHECKPOINT, sizeof name, name);
@@ -71,7 +85,7 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
         const int number = ost_path_done(path) + 1;
         char what[64];
         snprintf(what, sizeof what, "path: step %d of %d", number, count);
-        ost_progress(ctx, what, (double)(number - 1) / count);
+        ost_progress_task(ctx, what, (double)(number - 1) / count);
         ost_result_destroy(result);
         status = ost_path_advance(path, fields, result);
         if (status != OST_SUCCESS) {
@@ -87,7 +101,7 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
             ost_log(ctx, OST_LOG_VERBOSE, "path: step %d of %d done, t = %g, largest |u| %.6g", number, count,
                     ost_path_step(path, number - 1)->t, ost_path_step(path, number - 1)->largest_displacement);
     }
-    ost_progress(ctx, "", -1.0);
+    ost_progress_task(ctx, "", -1.0);
     return status;
 }
 

@@ -28,7 +28,7 @@ static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
     {"hard", 'H', 0, OPTION_HIDDEN, 0, 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
-    {"picture", 'p', "FOLDER", 0, "Draw error against element size here, as verify.png (and write verify.json)", 0},
+    {"picture", 'p', "FOLDER", 0, "Draw how far each case is from its formula here, as verify.png (and write verify.json)", 0},
     {0},
 };
 

@@ -6,6 +6,12 @@
 
 enum { OST_ERROR_ORIGIN_SIZE = 256, OST_LEDGER_DEPTH = 32 };
 
+/* How far something is, from `first` at `start` on; a fraction below 0: not known. */
+typedef struct OstProgress {
+    char what[96];
+    double fraction, first, start;
+} OstProgress;
+
 /* A context's fields; only core/ reads them. */
 struct OstContext {
     MPI_Comm comm;
@@ -16,8 +22,8 @@ struct OstContext {
     void *listener;
     char **warning;
     int warnings;
-    int progress_shown;
-    double progress_time;
+    double expected;         /* seconds of the whole, as foretold; 0: not known */
+    OstProgress task, phase; /* of the whole, of which a name may be missing; and what is done now */
     char error_text[OST_ERROR_TEXT_SIZE];
     char error_origin[OST_ERROR_ORIGIN_SIZE];
 

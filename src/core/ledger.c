@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/context.h"
+#include "core/progress.h"
 
 #include <string.h>
 
@@ -39,6 +40,8 @@ void ost_ledger_enter(OstContext *ctx, OstAccount account)
         ctx->depth++;
     ctx->stack[ctx->depth] = booked;
     ctx->ledger[booked].entries += booked != around;
+    if (booked != around)
+        ost_progress_phase(ctx, ost_ledger_label(ctx, booked));
 }
 
 void ost_ledger_leave(OstContext *ctx)

@@ -9,9 +9,6 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A progress line is redrawn at most this often. */
-static const double progress_interval = 0.1;
-
 double ost_seconds(void)
 {
     struct timespec now;
@@ -96,30 +93,4 @@ void ost_warn(OstContext *ctx, const char *format, ...)
         return;
     ost_progress(ctx, "", -1.0);
     fprintf(stderr, "orthostat: warning: %s\n", text);
-}
-
-/* Does standard error end at a terminal? mpirun stands between, so scripts/orthostat finds out before it starts that
- * and sets the variable. */
-static int is_on_terminal(void)
-{
-    return isatty(STDERR_FILENO) || getenv("ORTHOSTAT_ON_TERMINAL") != NULL;
-}
-
-void ost_progress(OstContext *ctx, const char *what, double fraction)
-{
-    if (ctx->rank != 0 || ctx->level == OST_LOG_QUIET)
-        return;
-    if (fraction < 0.0) {
-        if (ctx->progress_shown)
-            fputs("\r\033[K", stderr);
-        ctx->progress_shown = 0;
-        return;
-    }
-    const double now = ost_seconds();
-    if (now - ctx->progress_time < progress_interval || !is_on_terminal())
-        return;
-    ctx->progress_time = now;
-    ctx->progress_shown = 1;
-    fprintf(stderr, "\r\033[K%s %3.0f %%", what, 100.0 * (fraction > 1.0 ? 1.0 : fraction));
-    fflush(stderr);
 }

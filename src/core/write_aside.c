@@ -2,6 +2,7 @@
 #include "core/write_aside.h"
 
 #include "core/error.h"
+#include "core/interrupt/interrupt.h"
 #include "core/memory.h"
 
 #include <errno.h>
@@ -66,6 +67,7 @@ static OstStatus create(OstContext *ctx, OstAside *aside)
         const int descriptor = open(aside->aside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const int reason = errno;
         if (descriptor >= 0) {
+            ost_half_written(aside->aside);
             close(descriptor);
             return OST_SUCCESS;
         }
@@ -121,6 +123,8 @@ OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written)
         status = raise_unwritten(ctx, aside->path, strerror(errno));
     if (aside->aside && status != OST_SUCCESS)
         remove(aside->aside);
+    if (aside->aside)
+        ost_half_written_forget(aside->aside, status == OST_SUCCESS);
     release(aside);
     return status;
 }
@@ -130,6 +134,31 @@ OstStatus ost_aside_finish_together(OstContext *ctx, OstAside *aside, OstStatus 
     const OstStatus status = ost_rank(ctx) == 0 ? ost_aside_finish(ctx, aside, written) : written;
     release(aside);
     return ost_agree(ctx, status);
+}
+
+/* Returns 0, or errno. A file that cannot be opened is left to the writer, whose message is better. */
+static int allocate(const char *path, OstGlobal bytes, int empties)
+{
+    int reason = 0;
+    const int descriptor = open(path, O_WRONLY);
+    if (descriptor < 0)
+        return 0;
+    do
+        reason = fallocate(descriptor, 0, 0, (off_t)bytes) == 0 ? 0 : errno;
+    while (reason == EINTR);
+    if (empties && ftruncate(descriptor, 0) != 0 && reason == 0)
+        reason = errno;
+    close(descriptor);
+    return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
+}
+
+OstStatus ost_aside_reserve(OstContext *ctx, const OstAside *aside, OstGlobal bytes, int empties)
+{
+    const int reason = ost_rank(ctx) == 0 ? allocate(aside->aside, bytes, empties) : 0;
+    return ost_agree(ctx, reason == 0 ? OST_SUCCESS
+                                      : OST_RAISE(ctx, OST_FILE_FAILED,
+                                                  "%s: needs %.3g MiB of disk space, which cannot be reserved: %s",
+                                                  aside->path, (double)bytes / 1048576.0, strerror(reason)));
 }
 
 /* Flushes too: an error in what `write` left in the buffer shows only then. */

@@ -27,6 +27,11 @@ OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written);
 /* Collective. Rank 0 does the same; `written` is the same on every rank. */
 OstStatus ost_aside_finish_together(OstContext *ctx, OstAside *aside, OstStatus written);
 
+/* Collective. Is there room on disk for this many bytes (as rank 0 gives them)? Asks the file system to reserve them,
+ * which respects quotas and limits too; then empties the file again, or leaves them reserved, so that no other program
+ * takes them while the file is written. A file system that cannot reserve space is trusted. Raises OST_FILE_FAILED. */
+OstStatus ost_aside_reserve(OstContext *ctx, const OstAside *aside, OstGlobal bytes, int empties);
+
 /* Local. Opens, writes by `write` and finishes a file; "-" is standard output. */
 OstStatus ost_write_aside(OstContext *ctx, const char *path, OstStatus (*write)(FILE *file, const void *content),
                           const void *content);

@@ -62,7 +62,10 @@ static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
 /* The constants of each region, its stiffness and compliance in material axes, and its stiffness in world axes. */
 static void several_materials(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->materials > 1)
+    if (f->modulus_region)
+        on(state, 8.0 * (128.0 * f->regions + f->tets), "the modulus of region '%.60s' differs from tet to tet",
+           f->modulus_region);
+    else if (f->materials > 1)
         on(state, 8.0 * 128.0 * f->regions, "%d materials", f->materials);
     else
         off(state, "one material for the whole body");
@@ -77,6 +80,12 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
+/* Does a constraint make nodes follow others? */
+static int has_links(const OstEffectFacts *f)
+{
+    return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -85,6 +94,8 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
         off(state, "a free body is solved linearly");
+    else if (has_links(f))
+        off(state, "a body with rigid, tied or periodic faces is solved linearly");
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
@@ -95,7 +106,9 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (f->quadratic && f->multigrid)
+    if (has_links(f))
+        off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
+    else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on the linear tets with the same vertices");
     else
@@ -118,6 +131,32 @@ static void sliding(const OstEffectFacts *f, OstEffectState *state)
         on(state, 0.0, "%d of %d constraints let the body slide on a plane", f->slides, f->constraints);
     else
         off(state, "no constraint is a slide");
+}
+
+/* They take what the surface has: little beside the tets. */
+static void links(const OstEffectFacts *f, OstEffectState *state, int count, const char *what)
+{
+    char none[64];
+    snprintf(none, sizeof none, "no constraint is %s", what);
+    if (count > 0)
+        on(state, 0.0, "%d of %d constraints %s %s", count, f->constraints, count == 1 ? "is" : "are", what);
+    else
+        off(state, none);
+}
+
+static void rigid_face(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->rigid_faces, "a rigid face");
+}
+
+static void tie(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->ties, "a tie between faces");
+}
+
+static void periodic(const OstEffectFacts *f, OstEffectState *state)
+{
+    links(f, state, f->periodic, "a periodic cell");
 }
 
 static void free_body(const OstEffectFacts *f, OstEffectState *state)
@@ -215,6 +254,15 @@ static void recovery(const OstEffectFacts *f, OstEffectState *state)
            "the output holds %d of their components a tet, and %d a node", f->cell_fields, f->node_fields);
     else
         off(state, "the output holds neither");
+}
+
+/* Load factors are found tet by tet. */
+static void strength(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->strengths > 0)
+        on(state, 0.0, "%d of %d materials state strengths", f->strengths, f->materials);
+    else
+        off(state, "no material states strengths");
 }
 
 /* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers

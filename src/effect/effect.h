@@ -19,6 +19,9 @@
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
+    X(OST_EFFECT_RIGID_FACE, "rigid face", rigid_face)                                        \
+    X(OST_EFFECT_TIE, "tied faces", tie)                                                      \
+    X(OST_EFFECT_PERIODIC, "periodic pairs", periodic)                                        \
     X(OST_EFFECT_FREE_BODY, "free body", free_body)                                           \
     X(OST_EFFECT_POINT_FORCE, "point force", point_force)                                     \
     X(OST_EFFECT_SURFACE_LOAD, "surface load", surface_load)                                  \
@@ -31,6 +34,7 @@
     X(OST_EFFECT_SPRINGS, "springs", springs)                                                 \
     X(OST_EFFECT_PATH, "path", path)                                                          \
     X(OST_EFFECT_RECOVERY, "strain and stress", recovery)                                     \
+    X(OST_EFFECT_STRENGTH, "strength", strength)                                              \
     X(OST_EFFECT_ERROR_ESTIMATE, "error estimate", error_estimate)                            \
     X(OST_EFFECT_ADAPTIVITY, "adaptive refinement", adaptivity)
 
@@ -49,11 +53,12 @@ typedef struct OstEffectFacts {
     int orthotropic, varying;     /* materials that are not isotropic; those of them whose axes vary */
     char orthotropic_reason[160]; /* of the first of them, in words */
     char varying_reason[160];
+    const char *modulus_region;  /* a region whose Young's modulus is a field of the mesh file, or NULL */
     const char *gradient_region; /* a region whose axes follow potentials, or NULL */
     int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
-    int constraints, prescribed, slides;
+    int constraints, prescribed, slides, rigid_faces, ties, periodic;
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     double accuracy;    /* relative */
@@ -65,6 +70,7 @@ typedef struct OstEffectFacts {
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
     int node_fields; /* numbers a node likewise */
+    int strengths;   /* materials that state them */
     int error_field; /* is the error of the answer among them? */
     int watches;     /* quantities of interest */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */

@@ -227,7 +227,8 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
     elasticity->by_mean = points > 0 && ost_field_stiff_mode(field, region) != NULL;
     examine_region(elasticity, field, region);
     elasticity->by_stretch = elasticity->stretch_suffices && elasticity->stretched;
-    elasticity->about_line = elasticity->by_stretch && elasticity->cylindrical && field->region_varies[region];
+    elasticity->about_line =
+        elasticity->by_stretch && elasticity->cylindrical && field->region_varies[region] && !field->tet_scale;
     elasticity->region = elasticity->about_line || !field->region_varies[region] ? region : -1;
     if (elasticity->about_line)
         elasticity->points = 1;
@@ -272,6 +273,25 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
         elasticity->points = 1;
 }
 
+/* Multiplies C of each tet by its factor: m and A, which enter twice, by the root. */
+static void scale(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH])
+{
+    OstSimd factor, root;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        factor[slot] = field->tet_scale[tets[slot]];
+        root[slot] = sqrt(field->tet_scale[tets[slot]]);
+    }
+    for (int p = 0; p < 6 && elasticity->by_stretch; p++)
+        elasticity->stretch_tensor[p] *= root;
+    for (int point = 0; point < elasticity->points && !elasticity->by_stretch; point++) {
+        for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+            elasticity->c[point][n] *= factor;
+        for (int p = 0; p < 6 && elasticity->by_mean; p++)
+            elasticity->m[point][p] *= root;
+    }
+    elasticity->region = -1;
+}
+
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,
                            const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places)
 {
@@ -283,6 +303,8 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
         gather_region(elasticity, field, region, tets, points, places);
     else
         gather_mixed(elasticity, field, tets, points, places);
+    if (field->tet_scale)
+        scale(elasticity, field, tets);
     elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);
     if (elasticity->eigenstrained)
         ost_eigenstrain_gather(elasticity, field, tets, places);

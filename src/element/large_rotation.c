@@ -237,6 +237,16 @@ static void mean_gradient(const OstElement *element, const OstSimd *x, const Ost
         mean[n] /= volume;
 }
 
+void ost_large_rotation_mean_rotation(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                      const OstSimd *u, OstSimd rotation[9])
+{
+    OstSimd mean[9];
+    OstPolar polar;
+    mean_gradient(element, x, elasticity, u, mean);
+    ost_polar(mean, &polar);
+    ost_polar_rotation(&polar, rotation);
+}
+
 /* d = R'x - X loses all digits where rotations are small. As the mean F is R U, it is (U - I) X + R'(u - (F - I) X). */
 void ost_classical_displacement(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
                                 const OstSimd *u, OstSimd rotation[9], OstSimd *d)

@@ -59,6 +59,10 @@ void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation f
                                      const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
                                      OstSimd *stress);
 
+/* The rotation R of each tet's mean F = R U, row-major. */
+void ost_large_rotation_mean_rotation(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                      const OstSimd *u, OstSimd rotation[9]);
+
 /* U - I at points of the tets. `at`: count × 4 barycentric coordinates; 6 strains a point. */
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,
                                 const OstQuadraturePoint *at, OstSimd *strain);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/tets.h"
 
+#include "core/kernel.h"
 #include "core/small.h"
 #include "element/quadrature.h"
 #include "element/shape_functions.h"
@@ -164,7 +165,7 @@ static void add_mean_blocks(const OstSimd *x, const OstElasticity *elasticity, O
                 blocks[n] += mode.columns[3 * a + n / 3] * mode.columns[3 * b + n % 3] / mode.volume;
 }
 
-static void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
+static inline void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     memset(blocks, 0, 9 * PAIRS * sizeof *blocks);
     for (int q = 0; q < ost_tet_degree3.count; q++) {
@@ -187,7 +188,7 @@ static void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSim
     }
 }
 
-static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
+OST_KERNEL static void tet10_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     if (is_uniform(x, elasticity))
         ost_tet10_straight_blocks(x, elasticity->c[0], blocks);
@@ -230,7 +231,7 @@ static void mean_of_mode(const MeanMode *mode, const OstSimd *u, OstSimd *mean)
     *mean /= mode->volume;
 }
 
-static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+OST_KERNEL static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
     memset(force, 0, NUMBERS * sizeof *force);

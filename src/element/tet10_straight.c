@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/tets.h"
 
+#include "core/kernel.h"
+
 #include <string.h>
 
 enum { BLOCK = 9, LINEAR_BLOCKS = 10 * BLOCK };
@@ -39,7 +41,7 @@ static void add_pair(const OstSimd *linear, int a, int b, OstSimd *block)
     }
 }
 
-void ost_tet10_straight_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
+OST_KERNEL void ost_tet10_straight_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
 {
     OstSimd linear[LINEAR_BLOCKS];
     ost_tet4_blocks(x, c, linear);

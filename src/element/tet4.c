@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element/tets.h"
 
+#include "core/kernel.h"
 #include "core/small.h"
 #include "element/strain_batch.h"
 
@@ -59,7 +60,7 @@ static inline void complete_by_translations(OstSimd *k)
         }
 }
 
-void ost_tet4_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
+OST_KERNEL void ost_tet4_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks)
 {
     OstSimd gradient[3][3];
     OstSimd factor;
@@ -108,7 +109,7 @@ static inline void stretched_blocks(const OstSimd *x, const OstSimd tensor[6], d
     complete_by_translations(blocks);
 }
 
-static void tet4_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
+OST_KERNEL static void tet4_stiffness(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     if (elasticity->about_line) {
         OstSimd tensor[6];
@@ -136,7 +137,7 @@ static inline void determinant_of(const OstSimd *x, OstSimd gradient[3][3], OstS
     *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
 }
 
-static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+OST_KERNEL static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
     OstSimd gradient[3][3];
     OstSimd strain[6];

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/mesh_formats.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
@@ -54,50 +55,47 @@ done:
     return status;
 }
 
-static OstStatus read_msh(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
-{
-    OST_TRY(OST_NEW(ctx, materials, 1));
-    return ost_msh_read(ctx, path, chunk);
-}
-
-static const struct {
-    const char *ending;
-    OstStatus (*read)(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
-} serial_format[] = {{".msh", read_msh}, {".msh.gz", read_msh}, {".veg", ost_veg_read}};
-
-enum { SERIAL_FORMATS = sizeof serial_format / sizeof *serial_format };
-
 static int ends_with(const char *path, const char *ending)
 {
     const size_t length = strlen(path), tail = strlen(ending);
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-/* Number of the serial format with this ending, or SERIAL_FORMATS. */
-static int find_format(const char *path)
+static const OstMeshFormat *find_format(const char *path)
 {
-    int format = 0;
-    while (format < SERIAL_FORMATS && !ends_with(path, serial_format[format].ending))
-        format++;
-    return format;
+    for (int f = 0; f < ost_mesh_format_count; f++)
+        if (ends_with(path, ost_mesh_formats[f].ending))
+            return &ost_mesh_formats[f];
+    return NULL;
 }
 
-static OstStatus read_serial(OstContext *ctx, int format, const char *path, OstMeshChunk **chunk,
+static OstStatus read_alone(OstContext *ctx, const OstMeshFormat *format, const char *path, OstMeshChunk **chunk,
+                            OstFileMaterials **materials)
+{
+    if (format->read_with_materials)
+        return format->read_with_materials(ctx, path, chunk, materials);
+    OST_TRY(OST_NEW(ctx, materials, 1));
+    return format->read(ctx, path, chunk);
+}
+
+static OstStatus read_serial(OstContext *ctx, const OstMeshFormat *format, const char *path, OstMeshChunk **chunk,
                              OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
     if (ost_rank(ctx) == 0)
-        status = serial_format[format].read(ctx, path, chunk, materials);
+        status = read_alone(ctx, format, path, chunk, materials);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_chunk_share(ctx, chunk));
     return share_materials(ctx, materials);
 }
 
-static const char *ending_of(const char *path)
+OstStatus ost_mesh_file_check_name(OstContext *ctx, const char *path)
 {
-    const char *name = strrchr(path, '/');
-    const char *ending = strrchr(name ? name : path, '.');
-    return ending ? ending : "";
+    char advice[512];
+    if (find_format(path))
+        return OST_SUCCESS;
+    ost_mesh_format_advice(path, advice, sizeof advice);
+    return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: %s", path, advice);
 }
 
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
@@ -113,17 +111,14 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
     *materials = NULL;
-    const int format = find_format(path);
-    if (format < SERIAL_FORMATS)
-        status = read_serial(ctx, format, path, chunk, materials);
-    else if (ends_with(path, ".vtkhdf")) {
+    const OstMeshFormat *format = find_format(path);
+    if (!format)
+        status = ost_mesh_file_check_name(ctx, path);
+    else if (format->parallel) {
         status = ost_agree(ctx, OST_NEW(ctx, materials, 1));
         OST_THEN(ost_vtkhdf_read(ctx, path, chunk));
     } else
-        status = OST_RAISE(ctx, OST_INVALID_INPUT,
-                           "%s: the ending '%s' is not that of a mesh file; known are .msh and .msh.gz "
-                           "(Gmsh), .veg (Vega FEM) and .vtkhdf",
-                           path, ending_of(path));
+        status = read_serial(ctx, format, path, chunk, materials);
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(chunk);
         ost_file_materials_destroy(materials);
@@ -131,23 +126,67 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     return status;
 }
 
-/* Rank 0 has all tets. */
-static OstStatus read_msh_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk)
+/* The mean of a tet's vertices. Directions are turned as the first vertex's before: a fibre has no sense. */
+static void mean_of_vertices(const OstFileField *field, const OstGlobal *nodes, OstFieldUse use, double *mean)
 {
-    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? ost_msh_read_field(ctx, path, name, chunk) : OST_SUCCESS));
-    OST_TRY(broadcast(ctx, &chunk->field_width, sizeof chunk->field_width));
-    return ost_agree(ctx, ost_rank(ctx) == 0 ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
+    const size_t width = (size_t)field->width;
+    const double *first = field->values + width * (size_t)nodes[0];
+    memset(mean, 0, width * sizeof *mean);
+    for (int v = 0; v < 4; v++) {
+        const double *value = field->values + width * (size_t)nodes[v];
+        double along = 0.0;
+        for (size_t k = 0; k < width && use == OST_FIELD_OF_DIRECTIONS; k++)
+            along += value[k] * first[k];
+        for (size_t k = 0; k < width; k++)
+            mean[k] += (along < 0.0 ? -0.25 : 0.25) * value[k];
+    }
 }
 
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk)
+static OstStatus move_to_tets(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field)
 {
-    const int format = find_format(path);
-    if (format < SERIAL_FORMATS && serial_format[format].read == read_msh)
-        return read_msh_field(ctx, path, name, chunk);
-    if (format == SERIAL_FORMATS)
+    double *mean = NULL;
+    if (!field->on_nodes)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(chunk->ctx, &mean, (size_t)chunk->tet_count * (size_t)field->width));
+    for (size_t t = 0; t < (size_t)chunk->tet_count; t++)
+        mean_of_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use,
+                         mean + t * (size_t)field->width);
+    OST_FREE(field->values);
+    field->values = mean;
+    return OST_SUCCESS;
+}
+
+/* Rank 0 has all tets. */
+static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, const char *path, const char *name,
+                                  OstFieldUse use, OstMeshChunk *chunk)
+{
+    OstFileField field = {0};
+    OstStatus status = format->read_field(ctx, path, name, chunk, &field);
+    if (status == OST_SUCCESS && !field.found)
+        status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the elements, or on the nodes", path,
+                           name);
+    OST_THEN(move_to_tets(chunk, use, &field));
+    OST_THEN(ost_tet_field_add(chunk, path, name, field.width, field.values));
+    OST_FREE(field.values);
+    return status;
+}
+
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+                                   OstMeshChunk *chunk)
+{
+    const OstMeshFormat *format = find_format(path);
+    if (!format)
+        return ost_mesh_file_check_name(ctx, path);
+    if (format->parallel)
         return ost_vtkhdf_read_field(ctx, path, name, chunk);
-    return OST_RAISE(ctx, OST_INVALID_INPUT,
-                     "%s: a .veg file has no fields, and '%s' is asked for; use .msh or .vtkhdf", path, name);
+    if (!format->read_field)
+        return OST_RAISE(
+            ctx, OST_INVALID_INPUT,
+            "%s: no fields are read from a %s file, and '%s' is asked for; use .vtu, .vtk, .msh or .vtkhdf", path,
+            format->ending, name);
+    OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? read_field_alone(ctx, format, path, name, use, chunk) : OST_SUCCESS));
+    OST_TRY(broadcast(ctx, &chunk->fields, sizeof chunk->fields));
+    return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
 }
 
 OstStatus ost_chunk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)

@@ -93,18 +93,55 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
         constrained[i] = vector[i] - free_part[i];
 }
 
+/* Of nodes that follow others (assembly/links/links.h): what their forces add at their leaders. A follower's own force
+ * is all of the link; a leader's is less what its followers add, and what is left of that is the residual. */
+typedef struct LinkForces {
+    const OstLinks *links; /* NULL: there are none */
+    double *at_leaders;    /* 3 × slots */
+} LinkForces;
+
+static OstStatus find_link_forces(const OstResult *result, const double *internal, LinkForces *of)
+{
+    const size_t owned = 3 * (size_t)result->mesh->owned_nodes;
+    double *out_of_balance = NULL;
+    if (!of->links)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(result->ctx, &of->at_leaders, 3 * (size_t)of->links->slots);
+    OST_THEN(OST_NEW(result->ctx, &out_of_balance, owned));
+    status = ost_agree(result->ctx, status);
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        out_of_balance[i] = internal[i] - result->force[i] - result->reaction[i];
+    OST_THEN(ost_links_gather(of->links, out_of_balance, of->at_leaders));
+    OST_FREE(out_of_balance);
+    return status;
+}
+
+/* Changes what the supports take of a node's force; `residual` is what nothing takes. */
+static void take_link_forces(const LinkForces *of, OstLocal node, const double out_of_balance[3],
+                             double of_constraints[3], double residual[3])
+{
+    const int follows = of->links && of->links->of_node[node] >= 0;
+    for (int i = 0; i < 3; i++) {
+        const double at_leader = of->links ? of->at_leaders[3 * (size_t)node + (size_t)i] : 0.0;
+        of_constraints[i] = follows ? out_of_balance[i] : of_constraints[i] - at_leader;
+        residual[i] = follows ? at_leader : out_of_balance[i] - of_constraints[i];
+    }
+}
+
 /* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
  * there is none): they count in the sizes that imbalances are relative to. */
-static void add_node(OstResult *result, const Body *body, OstLocal node, const double *internal, const double *eigen,
-                     const double *magnitude, double *sums)
+static void add_node(OstResult *result, const Body *body, const LinkForces *links, OstLocal node,
+                     const double *internal, const double *eigen, const double *magnitude, double *sums)
 {
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
     double out_of_balance[3], of_constraints[3], constrained[3], external[3], loaded[3], whole[3], arm[3], moment[3];
+    double left[3];
     for (int i = 0; i < 3; i++)
         out_of_balance[i] = internal[i] - f[i] - r[i];
     project_on_constrained(body->supports, node, out_of_balance, of_constraints);
+    take_link_forces(links, node, out_of_balance, of_constraints, left);
     for (int i = 0; i < 3; i++) {
         r[i] += of_constraints[i];
         external[i] = f[i] + r[i];
@@ -112,7 +149,7 @@ static void add_node(OstResult *result, const Body *body, OstLocal node, const d
     }
     project_on_constrained(body->supports, node, loaded, constrained);
     for (int i = 0; i < 3; i++) {
-        const double residual = out_of_balance[i] - of_constraints[i];
+        const double residual = left[i];
         const double deformation = u[i] - body->mean[i];
         whole[i] = loaded[i] + r[i];
         arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] + (body->turns ? u[i] : 0.0) - body->centre[i];
@@ -410,6 +447,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     double sums[SUM_COUNT] = {0.0};
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.formulation = problem->formulation};
+    LinkForces links = {.links = problem->supports->links};
     /* What double precision attained, or the error of the answer made do with. */
     if (result->solve.rounding_limited || result->solve.stopped)
         requested = fmax(requested, result->solve.relative_residual);
@@ -431,13 +469,14 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
+    OST_TRY_DONE(find_link_forces(result, internal, &links));
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
     if (body.turns)
         OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        add_node(result, &body, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
+        add_node(result, &body, &links, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
                  magnitude + 3 * (size_t)n, sums);
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
@@ -453,6 +492,7 @@ done:
     OST_FREE(internal);
     OST_FREE(magnitude);
     OST_FREE(eigen);
+    OST_FREE(links.at_leaders);
     ost_ledger_leave(ctx);
     return status;
 }

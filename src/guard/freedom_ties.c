@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
+#include "core/parallel/halo.h"
 #include "core/small.h"
 
 #include <stdlib.h>
@@ -121,6 +122,34 @@ static OstStatus find_meetings(const OstMesh *mesh, const OstComponents *compone
     return OST_SUCCESS;
 }
 
+/* The component that a follower's first leader is in, of each link (0 where there is one component alone); collective.
+ */
+static OstStatus find_leading(const OstMesh *mesh, const OstLinks *links, const NodeComponents *of, OstLocal **leading)
+{
+    OstLocal *of_slot = NULL;
+    OST_TRY(OST_NEW(mesh->ctx, leading, links->count));
+    OST_TRY(OST_NEW(mesh->ctx, &of_slot, links->slots));
+    for (OstLocal n = 0; n < mesh->owned_nodes && of->lowest; n++)
+        of_slot[n] = of->lowest[n];
+    const OstStatus status = ost_halo_import(links->halo, sizeof *of_slot, of_slot);
+    for (OstLocal i = 0; i < links->count; i++)
+        (*leading)[i] = links->link[i].count > 0 ? of_slot[links->link[i].slot[0]] : -1;
+    OST_FREE(of_slot);
+    return status;
+}
+
+/* Followers move as their leaders' component does: there it meets their own. */
+static OstStatus meet_at_links(const OstMesh *mesh, const OstLinks *links, const OstLocal *leading, NodeComponents *of)
+{
+    for (OstLocal i = 0; i < links->count && of->lowest; i++) {
+        const OstLocal node = links->link[i].node, own = of->lowest[node], other = leading[i];
+        if (other >= 0 && other != own)
+            OST_TRY(add_meeting(mesh->ctx, of, (Meeting){own < other ? own : other, own < other ? other : own, node}));
+    }
+    sort_meetings(of);
+    return OST_SUCCESS;
+}
+
 /* Conditions of the supports of one component. */
 typedef struct SupportConditions {
     int64_t rows, next_look; /* next_look 0: well constrained */
@@ -205,6 +234,56 @@ static OstStatus collect_supports(const OstMesh *mesh, const OstSupports *suppor
     return OST_SUCCESS;
 }
 
+/* A follower elsewhere than its leaders, of one component: both move alike, so that the component does not turn.
+ * `held`: it has no leaders, and does not move. */
+static void add_pair(const OstMesh *mesh, const OstLink *link, int held, const OstRigidFrame *frame,
+                     SupportConditions *of_supports)
+{
+    for (int i = 0; i < 3; i++) {
+        double direction[3] = {i == 0, i == 1, i == 2}, here[6], there[6];
+        ost_rows_of_point(frame, mesh->coordinates + 3 * (size_t)link->node, direction, here);
+        ost_rows_of_point(frame, link->place, direction, there);
+        for (int k = 0; k < 6; k++)
+            here[k] -= held ? 0.0 : there[k];
+        ost_rows_add(of_supports->triangle, here);
+        of_supports->rows++;
+    }
+}
+
+/* What of a rigid face's motion is prescribed, at its point. */
+static void add_face(const OstRigidFace *face, const OstRigidFrame *frame, SupportConditions *of_supports)
+{
+    for (int k = 0; k < 6; k++) {
+        double direction[3] = {k % 3 == 0, k % 3 == 1, k % 3 == 2}, row[6] = {0.0};
+        if (!face->constrained[k])
+            continue;
+        if (k < 3)
+            ost_rows_of_point(frame, face->point, direction, row);
+        else
+            row[k] = 1.0;
+        ost_rows_add(of_supports->triangle, row);
+        of_supports->rows++;
+    }
+}
+
+static void add_links(const OstMesh *mesh, const OstLinks *links, const OstLocal *leading, const NodeComponents *of,
+                      const OstRigidFrame *frames, SupportConditions *of_supports)
+{
+    for (OstLocal i = 0; i < links->count; i++) {
+        const OstLink *link = &links->link[i];
+        const OstLocal own = of->lowest ? of->lowest[link->node] : 0;
+        if (leading[i] == own || leading[i] < 0)
+            add_pair(mesh, link, leading[i] < 0, &frames[own], &of_supports[own]);
+    }
+    for (int f = 0; f < links->face_count; f++) {
+        const OstGlobal node = links->face[f].first - mesh->first_node;
+        if (node >= 0 && node < mesh->owned_nodes) {
+            const OstLocal own = of->lowest ? of->lowest[node] : 0;
+            add_face(&links->face[f], &frames[own], &of_supports[own]);
+        }
+    }
+}
+
 static int starts_pair(const NodeComponents *of, OstLocal m)
 {
     return m == 0 || of->meeting[m].low != of->meeting[m - 1].low ||
@@ -265,14 +344,22 @@ static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, con
     NodeComponents of = {0};
     SupportConditions *of_supports = NULL;
     BedConditions *of_beds = NULL;
+    OstLocal *leading = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(find_meetings(mesh, components, &of));
+    if (supports->links) {
+        OST_TRY_DONE(find_leading(mesh, supports->links, &of, &leading));
+        OST_TRY_DONE(meet_at_links(mesh, supports->links, leading, &of));
+    }
     OST_TRY_DONE(OST_NEW(mesh->ctx, &of_supports, components->count));
     if (supports->bed)
         OST_TRY_DONE(OST_NEW(mesh->ctx, &of_beds, components->count));
     OST_TRY_DONE(collect_supports(mesh, supports, &of, frames, of_supports, of_beds));
+    if (supports->links)
+        add_links(mesh, supports->links, leading, &of, frames, of_supports);
     OST_TRY_DONE(list_ties(mesh, components, &of, frames, of_supports, of_beds, ties));
 done:
+    OST_FREE(leading);
     OST_FREE(of_beds);
     OST_FREE(of_supports);
     OST_FREE(of.lowest);

@@ -146,7 +146,7 @@ OstStatus ost_rigid_motion_of_tets(const OstMesh *mesh, const OstMaterialField *
 typedef struct Rows {
     const OstSystem *system;
     const double *modes;
-    unsigned char *supported; /* nodes with a spring, and nodes of tets with a constrained node */
+    unsigned char *supported; /* nodes with a spring, leaders, and nodes of tets with a constrained node or follower */
     double *motion;           /* 3 × columns */
     double span;              /* longest arm of a rotation, over all ranks */
 } Rows;
@@ -159,10 +159,12 @@ static void mark_supported(const OstSystem *system, unsigned char *supported)
         const OstLocal *nodes = mesh->tet_nodes + n * (size_t)tet;
         int touched = 0;
         for (size_t a = 0; a < n; a++)
-            touched |= system->supports->index[nodes[a]] >= 0;
+            touched |= system->supports->index[nodes[a]] >= 0 || ost_link_of(system->supports->links, nodes[a]);
         for (size_t a = 0; a < n && touched; a++)
             supported[nodes[a]] = 1;
     }
+    for (OstLocal node = 0; node < mesh->owned_nodes && system->supports->links; node++)
+        supported[node] |= system->supports->links->leads[node];
     for (OstLocal node = 0; node < mesh->owned_nodes && system->supports->spring; node++)
         for (size_t i = 0; i < 9; i++)
             supported[node] |= system->supports->spring[9 * (size_t)node + i] != 0.0;

@@ -150,6 +150,7 @@ int ost_axes_vary(const OstAxesSpec *spec)
     case OST_AXES_CURVE:
     case OST_AXES_CELLS:
     case OST_AXES_GRADIENT:
+    case OST_AXES_FIELD:
         return 1;
     }
     return 0;
@@ -219,10 +220,51 @@ OstStatus ost_axes_at(OstContext *ctx, const OstAxesSpec *spec, const double poi
         return curve_axes(ctx, spec, point, axes);
     case OST_AXES_CELLS:
     case OST_AXES_GRADIENT:
+    case OST_AXES_FIELD:
         break;
     }
     return OST_RAISE(ctx, OST_INVALID_INPUT,
                      "axes given by tet or by gradients have no formula to evaluate at a point");
+}
+
+/* The world axis that is least along d. */
+static void any_other(const double d[3], double other[3])
+{
+    int least = 0;
+    for (int i = 0; i < 3; i++) {
+        other[i] = 0.0;
+        least = fabs(d[i]) < fabs(d[least]) ? i : least;
+    }
+    other[least] = 1.0;
+}
+
+OstStatus ost_axes_from_directions(OstContext *ctx, const int along[2], const double d1[3], const double *d2,
+                                   double axes[9])
+{
+    double frame[9];
+    const double length1 = ost_norm3(d1), length2 = d2 ? ost_norm3(d2) : 1.0;
+    const int first = along[0], second = !d2 ? (first + 1) % 3 : along[1] == first ? 1 : along[1];
+    OstCylindricalDirection order[3];
+    if (!(length1 > 0.0) || !isfinite(length1) || !(length2 > 0.0) || !isfinite(length2))
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "the direction (%g, %g, %g) is zero or not finite, and gives no axis",
+                         length1 > 0.0 && isfinite(length1) ? d2[0] : d1[0],
+                         length1 > 0.0 && isfinite(length1) ? d2[1] : d1[1],
+                         length1 > 0.0 && isfinite(length1) ? d2[2] : d1[2]);
+    memcpy(frame, d1, 3 * sizeof *frame);
+    ost_normalise3(frame);
+    if (d2)
+        memcpy(frame + 3, d2, 3 * sizeof *frame);
+    else
+        any_other(frame, frame + 3);
+    if (!(ost_make_orthogonal3(frame, frame + 3) > vanishing * length2))
+        return OST_RAISE(ctx, OST_INVALID_INPUT,
+                         "the directions (%g, %g, %g) and (%g, %g, %g) are parallel, and give one axis only", d1[0],
+                         d1[1], d1[2], d2 ? d2[0] : 0.0, d2 ? d2[1] : 0.0, d2 ? d2[2] : 0.0);
+    ost_complete_frame(frame);
+    order[first] = OST_AXIAL;
+    order[second] = OST_RADIAL;
+    order[3 - first - second] = OST_TANGENTIAL;
+    return ost_frame_in_order(ctx, order, frame, axes);
 }
 
 OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const double g2[3], double axes[9])

@@ -19,6 +19,23 @@ void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double sti
         ost_material_rotate_stiffness(field->material[region].stiffness, field->tet_axes + 9 * (size_t)tet, stiffness);
     else
         memcpy(stiffness, field->region_stiffness + 36 * (size_t)region, 36 * sizeof(double));
+    for (int i = 0; i < 36 && field->tet_scale; i++)
+        stiffness[i] *= field->tet_scale[tet];
+}
+
+OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const double *factors)
+{
+    OST_FREE(field->tet_scale);
+    if (!factors)
+        return OST_SUCCESS;
+    for (OstLocal t = 0; t < tet_count; t++)
+        if (!(factors[t] > 0.0) || !isfinite(factors[t]))
+            return OST_RAISE(field->ctx, OST_INVALID_INPUT, "factor %lld of the stiffness is %g, expected one above 0",
+                             (long long)t, factors[t]);
+    OST_TRY(OST_NEW(field->ctx, &field->tet_scale, tet_count));
+    if (tet_count > 0)
+        memcpy(field->tet_scale, factors, (size_t)tet_count * sizeof *factors);
+    return OST_SUCCESS;
 }
 
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
@@ -60,6 +77,14 @@ void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double
         ost_axes_formula_at(field->region_formula[region], point, axes) == OST_SUCCESS)
         return;
     ost_field_axes(field, tet, axes);
+}
+
+int ost_field_has_strengths(const OstMaterialField *field)
+{
+    int some = 0;
+    for (int r = 0; r < field->region_count; r++)
+        some |= field->material[r].strength.known;
+    return some;
 }
 
 double ost_field_density(const OstMaterialField *field, OstLocal tet)
@@ -318,6 +343,7 @@ void ost_field_destroy(OstMaterialField **field)
         return;
     destroy_formulas(*field);
     forget_split(*field);
+    OST_FREE((*field)->tet_scale);
     OST_FREE((*field)->region_eigenstrain);
     OST_FREE((*field)->tet_eigenstrain);
     OST_FREE((*field)->material);

@@ -25,9 +25,17 @@ struct OstMaterialField {
     double *region_stiff_mode;
     double *region_rest; /* region_count × 36: the rest of C in material axes; NULL if no C is split */
 
+    double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
+
     double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
     double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
+
+/* Local. The factor of a tet's stiffness. */
+static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
+{
+    return field->tet_scale ? field->tet_scale[tet] : 1.0;
+}
 
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);
@@ -49,6 +57,9 @@ int ost_field_has_formula(const OstMaterialField *field, int32_t region);
 /* Local. Axes at a point of a tet by the formula; the tet's own axes if there is no formula, or where it is not defined
  * (on a cylinder's axis). */
 void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double point[3], double axes[9]);
+
+/* Local. Does any material have strengths? */
+int ost_field_has_strengths(const OstMaterialField *field);
 
 /* Local. Density of a tet. */
 double ost_field_density(const OstMaterialField *field, OstLocal tet);

@@ -75,7 +75,7 @@ static int same(double a, double b)
 }
 
 /* Equally stiff in all directions of the plane across e_axis: constants of eq. 19 and 20, in the order 12, 23, 31. */
-static int is_transverse_about(const OstOrthotropic *k, int axis)
+int ost_orthotropic_is_transverse(const OstOrthotropic *k, int axis)
 {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3; /* nu and G of a: a with b; of b: b with the axis */
     const double *e = k->youngs_modulus, *nu = k->poissons_ratio, *g = k->shear_modulus;
@@ -95,7 +95,7 @@ void ost_orthotropic_words(const OstOrthotropic *constants, char text[OST_MODULI
         snprintf(text, OST_MODULI_WORDS, "E = %.6g along e1, e2 and e3", e[0]);
     else
         snprintf(text, OST_MODULI_WORDS, "E = %.6g along e%d%s, %.6g along e%d and e%d", e[odd], odd + 1,
-                 is_transverse_about(constants, odd) ? " (the axis)" : "", e[(odd + 1) % 3], odd == 0 ? 2 : 1,
+                 ost_orthotropic_is_transverse(constants, odd) ? " (the axis)" : "", e[(odd + 1) % 3], odd == 0 ? 2 : 1,
                  odd == 2 ? 2 : 3);
 }
 

@@ -25,6 +25,20 @@ typedef struct OstLabelRange {
 } OstLabelRange;
 #define OST_LARGEST_LABEL INT64_C(999999999999999999)
 
+/* Fields of a mesh file that somebody asked for: their columns in a table of the tets, field i from first[i] to
+ * first[i + 1]. */
+enum { OST_MOST_TET_FIELDS = 8 };
+typedef struct OstTetFields {
+    int count;
+    int first[OST_MOST_TET_FIELDS + 1];
+} OstTetFields;
+
+/* Columns of all of them. */
+static inline int ost_tet_fields_width(const OstTetFields *fields)
+{
+    return fields->first[fields->count];
+}
+
 /* This rank's share of a mesh before it is partitioned. Numbers are global, from 0; the ranks' ranges are contiguous. A
  * reader of a serial format gives everything to rank 0. Every rank has the same list of boundaries, in the same order,
  * with its share of their items. */
@@ -41,8 +55,8 @@ struct OstMeshChunk {
     int relabelled;        /* the file's numbers of tets were no use, and were replaced */
     int32_t *tet_region;   /* index into regions */
     double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
-    double *tet_field;     /* NULL, or tet_count × field_width: a field of the file that somebody asked for */
-    int field_width;       /* the same on all ranks; 0 without a field */
+    double *tet_field;     /* NULL, or tet_count × the columns of the fields */
+    OstTetFields fields;   /* the same on all ranks */
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
@@ -67,8 +81,8 @@ struct OstMesh {
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */
     double *tet_axes;       /* NULL, or tet_count × 9 */
-    double *tet_field;      /* NULL, or tet_count × field_width: as in the chunk; children have that of their parent */
-    int field_width;
+    double *tet_field;      /* NULL, or tet_count × the columns: as in the chunk; children have that of their parent */
+    OstTetFields fields;
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;

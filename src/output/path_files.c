@@ -3,18 +3,15 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/memory.h"
 #include "core/write_aside.h"
+#include "formats/serial/output_array.h"
+#include "output/series.h"
 #include "output/summary.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* The output file's name without its ending. */
-static int stem_length(const char *output)
-{
-    return (int)(strlen(output) - strlen(".vtkhdf"));
-}
 
 void ost_path_file_name(const char *output, OstPathFile which, size_t size, char *name)
 {
@@ -23,30 +20,45 @@ void ost_path_file_name(const char *output, OstPathFile which, size_t size, char
         [OST_PATH_HISTORY] = "_history.csv",
         [OST_PATH_CHECKPOINT] = ".checkpoint",
     };
-    snprintf(name, size, "%.*s%s", stem_length(output), output, ending[which]);
+    size_t stem;
+    const int is_xml = ost_result_form(output, &stem) != OST_RESULT_VTKHDF;
+    snprintf(name, size, "%.*s%s", (int)stem, output, is_xml && which == OST_PATH_SERIES ? ".pvd" : ending[which]);
 }
 
 void ost_path_step_name(const char *output, int step, size_t size, char *name)
 {
-    snprintf(name, size, "%.*s_%04d.vtkhdf", stem_length(output), output, step);
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(name, size, "%.*s_%04d%s", (int)stem, output, step, output + stem);
+}
+
+/* --- the list of files --- */
+
+static OstStatus write_series(OstContext *ctx, OstPath *path, const char *output, OstSeriesFile *files, char *names)
+{
+    const size_t length = strlen(output) + 16;
+    char list[4096];
+    for (int i = 0; i < ost_path_done(path); i++) {
+        char *name = names + (size_t)i * length;
+        ost_path_step_name(output, i + 1, length, name);
+        files[i] = (OstSeriesFile){name, ost_path_step(path, i)->t};
+    }
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
+    return ost_series_write(ctx, list, ost_path_done(path), files);
 }
 
 OstStatus ost_path_write_series(OstContext *ctx, OstPath *path, const char *output)
 {
-    char name[4096];
+    OstSeriesFile *files = NULL;
+    char *names = NULL;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
-    json_t *files = json_array();
-    for (int i = 0; i < ost_path_done(path); i++) {
-        ost_path_step_name(output, i + 1, sizeof name, name);
-        const char *slash = strrchr(name, '/'); /* found beside the list */
-        json_array_append_new(files, json_pack("{s:o, s:f}", "name", ost_json_text(slash ? slash + 1 : name), "time",
-                                               ost_path_step(path, i)->t));
-    }
-    json_t *document = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof name, name);
-    return document ? ost_json_write(ctx, document, name)
-                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", name);
+    OstStatus status = OST_NEW(ctx, &files, ost_path_done(path));
+    OST_THEN(OST_NEW(ctx, &names, (size_t)ost_path_done(path) * (strlen(output) + 16)));
+    OST_THEN(write_series(ctx, path, output, files, names));
+    OST_FREE(files);
+    OST_FREE(names);
+    return status;
 }
 
 /* --- the history --- */
@@ -65,13 +77,11 @@ static int is_followed(const OstCase *c, int function)
     for (int i = 0; i < c->load_count; i++)
         followed |= c->loads[i].table == function;
     for (int i = 0; i < c->constraint_count; i++)
-        for (int k = 0; k < 3; k++)
-            followed |= c->constraints[i].table == function && c->constraints[i].displacement[k] != 0.0;
+        followed |= c->constraints[i].table == function && ost_constraint_moves(&c->constraints[i]);
     return followed;
 }
 
-/* In quotes; quotes within the text are doubled. */
-static void write_name(FILE *file, const char *text)
+void ost_csv_write_name(FILE *file, const char *text)
 {
     fputs(",\"", file);
     for (; *text; text++) {
@@ -101,7 +111,7 @@ static void write_heading(FILE *file, const OstCase *c)
             fputs(",load_factor", file);
     fputs(",largest_displacement,strain_energy,newton_iterations,load_steps,iterations", file);
     for (int w = 0; w < c->watch_count; w++)
-        write_name(file, c->watches[w].name);
+        ost_csv_write_name(file, c->watches[w].name);
     fputc('\n', file);
 }
 

@@ -6,12 +6,14 @@
 #include "problem/scene_data.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 /* The files of a path stand beside each other: for bar.vtkhdf, bar_0001.vtkhdf and so on, one for each step;
- * bar.hdf.series, which lists them with their times; bar_history.csv; and bar.checkpoint. */
+ * bar.hdf.series, which lists them with their times (of bar.vtu and bar.pvtu: bar.pvd); bar_history.csv; and
+ * bar.checkpoint. */
 typedef enum { OST_PATH_SERIES, OST_PATH_HISTORY, OST_PATH_CHECKPOINT, OST_PATH_FILES } OstPathFile;
 
-/* Local. Their names, by the name of the case's output file, which ends with .vtkhdf. Steps count from 1. */
+/* Local. Their names, by the name of the case's output file. Steps count from 1. */
 void ost_path_file_name(const char *output, OstPathFile which, size_t size, char *name);
 void ost_path_step_name(const char *output, int step, size_t size, char *name);
 
@@ -22,6 +24,9 @@ OstStatus ost_path_write_history(const OstScene *scene, OstPath *path, const cha
 
 /* Local; only rank 0 prints. The steps done, as a table. */
 void ost_path_print(const OstScene *scene, OstPath *path, const char *output);
+
+/* Local. A comma, and a text in quotes, in which quotes are doubled. */
+void ost_csv_write_name(FILE *file, const char *text);
 
 /* Local. The same as a list of objects; the caller's reference, NULL if jansson fails. */
 struct json_t;

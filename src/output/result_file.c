@@ -2,105 +2,187 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
+#include "fields/output_field.h"
 #include "formats/vtkhdf/vtkhdf.h"
+#include "formats/vtu/vtu.h"
 #include "problem/scene_data.h"
+#include "recovery/derived.h"
 
 #include <string.h>
-
-static const char *const field_word[OST_FIELD_COUNT] = {
-#define OST_FIELD_WORD(name, word) word,
-    OST_OUTPUT_FIELD_TABLE(OST_FIELD_WORD)
-#undef OST_FIELD_WORD
-};
 
 const char *ost_result_status(const OstResult *result)
 {
     return result->verdict.count == 0 ? "accepted" : result->unfinished ? "unfinished" : "refused";
 }
 
-/* Fields that are made for the file alone; NULL: not asked for, or the body does not have it. */
-typedef struct Made {
-    double *load;   /* 3 × node_count */
-    double *axes;   /* 9 × owned_tets */
-    double *strain; /* 6 × owned_tets */
-    int32_t *rank;  /* owned_tets */
-} Made;
+/* The arrays of a file, and those of them that are made for it alone. */
+typedef struct Arrays {
+    int count;
+    OstOutputArray array[OST_FIELD_COUNT];
+    void *made[OST_FIELD_COUNT]; /* or NULL */
+} Arrays;
 
-static OstStatus make_room(const OstResult *result, unsigned fields, Made *made)
+/* What the result has of a field that is not made for the file; NULL: it was not recovered. */
+static const void *values_of(const OstResult *result, OstOutputFieldBit field)
+{
+    switch (field) {
+    case OST_FIELD_DISPLACEMENT:
+        return result->displacement;
+    case OST_FIELD_REACTION:
+        return result->reaction;
+    case OST_FIELD_STRESS:
+        return result->stress;
+    case OST_FIELD_NODE_STRESS:
+        return result->node_stress;
+    case OST_FIELD_ENERGY:
+        return result->strain_energy_density;
+    case OST_FIELD_REGION:
+        return result->mesh->tet_region;
+    case OST_FIELD_ERROR:
+        return result->tet_error;
+    default:
+        return NULL;
+    }
+}
+
+/* --- fields that are made for the file --- */
+
+static int is_made(const OstResult *result, OstOutputFieldBit field)
+{
+    switch (field) {
+    case OST_FIELD_LOAD:
+        return result->force != NULL;
+    case OST_FIELD_AXES:
+        return result->field->region_axes || result->field->tet_axes;
+    case OST_FIELD_STRAIN:
+        return result->strain != NULL;
+    case OST_FIELD_RANK:
+        return 1;
+    default:
+        return ost_output_field(field).is_derived && ost_result_can_derive(result, field);
+    }
+}
+
+static void make_strain(const OstResult *result, double *strain)
+{
+    for (size_t i = 0; i < 6 * (size_t)result->mesh->owned_tets; i++) /* readers take six components for a tensor's */
+        strain[i] = (i % 6 < 3 ? 1.0 : 0.5) * result->strain[i];
+}
+
+/* Local, and of the loads the owned nodes alone. */
+static OstStatus make_values(const OstResult *result, OstOutputFieldBit field, void *values)
+{
+    const OstMesh *mesh = result->mesh;
+    switch (field) {
+    case OST_FIELD_LOAD:
+        if (mesh->owned_nodes > 0)
+            memcpy(values, result->force, 3 * (size_t)mesh->owned_nodes * sizeof(double));
+        return OST_SUCCESS;
+    case OST_FIELD_AXES:
+        for (OstLocal t = 0; t < mesh->owned_tets; t++)
+            ost_field_axes(result->field, t, (double *)values + 9 * (size_t)t);
+        return OST_SUCCESS;
+    case OST_FIELD_STRAIN:
+        make_strain(result, values);
+        return OST_SUCCESS;
+    case OST_FIELD_RANK:
+        for (OstLocal t = 0; t < mesh->owned_tets; t++)
+            ((int32_t *)values)[t] = ost_rank(result->ctx);
+        return OST_SUCCESS;
+    default:
+        return ost_result_derive(result, field, values);
+    }
+}
+
+static OstStatus make_room(const OstResult *result, const OstOutputField *about, void **values)
+{
+    const size_t rows = (size_t)(about->centring == OST_ON_NODES ? result->mesh->node_count : result->mesh->owned_tets);
+    const OstOutputArray row = {about->word, about->centring, about->type, about->components, NULL};
+    return ost_allocate(result->ctx, rows, ost_output_row_bytes(&row), values);
+}
+
+/* What follows from others is work of the same effect. */
+static OstStatus make(const OstResult *result, OstOutputFieldBit field, void **values)
 {
     OstContext *ctx = result->ctx;
+    const OstOutputField about = ost_output_field(field);
+    if (about.is_derived)
+        ost_ledger_enter(ctx, 1U << field & OST_LOAD_FACTORS ? OST_EFFECT_STRENGTH : OST_EFFECT_RECOVERY);
+    OstStatus status = make_room(result, &about, values);
+    OST_THEN(make_values(result, field, *values));
+    if (about.is_derived)
+        ost_ledger_leave(ctx);
+    status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS && field == OST_FIELD_LOAD)
+        status = ost_halo_import(result->mesh->halo, 3 * sizeof(double), *values);
+    return status;
+}
+
+OstStatus ost_result_field(const OstResult *result, OstOutputFieldBit field, OstFieldValues *found)
+{
+    const OstOutputField about = ost_output_field(field);
     const OstMesh *mesh = result->mesh;
-    if (fields >> OST_FIELD_LOAD & 1U && result->force)
-        OST_TRY(OST_NEW(ctx, &made->load, 3 * (size_t)mesh->node_count));
-    if (fields >> OST_FIELD_AXES & 1U && (result->field->region_axes || result->field->tet_axes))
-        OST_TRY(OST_NEW(ctx, &made->axes, 9 * (size_t)mesh->owned_tets));
-    if (fields >> OST_FIELD_STRAIN & 1U && result->strain)
-        OST_TRY(OST_NEW(ctx, &made->strain, 6 * (size_t)mesh->owned_tets));
-    if (fields >> OST_FIELD_RANK & 1U)
-        OST_TRY(OST_NEW(ctx, &made->rank, mesh->owned_tets));
+    *found = (OstFieldValues){.unit = about.unit,
+                              .description = about.description,
+                              .component_names = about.component_names,
+                              .components = about.components,
+                              .is_integer = about.type == OST_VALUES_INT32,
+                              .rows = about.centring == OST_ON_NODES ? mesh->node_count : mesh->owned_tets,
+                              .values = (void *)values_of(result, field)};
+    if (found->values || !is_made(result, field))
+        return OST_SUCCESS;
+    const OstStatus status = make(result, field, &found->values);
+    found->is_made = status == OST_SUCCESS;
+    if (status != OST_SUCCESS)
+        OST_FREE(found->values);
+    return status;
+}
+
+static OstStatus list_arrays(const OstResult *result, unsigned fields, Arrays *arrays)
+{
+    for (int f = 0; f < OST_FIELD_COUNT; f++) {
+        const OstOutputField about = ost_output_field((OstOutputFieldBit)f);
+        const void *values = values_of(result, (OstOutputFieldBit)f);
+        if (!(fields >> f & 1U) || !(values || is_made(result, (OstOutputFieldBit)f)))
+            continue;
+        if (!values)
+            OST_TRY(make(result, (OstOutputFieldBit)f, &arrays->made[f]));
+        arrays->array[arrays->count++] = (OstOutputArray){about.word, about.centring, about.type, about.components,
+                                                          values ? values : arrays->made[f]};
+    }
     return OST_SUCCESS;
 }
 
-static OstStatus make_fields(const OstResult *result, unsigned fields, Made *made)
+/* --- the file --- */
+
+static OstStatus write_file(const OstResult *result, const char *path, const Arrays *arrays)
 {
-    OstContext *ctx = result->ctx;
-    const OstMesh *mesh = result->mesh;
-    OST_TRY(ost_agree(ctx, make_room(result, fields, made)));
-    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
-        if (made->axes)
-            ost_field_axes(result->field, t, made->axes + 9 * (size_t)t);
-        for (size_t p = 0; made->strain && p < 6; p++) /* what reads six components takes them for those of a tensor */
-            made->strain[6 * (size_t)t + p] = (p < 3 ? 1.0 : 0.5) * result->strain[6 * (size_t)t + p];
-        if (made->rank)
-            made->rank[t] = ost_rank(ctx);
-    }
-    if (!(fields >> OST_FIELD_LOAD & 1U) || !result->force)
-        return OST_SUCCESS;
-    if (mesh->owned_nodes > 0)
-        memcpy(made->load, result->force, 3 * (size_t)mesh->owned_nodes * sizeof *made->load);
-    return ost_halo_import(mesh->halo, 3 * sizeof *made->load, made->load);
+    static OstStatus (*const write[OST_RESULT_FORMS])(OstContext *, const char *, const OstMesh *, int,
+                                                      const OstOutputArray *, const OstOutputMark *) = {
+        [OST_RESULT_VTKHDF] = ost_vtkhdf_write, [OST_RESULT_VTU] = ost_vtu_write, [OST_RESULT_PVTU] = ost_pvtu_write};
+    const OstVerdict *objections = &result->verdict;
+    char *reasons[OST_MOST_OBJECTIONS];
+    const OstOutputMark mark = {ost_result_status(result), result->unfinished, objections->count, reasons};
+    size_t stem;
+    const OstResultForm form = ost_result_form(path, &stem);
+    for (int i = 0; i < objections->count; i++)
+        reasons[i] = (char *)objections->text[i];
+    if (form == OST_RESULT_FORMS)
+        return OST_RAISE(result->ctx, OST_INVALID_USAGE,
+                         "'%s' does not end with " OST_RESULT_ENDINGS ", which a file of fields must", path);
+    return write[form](result->ctx, path, result->mesh, arrays->count, arrays->array,
+                       objections->count > 0 ? &mark : NULL);
 }
 
 OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path)
 {
     OstContext *ctx = result->ctx;
-    const OstMesh *mesh = result->mesh;
-    const OstVerdict *objections = &result->verdict;
-    Made made = {NULL};
-    char *reasons[OST_MOST_OBJECTIONS];
-    const OstOutputMark mark = {ost_result_status(result), result->unfinished, objections->count, reasons};
-    OstOutputArray arrays[OST_FIELD_COUNT];
-    int count = 0;
-    OstStatus status = OST_SUCCESS;
+    Arrays arrays = {0};
     ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
-    for (int i = 0; i < objections->count; i++)
-        reasons[i] = (char *)objections->text[i];
-    OST_TRY_DONE(make_fields(result, fields, &made));
-    /* Fields without values were not recovered, or the body does not have them. */
-    const OstOutputArray all[OST_FIELD_COUNT] = {
-        [OST_FIELD_DISPLACEMENT] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->displacement},
-        [OST_FIELD_REACTION] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, result->reaction},
-        [OST_FIELD_LOAD] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, made.load},
-        [OST_FIELD_STRESS] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 6, result->stress},
-        [OST_FIELD_NODE_STRESS] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 6, result->node_stress},
-        [OST_FIELD_STRAIN] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 6, made.strain},
-        [OST_FIELD_ENERGY] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 1, result->strain_energy_density},
-        [OST_FIELD_AXES] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 9, made.axes},
-        [OST_FIELD_REGION] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, mesh->tet_region},
-        [OST_FIELD_ERROR] = {NULL, OST_ON_TETS, OST_VALUES_DOUBLE, 1, result->tet_error},
-        [OST_FIELD_RANK] = {NULL, OST_ON_TETS, OST_VALUES_INT32, 1, made.rank},
-    };
+    OstStatus status = list_arrays(result, fields, &arrays);
+    OST_THEN(write_file(result, path, &arrays));
     for (int f = 0; f < OST_FIELD_COUNT; f++)
-        if (fields >> f & 1U && all[f].values) {
-            arrays[count] = all[f];
-            arrays[count++].name = field_word[f];
-        }
-    status = ost_vtkhdf_write(ctx, path, mesh, count, arrays, objections->count > 0 ? &mark : NULL);
-done:
-    OST_FREE(made.load);
-    OST_FREE(made.axes);
-    OST_FREE(made.strain);
-    OST_FREE(made.rank);
+        OST_FREE(arrays.made[f]);
     ost_ledger_leave(ctx);
     return status;
 }

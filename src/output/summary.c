@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "output/summary.h"
 
+#include "output/probe_files.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -206,6 +208,34 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
         printf("                   %.6g of the load is reached\n", newton->reached);
 }
 
+static const char *const criterion_word[OST_CRITERIA] = {
+    [OST_TSAI_WU] = "Tsai-Wu", [OST_HILL] = "Hill", [OST_MAXIMUM_STRESS] = "maximum stress"};
+
+/* How much the load may grow, and where the body then fails. */
+static void print_failure(const OstResult *result)
+{
+    const OstFailure *failure = &result->failure;
+    for (int c = 0; failure->known && c < OST_CRITERIA; c++) {
+        const OstLeastFactor *least = &failure->least[c];
+        printf("  %-16s %s: ", c == 0 ? "strength" : "", criterion_word[c]);
+        if (least->factor < OST_MOST_LOAD_FACTOR)
+            printf("fails at %.5g of the load, in tet %lld of region '%s' at (%.6g, %.6g, %.6g)\n", least->factor,
+                   (long long)least->tet, result->mesh->regions.name[least->region], least->place[0], least->place[1],
+                   least->place[2]);
+        else
+            printf("fails nowhere, however much the load grows\n");
+    }
+}
+
+static void print_probes(const OstScene *scene, const char *file)
+{
+    char name[4096];
+    for (int p = 0; file && p < scene->c->probe_count; p++) {
+        ost_probe_file_name(file, &scene->c->probes[p], sizeof name, name);
+        printf("  %-16s %s\n", p == 0 ? "probes" : "", name);
+    }
+}
+
 void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file)
 {
     if (ost_rank(scene->ctx) != 0)
@@ -228,11 +258,13 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     print_errors(&result->answer, checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
+    print_failure(result);
     for (int w = 0; w < OST_WARNINGS; w++)
         if (ost_result_warning(result, w, warning))
             printf("  %-16s %s\n", "WARNING", warning);
     for (int i = 0; i < result->verdict.count; i++)
         printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
+    print_probes(scene, file);
     if (file)
         printf("  written to       %s%s%s\n", file, result->verdict.count > 0 ? ", marked as " : "",
                result->verdict.count > 0 ? ost_result_status(result) : "");

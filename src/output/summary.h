@@ -34,6 +34,13 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
                                  const OstLedgerSummary *summary, const OstWatchedValue *watched, const char *file,
                                  const OstAdaption *adaption, const char *to);
 
+/* Local. The objects in it: the whole, without the ledger where `summary` is NULL; and the ledger, with products over
+ * so many nonzeros of the stiffness (0: not known). The caller's references, NULL if jansson fails. */
+struct json_t;
+struct json_t *ost_summary_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
+                                const OstWatchedValue *watched, const char *file);
+struct json_t *ost_ledger_json(const OstContext *ctx, double nonzeros, const OstLedgerSummary *summary);
+
 /* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, tets turned
  * inside out, a jump, a coarse mesh. Returns 0, and leaves the text empty, where the one of this number (below
  * OST_WARNINGS) has no cause. */
@@ -45,7 +52,6 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
 
 /* Local. The effects of a scene as a list of {effect, on, reason, bytes}, the bytes as predicted; the caller's
  * reference, NULL if jansson fails. */
-struct json_t;
 struct json_t *ost_effects_json(const OstEffects *effects);
 
 /* Local. The reasons of the solver's plan as a list of strings; likewise. */

@@ -85,6 +85,25 @@ static json_t *answer_error_json(const OstResult *result)
                      ost_json_number(answer->region_share), "worst_place", vector_json(answer->place));
 }
 
+/* The least load factors; null: no material has strengths. A factor is null where nothing fails. */
+static json_t *strength_json(const OstResult *result)
+{
+    static const char *const word[OST_CRITERIA] = {
+        [OST_TSAI_WU] = "tsai_wu", [OST_HILL] = "hill", [OST_MAXIMUM_STRESS] = "maximum_stress"};
+    json_t *criteria = result->failure.known ? json_object() : json_null();
+    for (int c = 0; c < OST_CRITERIA && result->failure.known; c++) {
+        const OstLeastFactor *least = &result->failure.least[c];
+        const int fails = least->factor < OST_MOST_LOAD_FACTOR;
+        json_object_set_new(criteria, word[c],
+                            json_pack("{s:o, s:o, s:s, s:o}", "load_factor",
+                                      fails ? ost_json_number(least->factor) : json_null(), "tet",
+                                      fails ? json_integer(least->tet) : json_null(), "region",
+                                      result->mesh->regions.name[least->region], "place",
+                                      fails ? vector_json(least->place) : json_null()));
+    }
+    return criteria;
+}
+
 static json_t *large_rotation_json(const OstNewtonReport *newton)
 {
     if (!newton->judged)
@@ -121,31 +140,30 @@ static json_t *objections_json(const OstVerdict *objections)
 }
 
 /* Multiplied entries of matrices as products with the stiffness. */
-static json_t *products_json(const OstResult *result, double multiplied)
+static json_t *products_json(double nonzeros, double multiplied)
 {
-    return result->solve.nonzeros > 0.0 ? json_real(multiplied / result->solve.nonzeros) : json_null();
+    return nonzeros > 0.0 ? json_real(multiplied / nonzeros) : json_null();
 }
 
-static json_t *account_json(const OstContext *ctx, const OstResult *result, const OstLedgerSummary *summary,
-                            OstAccount account)
+static json_t *account_json(const OstContext *ctx, double nonzeros, const OstLedgerSummary *summary, OstAccount account)
 {
     return json_pack("{s:s, s:b, s:f, s:f, s:I, s:o}", "name", ost_ledger_label(ctx, account), "effect",
                      account >= OST_LEDGER_PHASES, "seconds", summary->seconds[account], "bytes",
                      summary->peak_bytes[account], "entries", (json_int_t)summary->entries[account], "products",
-                     products_json(result, summary->multiplied[account]));
+                     products_json(nonzeros, summary->multiplied[account]));
 }
 
-static json_t *ledger_json(const OstContext *ctx, const OstResult *result, const OstLedgerSummary *summary)
+json_t *ost_ledger_json(const OstContext *ctx, double nonzeros, const OstLedgerSummary *summary)
 {
     json_t *accounts = json_array();
     double multiplied = 0.0;
     for (int a = 0; a < OST_EFFECT_END; a++) {
-        json_array_append_new(accounts, account_json(ctx, result, summary, a));
+        json_array_append_new(accounts, account_json(ctx, nonzeros, summary, a));
         multiplied += summary->multiplied[a];
     }
     return json_pack("{s:o, s:f, s:f, s:f, s:o}", "accounts", accounts, "total_seconds", summary->total_seconds,
                      "peak_bytes", summary->peak_tracked_bytes, "peak_process_bytes", summary->peak_process_bytes,
-                     "products", products_json(result, multiplied));
+                     "products", products_json(nonzeros, multiplied));
 }
 
 json_t *ost_effects_json(const OstEffects *effects)
@@ -165,18 +183,19 @@ static json_t *watched_json(const OstWatchedValue *watched, int count)
     for (int w = 0; w < count; w++)
         json_object_set_new(
             values, watched[w].name,
-            json_pack("{s:o, s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
+            json_pack("{s:o, s:o, s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
                       ost_json_number(watched[w].expected), "error", ost_json_number(watched[w].error), "corrected",
-                      ost_json_number(watched[w].by_adjoint ? watched[w].value + watched[w].error : NAN)));
+                      ost_json_number(watched[w].by_adjoint ? watched[w].value + watched[w].error : NAN), "place",
+                      watched[w].placed ? vector_json(watched[w].place) : json_null()));
     return values;
 }
 
-static json_t *run_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
-                        const OstWatchedValue *watched, const char *file)
+json_t *ost_summary_json(const OstScene *scene, const OstResult *result, const OstLedgerSummary *summary,
+                         const OstWatchedValue *watched, const char *file)
 {
     const OstMesh *mesh = result->mesh;
     return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?}",
+        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:s?, s:o}",
         "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
         ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
         warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
@@ -185,7 +204,8 @@ static json_t *run_json(const OstScene *scene, const OstResult *result, const Os
         checks_json(&result->checks), "answer_error", answer_error_json(result), "largest_displacement",
         ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
         watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
-        ledger_json(scene->ctx, result, summary), "output", file);
+        summary ? ost_ledger_json(scene->ctx, result->solve.nonzeros, summary) : NULL, "output", file, "strength",
+        strength_json(result));
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,
@@ -195,7 +215,7 @@ OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result,
     OstContext *ctx = scene->ctx;
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
-    json_t *document = run_json(scene, result, summary, watched, file);
+    json_t *document = ost_summary_json(scene, result, summary, watched, file);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED,
                          "the summary holds a number that is not finite, which JSON cannot hold");

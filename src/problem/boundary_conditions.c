@@ -8,6 +8,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
+#include "problem/scene_links.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -159,7 +160,9 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
     if (status == OST_SUCCESS)
         (*supports)->effects = &scene->plan.effects;
     for (int i = 0; i < scene->c->constraint_count && status == OST_SUCCESS; i++)
-        status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
+        if (!ost_constraint_links(&scene->c->constraints[i]))
+            status = add_constraint(scene, &scene->c->constraints[i], table, *supports);
+    OST_THEN(ost_scene_links(scene, table, *supports));
     for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
         status = add_spring(scene, &scene->c->springs[i], *supports);
     OST_THEN(ost_supports_complete(*supports));

@@ -9,8 +9,13 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "problem/row_geometry.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Accurate enough that the error of the axes does not limit that of the displacement. */
@@ -20,77 +25,51 @@ static const double potential_residual = 1e-10;
  * costs less than a matrix with 2×2 blocks. */
 static const int potential_of_component[3] = {0, 1, 0};
 
-static const OstGlobal none_shared = INT64_MAX;
+/* A gradient this small beside the region's mean is rounding; two directions this near to each other are one. */
+static const double negligible = 1e-6, parallel_sine = 1e-3;
 
-static OstStatus prescribe_potential(const OstScene *scene, const char *name, int potential, double value,
-                                     OstSupports *supports)
+/* What a boundary's vertices have of each potential: 0, 1, or, where its two boundaries touch, halfway. */
+static OstStatus mark_boundary(const OstScene *scene, OstPlace place, const char *name, double value, double *given)
 {
     OstLocal count = 0;
     OstLocal *nodes = NULL;
     char *names[1] = {(char *)name};
-    OstSelection boundary = {.kind = OST_SELECT_BOUNDARY, .boundaries = {1, names}, .tolerance = -1.0};
+    OstSelection boundary = {.kind = OST_SELECT_BOUNDARY, .place = place, .boundaries = {1, names}, .tolerance = -1.0};
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &boundary, &count, &nodes));
-    OstStatus status = OST_SUCCESS;
-    for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++) {
-        for (int component = 0; component < 3 && status == OST_SUCCESS; component++) {
-            if (potential_of_component[component] != potential || nodes[i] >= scene->mesh->owned_nodes)
-                continue;
-            double direction[3] = {0.0};
-            direction[component] = 1.0;
-            status = ost_supports_constrain(supports, nodes[i], direction, value);
-        }
-    }
+    for (OstLocal i = 0; i < count; i++)
+        given[nodes[i]] = isnan(given[nodes[i]]) || given[nodes[i]] == value ? value : 0.5;
     OST_FREE(nodes);
-    return ost_agree(scene->ctx, status);
-}
-
-/* The lowest label among the vertices in both boundaries, or none_shared. */
-static OstStatus find_shared(const OstScene *scene, OstPlace place, const OstAxesSpec *spec, int potential,
-                             OstGlobal *shared)
-{
-    const OstMesh *mesh = scene->mesh;
-    unsigned char *flags[2] = {NULL, NULL};
-    *shared = none_shared;
-    OstStatus status = OST_SUCCESS;
-    for (int side = 0; side < 2; side++) {
-        char *names[1] = {side == 0 ? spec->from[potential] : spec->to[potential]};
-        const OstSelection boundary = {
-            .kind = OST_SELECT_BOUNDARY, .place = place, .boundaries = {1, names}, .tolerance = -1.0};
-        OST_TRY_DONE(ost_select_flags(scene->c, mesh, &boundary, &flags[side]));
-    }
-    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        if (flags[0][n] && flags[1][n] && mesh->node_label[n] < *shared)
-            *shared = mesh->node_label[n];
-    status = OST_MPI(scene->ctx, MPI_Allreduce(MPI_IN_PLACE, shared, 1, MPI_INT64_T, MPI_MIN, ost_comm(scene->ctx)));
-done:
-    OST_FREE(flags[0]);
-    OST_FREE(flags[1]);
-    return status;
-}
-
-static OstStatus check_apart(const OstScene *scene, int region, const OstAxesSpec *spec)
-{
-    const OstPlace place = ost_case_material_of(scene->c, scene->mesh->regions.name[region])->axes_place;
-    for (int potential = 0; potential < 2; potential++) {
-        OstGlobal shared;
-        OST_TRY(find_shared(scene, place, spec, potential, &shared));
-        if (shared != none_shared)
-            return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                             "%s:%d:%d: gradient axes of region '%s', e%d: the boundaries '%s' and '%s' share vertex "
-                             "%lld; a potential needs two boundaries that do not touch",
-                             scene->c->path, place.line, place.column, scene->mesh->regions.name[region], potential + 1,
-                             spec->from[potential], spec->to[potential], (long long)shared);
-    }
     return OST_SUCCESS;
 }
 
-static OstStatus prescribe_potentials(const OstScene *scene, const OstAxesSpec *spec, OstSupports **supports)
+static OstStatus prescribe_potential(const OstScene *scene, const OstAxesSpec *spec, OstPlace place, int potential,
+                                     OstSupports *supports)
+{
+    const OstMesh *mesh = scene->mesh;
+    double *given = NULL;
+    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, &given, mesh->node_count));
+    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
+        given[n] = NAN;
+    const int source = spec->from[potential] ? potential : 0; /* one potential alone is solved for twice */
+    OST_THEN(mark_boundary(scene, place, spec->from[source], 0.0, given));
+    OST_THEN(mark_boundary(scene, place, spec->to[source], 1.0, given));
+    for (OstLocal n = 0; n < mesh->owned_nodes && status == OST_SUCCESS; n++)
+        for (int component = 0; component < 3 && status == OST_SUCCESS; component++) {
+            double direction[3] = {0.0};
+            direction[component] = 1.0;
+            if (potential_of_component[component] == potential && !isnan(given[n]))
+                status = ost_supports_constrain(supports, n, direction, given[n]);
+        }
+    OST_FREE(given);
+    return ost_agree(scene->ctx, status);
+}
+
+static OstStatus prescribe_potentials(const OstScene *scene, const OstAxesSpec *spec, OstPlace place,
+                                      OstSupports **supports)
 {
     OST_TRY(ost_agree(scene->ctx, ost_supports_create(scene->mesh, supports)));
-    for (int potential = 0; potential < 2; potential++) {
-        OST_TRY(prescribe_potential(scene, spec->from[potential], potential, 0.0, *supports));
-        OST_TRY(prescribe_potential(scene, spec->to[potential], potential, 1.0, *supports));
-    }
+    for (int potential = 0; potential < 2; potential++)
+        OST_TRY(prescribe_potential(scene, spec, place, potential, *supports));
     return ost_supports_complete(*supports);
 }
 
@@ -121,23 +100,145 @@ done:
     return status;
 }
 
-static OstStatus axes_from_potentials(const OstScene *scene, int region, const double *u, double *axes)
+/* --- from potentials to axes --- */
+
+/* Gradients of one potential, of each tet; 0 where it has none: all vertices of a tet may lie on one boundary. */
+typedef struct Slope {
+    double *of_tet;  /* tet_count × 3 */
+    double *of_node; /* node_count × 4: sum of the unit directions around it, and how many there are */
+} Slope;
+
+static void free_slope(Slope *slope)
+{
+    OST_FREE(slope->of_tet);
+    OST_FREE(slope->of_node);
+}
+
+/* Directions of length 1; what is rounding beside the mean gradient of the region is none. */
+static OstStatus find_slope(const OstScene *scene, int region, const double *u, int component, Slope *slope)
 {
     const OstMesh *mesh = scene->mesh;
+    double sum[2] = {0.0, 0.0};
+    OstStatus status = OST_NEW(scene->ctx, &slope->of_tet, 3 * (size_t)mesh->tet_count);
+    OST_THEN(OST_NEW(scene->ctx, &slope->of_node, 4 * (size_t)mesh->node_count));
+    OST_TRY(ost_agree(scene->ctx, status));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        if (mesh->tet_region[t] != region)
-            continue;
         double gradients[9];
         ost_tet_component_gradients(mesh, t, u, gradients);
-        if (ost_axes_from_gradients(scene->ctx, gradients, gradients + 3, axes + 9 * (size_t)t) != OST_SUCCESS) {
-            char reason[256];
-            strncpy(reason, ost_error_text(scene->ctx), sizeof reason - 1);
-            reason[sizeof reason - 1] = '\0';
-            return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "gradient axes of region '%s', tet %lld: %s",
-                             mesh->regions.name[region], (long long)mesh->tet_label[t], reason);
+        memcpy(slope->of_tet + 3 * (size_t)t, gradients + 3 * component, 3 * sizeof *gradients);
+        if (mesh->tet_region[t] == region && t < mesh->owned_tets) {
+            sum[0] += ost_norm3(gradients + 3 * component);
+            sum[1] += 1.0;
         }
     }
+    OST_TRY(ost_sum(scene->ctx, 2, sum));
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        double *g = slope->of_tet + 3 * (size_t)t;
+        const double length = ost_norm3(g);
+        const int counts = mesh->tet_region[t] == region && length * sum[1] > negligible * sum[0];
+        for (int i = 0; i < 3; i++)
+            g[i] = counts ? g[i] / length : 0.0;
+    }
     return OST_SUCCESS;
+}
+
+static int is_zero(const double g[3])
+{
+    return g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0;
+}
+
+/* Mean directions around each node, from all tets there; on ghosts those of their owners. */
+static OstStatus average(const OstScene *scene, Slope *slope)
+{
+    const OstMesh *mesh = scene->mesh;
+    memset(slope->of_node, 0, 4 * (size_t)mesh->node_count * sizeof *slope->of_node);
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        const double *g = slope->of_tet + 3 * (size_t)t;
+        if (is_zero(g))
+            continue;
+        for (int v = 0; v < 4; v++) {
+            double *at = slope->of_node + 4 * (size_t)ost_mesh_nodes_of(mesh, t)[v];
+            for (int i = 0; i < 3; i++)
+                at[i] += g[i];
+            at[3] += 1.0;
+        }
+    }
+    return ost_halo_import(mesh->halo, 4 * sizeof *slope->of_node, slope->of_node);
+}
+
+/* Tets without a direction take the mean of those around them, as often as some are left that have such neighbours. */
+static OstStatus fill_slope(const OstScene *scene, int region, Slope *slope)
+{
+    const OstMesh *mesh = scene->mesh;
+    for (OstGlobal before = INT64_MAX;;) {
+        OstGlobal missing = 0;
+        for (OstLocal t = 0; t < mesh->owned_tets; t++)
+            missing += mesh->tet_region[t] == region && is_zero(slope->of_tet + 3 * (size_t)t);
+        OST_TRY(ost_sum_numbers(scene->ctx, 1, &missing));
+        if (missing == 0 || missing == before)
+            return OST_SUCCESS;
+        before = missing;
+        OST_TRY(average(scene, slope));
+        for (OstLocal t = 0; t < mesh->tet_count; t++) {
+            double *g = slope->of_tet + 3 * (size_t)t, mean[3] = {0.0};
+            if (mesh->tet_region[t] != region || !is_zero(g))
+                continue;
+            for (int v = 0; v < 4; v++)
+                for (int i = 0; i < 3; i++)
+                    mean[i] += slope->of_node[4 * (size_t)ost_mesh_nodes_of(mesh, t)[v] + (size_t)i];
+            const double length = ost_norm3(mean);
+            for (int i = 0; i < 3; i++)
+                g[i] = length > negligible ? mean[i] / length : 0.0;
+        }
+    }
+}
+
+/* Where the second direction is nearly along the first, as in a corner between boundaries, it counts as missing. */
+static void drop_parallel(const OstMesh *mesh, const Slope *first, Slope *second)
+{
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        const double *a = first->of_tet + 3 * (size_t)t;
+        double *b = second->of_tet + 3 * (size_t)t;
+        double across[3];
+        ost_cross3(a, b, across);
+        if (ost_norm3(across) < parallel_sine)
+            b[0] = b[1] = b[2] = 0.0;
+    }
+}
+
+static OstStatus raise_for_tet(const OstScene *scene, int region, OstLocal tet)
+{
+    char reason[512];
+    snprintf(reason, sizeof reason, "%s", ost_error_text(scene->ctx));
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
+                     "component of the region, and, for two, lie across each other",
+                     scene->mesh->regions.name[region], (long long)scene->mesh->tet_label[tet], reason);
+}
+
+static OstStatus axes_from_potentials(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,
+                                      double *axes)
+{
+    const OstMesh *mesh = scene->mesh;
+    const int two = spec->from[1] != NULL;
+    Slope slope[2] = {{NULL, NULL}, {NULL, NULL}};
+    OstStatus status = OST_SUCCESS;
+    for (int p = 0; p <= two; p++) {
+        OST_TRY_DONE(find_slope(scene, region, u, p, &slope[p]));
+        if (p == 1)
+            drop_parallel(mesh, &slope[0], &slope[1]);
+        OST_TRY_DONE(fill_slope(scene, region, &slope[p]));
+    }
+    for (OstLocal t = 0; t < mesh->tet_count && status == OST_SUCCESS; t++)
+        if (mesh->tet_region[t] == region &&
+            ost_axes_from_directions(scene->ctx, spec->along, slope[0].of_tet + 3 * (size_t)t,
+                                     two ? slope[1].of_tet + 3 * (size_t)t : NULL, axes + 9 * (size_t)t) != OST_SUCCESS)
+            status = raise_for_tet(scene, region, t);
+    status = ost_agree(scene->ctx, status);
+done:
+    free_slope(&slope[0]);
+    free_slope(&slope[1]);
+    return status;
 }
 
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes)
@@ -146,14 +247,13 @@ OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAx
     OstSupports *supports = NULL;
     OstSystem *system = NULL;
     double *u = NULL;
-    OstStatus status = check_apart(scene, region, spec);
-    if (status != OST_SUCCESS)
-        goto done;
-    OST_TRY_DONE(prescribe_potentials(scene, spec, &supports));
+    OstStatus status = OST_SUCCESS;
+    const OstCaseMaterial *stated = ost_case_material_of(scene->c, scene->mesh->regions.name[region]);
+    OST_TRY_DONE(prescribe_potentials(scene, spec, stated->axes_place, &supports));
     OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &u, 3 * (size_t)scene->mesh->node_count)));
     OST_TRY_DONE(solve_potentials(scene, system, u));
-    OST_TRY_DONE(ost_agree(ctx, axes_from_potentials(scene, region, u, axes)));
+    OST_TRY_DONE(axes_from_potentials(scene, region, spec, u, axes));
 done:
     OST_FREE(u);
     ost_system_destroy(&system);

@@ -12,6 +12,7 @@
 #include "problem/boundary_conditions.h"
 #include "problem/free_body.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -107,22 +108,59 @@ static OstStatus make_timed(const OstProblemParts *parts, OstProblem *problem)
     return OST_SUCCESS;
 }
 
+/* Collective. What the solver's plan needs of the materials, of a modulus that differs from tet to tet its least and
+ * its greatest. */
+static OstStatus add_material_facts(const OstMaterialField *field, const OstMesh *mesh, OstSolverFacts *facts)
+{
+    OstContext *ctx = mesh->ctx;
+    double softest = 0.0, stiffest = 0.0, *least = NULL, *most = NULL;
+    const int regions = field->region_count;
+    OstStatus status = OST_NEW(ctx, &least, regions);
+    OST_THEN(OST_NEW(ctx, &most, regions));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (int r = 0; r < regions; r++) {
+        least[r] = field->tet_scale ? DBL_MAX : 1.0;
+        most[r] = field->tet_scale ? DBL_MIN : 1.0;
+    }
+    for (OstLocal t = 0; t < mesh->owned_tets && field->tet_scale; t++) {
+        const int r = mesh->tet_region[t];
+        least[r] = fmin(least[r], field->tet_scale[t]);
+        most[r] = fmax(most[r], field->tet_scale[t]);
+    }
+    if (field->tet_scale) {
+        OST_TRY_DONE(ost_min(ctx, regions, least));
+        OST_TRY_DONE(ost_max(ctx, regions, most));
+    }
+    for (int r = 0; r < regions; r++)
+        for (int end = 0; end < 2; end++) {
+            OstOrthotropic constants = field->material[r].constants;
+            const double scale = least[r] > most[r] ? 1.0 : end == 0 ? least[r] : most[r];
+            for (int k = 0; k < 3; k++) {
+                constants.youngs_modulus[k] *= scale;
+                constants.shear_modulus[k] *= scale;
+            }
+            ost_plan_add_facts(ctx, &constants, &softest, &stiffest, facts);
+        }
+done:
+    OST_FREE(least);
+    OST_FREE(most);
+    return status;
+}
+
 OstStatus ost_problem_create(const OstProblemParts *parts, OstProblem **problem)
 {
     OstProblem *made = NULL;
-    double softest = 0.0, stiffest = 0.0;
     OstStatus status = create(parts->mesh, parts->field, parts->mesh->owned_nodes, &made);
     if (status == OST_SUCCESS) {
         ost_problem_set_formulation(made, parts->formulation);
         made->free_body = parts->free_body;
         made->with_metric = parts->field->region_axes != NULL;
-        for (int r = 0; r < parts->field->region_count; r++)
-            ost_plan_add_facts(made->ctx, &parts->field->material[r].constants, &softest, &stiffest, &made->facts);
         if (parts->force)
             ost_problem_set_load(made, parts->force);
         made->eigen_function = parts->eigenstrain_follows;
         int pressed = parts->pressed_count > 0;
-        status = ost_max_ints(made->ctx, 1, &pressed);
+        status = add_material_facts(parts->field, parts->mesh, &made->facts);
+        OST_THEN(ost_max_ints(made->ctx, 1, &pressed));
         if (status == OST_SUCCESS && pressed)
             status = ost_follower_add(parts->mesh, parts->pressed_count, parts->pressed_faces,
                                       parts->mesh->nodes_per_tet == 10 ? 6 : 3, parts->pressure, 0, &made->follower);

@@ -49,6 +49,7 @@ struct OstResult {
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
+    double *rotation;              /* 9 × owned_tets: of each tet's mean F, where rotations are large; or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
     OstInterestError interest;     /* of the quantity that the case asks about */
@@ -60,6 +61,7 @@ struct OstResult {
     OstNewtonReport newton;
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
+    OstFailure failure;
     OstAnswerError answer; /* the error that the mesh makes */
     int reached;           /* is there a displacement? Not if no solver could be made */
     int unfinished;        /* did the solver stop short of the requested residual? */

@@ -5,9 +5,11 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
+#include "problem/load_case.h"
 #include "problem/scene_parts.h"
 
 #include <string.h>
@@ -38,8 +40,6 @@ static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const Os
 static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
 {
     const OstMesh *mesh = scene->mesh;
-    if (mesh->tet_axes)
-        memcpy(axes, mesh->tet_axes, 9 * sizeof *axes * (size_t)mesh->tet_count);
     for (int r = 0; r < mesh->regions.count; r++)
         if (wants(materials, r, OST_AXES_GRADIENT))
             OST_TRY(ost_scene_gradient_axes(scene, r, &materials->axes[r], axes));
@@ -48,19 +48,48 @@ static OstStatus fill_gradient_axes(const OstScene *scene, const OstSceneMateria
 
 /* Axes from gradients, in place of those that came with the mesh. One frame a tet is needed, which potentials on linear
  * tets give; for quadratic tets they are solved on the vertices. */
-static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
 {
     OstScene on_vertices = *scene;
     OstMesh *linear = NULL;
     ost_ledger_enter(scene->ctx, OST_EFFECT_GRADIENT_AXES);
-    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)scene->mesh->tet_count));
-    if (status == OST_SUCCESS && scene->mesh->nodes_per_tet != 4) {
+    OstStatus status = OST_SUCCESS;
+    if (scene->mesh->nodes_per_tet != 4) {
         status = ost_mesh_linear(scene->mesh, &linear, NULL);
         on_vertices.mesh = linear;
     }
-    OST_THEN(fill_gradient_axes(&on_vertices, materials, *axes));
+    OST_THEN(fill_gradient_axes(&on_vertices, materials, axes));
     ost_mesh_destroy(&linear);
     ost_ledger_leave(scene->ctx);
+    return status;
+}
+
+static int wants_any(const OstScene *scene, const OstSceneMaterials *materials, OstAxesKind kind)
+{
+    for (int r = 0; r < scene->mesh->regions.count; r++)
+        if (wants(materials, r, kind))
+            return 1;
+    return 0;
+}
+
+/* The axes of the mesh, with those of gradients and of fields in their place; NULL if there are none of these. */
+static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+{
+    const OstMesh *mesh = scene->mesh;
+    const int gradients = ost_effect_on(&scene->plan.effects, OST_EFFECT_GRADIENT_AXES);
+    const int fields = wants_any(scene, materials, OST_AXES_FIELD);
+    *axes = NULL;
+    if (!gradients && !fields)
+        return OST_SUCCESS;
+    ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
+    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)mesh->tet_count));
+    ost_ledger_leave(scene->ctx);
+    if (status == OST_SUCCESS && mesh->tet_axes && mesh->tet_count > 0)
+        memcpy(*axes, mesh->tet_axes, 9 * sizeof **axes * (size_t)mesh->tet_count);
+    if (gradients)
+        OST_THEN(solve_gradient_axes(scene, materials, *axes));
+    if (fields)
+        OST_THEN(ost_agree(scene->ctx, ost_scene_field_axes(scene, materials, *axes)));
     return status;
 }
 
@@ -103,11 +132,12 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     const OstMesh *mesh = scene->mesh;
     double *gradient_axes = NULL;
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
-    if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_GRADIENT_AXES))
-        status = solve_gradient_axes(scene, materials, &gradient_axes);
+    OST_THEN(make_axes(scene, materials, &gradient_axes));
     OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
                           gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
+    if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_REGIONS))
+        status = ost_agree(ctx, ost_scene_set_modulus(scene));
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))
         status = ost_agree(ctx, ost_scene_set_eigenstrain(scene));
     return status;
@@ -174,6 +204,18 @@ static OstStatus copy_file_materials(OstContext *ctx, const OstFileMaterials *fr
     return OST_SUCCESS;
 }
 
+static OstStatus check_places(const OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    for (int i = 0; i < c->constraint_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->constraints[i].on));
+    for (int i = 0; i < c->load_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->loads[i].on));
+    for (int i = 0; i < c->spring_count; i++)
+        OST_TRY(ost_select_check_place(c, scene->mesh, &c->springs[i].on));
+    return OST_SUCCESS;
+}
+
 static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
 {
     OstContext *ctx = made->ctx;
@@ -185,12 +227,7 @@ static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
     ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices, %lld tets", (long long)made->mesh->global_nodes,
             (long long)made->mesh->global_tets);
     OST_TRY_DONE(make_plan(made, made->from_file));
-    for (int i = 0; i < c->constraint_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->constraints[i].on));
-    for (int i = 0; i < c->load_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->loads[i].on));
-    for (int i = 0; i < c->spring_count; i++)
-        OST_TRY_DONE(ost_select_check_place(c, made->mesh, &c->springs[i].on));
+    OST_TRY_DONE(check_places(made));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
 done:
@@ -238,11 +275,33 @@ OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMe
     return status;
 }
 
+OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case)
+{
+    OstContext *ctx = scene->ctx;
+    OstScene *made = NULL;
+    *of_case = NULL;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
+    *made = *scene;
+    made->c = scene->c->load_cases[number].c;
+    made->load_effect = NULL;
+    made->borrows = 1;
+    OstStatus status = make_plan(made, scene->from_file);
+    OST_THEN(check_places(made));
+    if (status != OST_SUCCESS)
+        ost_scene_destroy(&made);
+    *of_case = made;
+    return status;
+}
+
 void ost_scene_destroy(OstScene **scene)
 {
     if (!*scene)
         return;
     OST_FREE((*scene)->load_effect);
+    if ((*scene)->borrows) {
+        OST_FREE(*scene);
+        return;
+    }
     ost_file_materials_destroy(&(*scene)->from_file);
     ost_field_destroy(&(*scene)->field);
     ost_mesh_destroy(&(*scene)->mesh);
@@ -261,8 +320,10 @@ const OstMaterialField *ost_scene_field(const OstScene *scene)
 
 unsigned ost_scene_result_fields(const OstScene *scene)
 {
-    const unsigned error = 1U << OST_FIELD_ERROR, asked = scene->c->output_fields;
+    const unsigned error = 1U << OST_FIELD_ERROR, asked = ost_case_recovers(scene->c);
+    const unsigned factors = OST_LOAD_FACTORS;
     const OstEffects *effects = &scene->plan.effects;
-    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~error : 0U) |
+    return (ost_effect_on(effects, OST_EFFECT_RECOVERY) ? asked & ~(error | factors) : 0U) |
+           (ost_effect_on(effects, OST_EFFECT_STRENGTH) ? factors : 0U) |
            (ost_effect_on(effects, OST_EFFECT_ERROR_ESTIMATE) ? asked & error : 0U);
 }

@@ -18,6 +18,7 @@ struct OstScene {
     OstFileMaterials *from_file; /* that came with the mesh file, or NULL */
     OstMesh *mesh;
     OstMaterialField *field;
+    int borrows;                /* mesh, materials and field are another scene's, of which this is a load case */
     const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 

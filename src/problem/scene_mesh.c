@@ -70,7 +70,7 @@ static int has_direction(const OstMeshChunk *chunk, const OstSceneMaterials *mat
 {
     const OstAxesKind kind = materials->axes[region].kind;
     return !materials->material[region].isotropic &&
-           (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT);
+           (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT && kind != OST_AXES_FIELD);
 }
 
 /* By a field on the chunk, in which regions without known axes are isotropic. */
@@ -195,7 +195,7 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
     *from_file = NULL;
     OstStatus status = make_chunk(c, &chunk, from_file);
     OST_THEN(ost_scene_read_cell_axes(c, chunk));
-    OST_THEN(ost_scene_read_tet_field(c, chunk));
+    OST_THEN(ost_scene_read_tet_fields(c, chunk));
     OST_THEN(merge_vertices(c, chunk));
     OST_THEN(ost_scene_distribute(c, *from_file, &chunk, mesh, materials));
     ost_chunk_destroy(&chunk);

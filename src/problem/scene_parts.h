@@ -38,14 +38,23 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
 /* Local. The curved surface on which new nodes of the case's shape are placed. */
 OstShapeSurface ost_scene_surface(const OstCase *c);
 
-/* Collective. Axes from two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, and has no
- * flux elsewhere. e1 is the gradient of the first; e2 is the part of the second's orthogonal to e1. Both are solved at
- * once, as components of a displacement, by the solver of the elastic problem. Fills `axes` (9 a tet) for the region's
- * tets. Account OST_EFFECT_GRADIENT_AXES. */
+/* Collective. Axes from one or two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, 1/2
+ * where these touch, and has no flux elsewhere. One axis is the gradient of the first; another is the part of the
+ * second's orthogonal to it. Tets in which a potential does not vary (all their vertices lie on one boundary) take the
+ * mean direction around them. Both are solved at once, as components of a displacement, by the solver of the elastic
+ * problem. Fills `axes` (9 a tet) for the region's tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
 
-/* Collective. Reads the field of the mesh file that the case's eigenstrains name, if any, into the chunk. */
-OstStatus ost_scene_read_tet_field(const OstCase *c, OstMeshChunk *chunk);
+/* Collective. Reads the fields of the mesh file that the case's materials name into the chunk. */
+OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);
+
+/* Local. A field's numbers of a tet; NULL if the mesh has none of the name. */
+const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width);
+
+/* Local. Fills `axes` (9 a tet) of the regions whose axes are fields of the mesh file; gives the tets of regions whose
+ * Young's modulus is one their factors. */
+OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes);
+OstStatus ost_scene_set_modulus(OstScene *scene);
 
 /* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */
 OstStatus ost_scene_set_eigenstrain(OstScene *scene);

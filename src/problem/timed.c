@@ -110,8 +110,8 @@ OstStatus ost_problem_function_displacement(const OstProblem *problem, int funct
 static int is_moved(const OstSupports *supports, OstLocal node)
 {
     double projector[9], prescribed[3];
-    return ost_supports_get(supports, node, projector, prescribed) > 0 &&
-           (prescribed[0] != 0.0 || prescribed[1] != 0.0 || prescribed[2] != 0.0);
+    ost_supports_get(supports, node, projector, prescribed);
+    return (prescribed[0] != 0.0 || prescribed[1] != 0.0 || prescribed[2] != 0.0);
 }
 
 int ost_problem_moves(const OstProblem *problem, OstLocal node)

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/path.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 #include "solve/strategy.h"
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
@@ -23,7 +23,18 @@ void ost_analysis_destroy(OstAnalysis **analysis)
     if (!*analysis)
         return;
     (*analysis)->strategy->release(*analysis);
+    ost_estimate_destroy(&(*analysis)->estimate);
     OST_FREE(*analysis);
+}
+
+OstStatus ost_analysis_take_loading(OstAnalysis *analysis)
+{
+    if (!analysis->estimate)
+        return OST_SUCCESS;
+    ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
+    const OstStatus status = ost_estimate_take_loading(analysis->estimate);
+    ost_ledger_leave(analysis->ctx);
+    return status;
 }
 
 OstStatus ost_analysis_prepare(OstAnalysis *analysis)
@@ -55,12 +66,25 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
                               : ost_verdict_raise(ctx, &result->verdict);
 }
 
+/* What estimates share, where more loads follow. */
+static OstStatus keep_estimate(OstAnalysis *analysis)
+{
+    if (!analysis->serves_several || analysis->estimate)
+        return OST_SUCCESS;
+    ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
+    const OstStatus status = ost_estimate_create(analysis->problem, &analysis->estimate);
+    ost_ledger_leave(analysis->ctx);
+    return status;
+}
+
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
     OstSolvedFor solved_for = {0};
     OST_TRY(ost_analysis_prepare(analysis));
     result->unknowns = ost_problem_unknowns(analysis->problem);
     result->asked = fields;
+    if (fields >> OST_FIELD_ERROR & 1U)
+        OST_TRY(keep_estimate(analysis));
     const OstStatus solved =
         ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)

@@ -118,8 +118,9 @@ OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult
     OstEstimate *estimate = NULL;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     const int has_all = result->answer.known && !asks_of_quantity(analysis->problem);
-    OstStatus status = has_all ? OST_SUCCESS : ost_estimate_create(analysis->problem, &estimate);
-    OST_THEN(estimate_tets(analysis, estimate, t, result));
+    const int needs_own = !has_all && !analysis->estimate;
+    OstStatus status = needs_own ? ost_estimate_create(analysis->problem, &estimate) : OST_SUCCESS;
+    OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;

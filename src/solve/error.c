@@ -43,20 +43,14 @@ typedef struct Search {
 static OstStatus find_residual(const Search *search)
 {
     const OstProblem *problem = search->problem;
-    const OstSystem *system = problem->system;
     double *load = NULL;
     OstStatus status = OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
     OST_THEN(ost_problem_force(problem, 1.0, search->solved->displacement, search->error));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     ost_problem_load(problem, 1.0, NULL, load);
-    for (OstLocal row = 0; row < system->matrix->rows; row++) {
-        const size_t node = (size_t)system->node_of_row[row];
-        double projector[9], left[3];
-        for (size_t i = 0; i < 3; i++)
-            left[i] = load[3 * node + i] - search->error[3 * node + i];
-        ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
-        ost_apply3(projector, left, search->residual + 3 * (size_t)row);
-    }
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        load[i] -= search->error[i];
+    status = ost_system_take_rows(problem->system, load, search->residual);
 done:
     OST_FREE(load);
     return status;

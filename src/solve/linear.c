@@ -71,6 +71,8 @@ static int take_start(const OstAnalysis *analysis)
 {
     const OstSystem *system = analysis->problem->system;
     const OstLinear *linear = analysis->work;
+    if (system->supports->links) /* the rows of rigid faces are no displacements of nodes */
+        return 0;
     for (OstLocal row = 0; analysis->start && row < system->matrix->rows; row++) {
         const OstLocal node = system->node_of_row[row];
         double projector[9];
@@ -142,7 +144,7 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     OstSolveStop stop;
     OST_TRY(ost_result_allow_error(problem, result));
     OST_TRY(ost_solve_stop_open(problem, linear->stiffness.solver, analysis->options.algebraic_fraction,
-                                result->tet_error, result->surplus, &result->answer, &stop));
+                                analysis->estimate, result->tet_error, result->surplus, &result->answer, &stop));
     const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
     ost_solve_stop_close(&stop);
     return solved;

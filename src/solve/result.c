@@ -39,6 +39,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
     OST_FREE((*result)->node_stress);
+    OST_FREE((*result)->rotation);
     OST_FREE((*result)->tet_error);
     OST_FREE((*result)->surplus);
     OST_FREE((*result)->interest.share);
@@ -129,6 +130,11 @@ const double *ost_result_tet_error(const OstResult *result)
 const OstAnswerError *ost_result_answer_error(const OstResult *result)
 {
     return &result->answer;
+}
+
+const OstFailure *ost_result_failure(const OstResult *result)
+{
+    return &result->failure;
 }
 
 const OstSolveReport *ost_result_solve_report(const OstResult *result)

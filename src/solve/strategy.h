@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_STRATEGY_H
 #define ORTHOSTAT_SOLVE_STRATEGY_H
 
+#include "accuracy/estimate.h"
 #include "guard/guard.h"
 #include "orthostat/analysis.h"
 #include "problem/problem.h"
@@ -24,8 +25,10 @@ struct OstAnalysis {
     OstProblem *problem;
     OstSolverOptions options;
     const OstStrategy *strategy;
-    void *work;          /* the strategy's; NULL until prepared */
-    const double *start; /* a displacement (3 × node_count) near that of the linear problem, or NULL */
+    void *work;            /* the strategy's; NULL until prepared */
+    OstEstimate *estimate; /* of the discretisation error; kept where the analysis serves several loads, else NULL */
+    int serves_several;    /* loads are to follow, so that what they share is kept */
+    const double *start;   /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 
 extern const OstStrategy ost_linear_strategy;    /* linear.c */
@@ -36,6 +39,9 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
 
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
+
+/* Collective. Another loading has been given to the problem (problem/load_case.h). */
+OstStatus ost_analysis_take_loading(OstAnalysis *analysis);
 
 /* Collective. Makes all that the next solve needs; all objections are raised as one failure. */
 OstStatus ost_analysis_prepare(OstAnalysis *analysis);

@@ -34,7 +34,8 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
         if (watch)
             OST_TRY(ost_watch_evaluate(scene, result, watch, &run->watched[q]));
         else
-            run->watched[q] = (OstWatched){result->largest_displacement, result->largest_displacement, NAN};
+            run->watched[q] = (OstWatched){
+                .value = result->largest_displacement, .scale = result->largest_displacement, .error = NAN};
     }
     return OST_SUCCESS;
 }

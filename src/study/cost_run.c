@@ -111,7 +111,7 @@ static void announce(const OstCost *cost, const OstCostRun *run, int number)
         snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1,
                  cost->run_count, run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
-    ost_progress(cost->ctx, line, (double)number / cost->run_count);
+    ost_progress_task(cost->ctx, line, (double)number / cost->run_count);
 }
 
 /* A tolerance is kept to the end; an adaptive run chooses its own. */
@@ -155,7 +155,7 @@ OstStatus ost_cost_run(OstCost *cost)
             snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(ctx));
         }
     }
-    ost_progress(ctx, "", -1.0);
+    ost_progress_task(ctx, "", -1.0);
     cost->seconds = ost_seconds() - start;
     ost_cost_judge(cost);
     return done > 0 ? OST_SUCCESS : last_failure;

@@ -19,6 +19,7 @@ const OstEffect ost_variant_effect[] = {OST_VARIANT_TABLE(VARIANT_EFFECT)};
 /* Of one region: its volume, and the sums of volume × e_k e_k' over its tets. */
 typedef struct RegionMean {
     double volume;
+    double scale; /* volume × the factor of the stiffness */
     double direction[3][9];
 } RegionMean;
 
@@ -32,6 +33,7 @@ static OstStatus sum_regions(const OstScene *scene, RegionMean *mean)
         RegionMean *of = &mean[mesh->tet_region[t]];
         ost_field_axes(scene->field, t, axes);
         of->volume += volume;
+        of->scale += volume * ost_field_scale(scene->field, t);
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 9; i++)
                 of->direction[k][i] += volume * axes[3 * k + i / 3] * axes[3 * k + i % 3];
@@ -109,6 +111,24 @@ static void take_eigenstrain(const OstCaseMaterial *stated, OstCaseMaterial *mad
     made->eigen_per_unit = from->eigen_per_unit;
 }
 
+/* The material with its moduli times a factor: the mean of those of its tets. */
+static OstStatus scaled(OstContext *ctx, double factor, OstMaterial *material)
+{
+    OstOrthotropic constants = material->constants;
+    char name[sizeof material->name];
+    const int isotropic = material->isotropic;
+    const OstStrength strength = material->strength;
+    for (int k = 0; k < 3; k++) {
+        constants.youngs_modulus[k] *= factor;
+        constants.shear_modulus[k] *= factor;
+    }
+    snprintf(name, sizeof name, "%s", material->name);
+    OST_TRY(ost_material_create(ctx, name, &constants, material->density, material));
+    material->isotropic &= isotropic;
+    material->strength = strength;
+    return OST_SUCCESS;
+}
+
 /* One entry of `materials` for each region of the mesh, whatever the case and the mesh file say. */
 static OstStatus state_materials(const OstScene *scene, OstVariant variant, const RegionMean *mean,
                                  OstCaseMaterial *materials)
@@ -132,6 +152,10 @@ static OstStatus state_materials(const OstScene *scene, OstVariant variant, cons
             made->axes.kind = OST_AXES_NONE;
         made->region = regions->name[r];
         made->material = scene->field->material[from];
+        if (variant == OST_VARIANT_ONE_MATERIAL && scene->field->tet_scale && mean[from].volume > 0.0) {
+            made->modulus.field = NULL;
+            OST_TRY(scaled(scene->ctx, mean[from].scale / mean[from].volume, &made->material));
+        }
         if (from != r)
             take_eigenstrain(ost_case_material_of(scene->c, regions->name[from]), made);
         if (variant == OST_VARIANT_ISOTROPIC) {
@@ -172,6 +196,8 @@ static OstStatus replace_constraints(const OstScene *scene, OstVariant variant, 
         if (variant == OST_VARIANT_NOT_MOVED) {
             memset(constraint->displacement, 0, sizeof constraint->displacement);
             memset(constraint->exact, 0, sizeof constraint->exact);
+            memset(constraint->rotation, 0, sizeof constraint->rotation);
+            memset(constraint->strain, 0, sizeof constraint->strain);
         } else if (constraint->kind == OST_CONSTRAIN_SLIDE) {
             constraint->kind = OST_CONSTRAIN_DISPLACEMENT;
             for (int k = 0; k < 3; k++)

@@ -58,6 +58,21 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
     return OST_SUCCESS;
 }
 
+/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. */
+static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, double sum[3])
+{
+    const double *force = result->reaction + 3 * (size_t)node;
+    const double *x = result->mesh->coordinates + 3 * (size_t)node;
+    const double *u = result->displacement + 3 * (size_t)node;
+    const int turns = result->formulation != OST_FORMULATION_LINEAR;
+    double arm[3], moment[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
+    ost_cross3(arm, force, moment);
+    for (int i = 0; i < 3; i++)
+        sum[i] += watch->of_moment ? moment[i] : force[i];
+}
+
 /* The surplus says little of reactions: what few steps leave out of balance in the body is of their errors' size. */
 static OstStatus reaction(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
@@ -67,8 +82,8 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     double sum[3] = {0.0};
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
     for (OstLocal n = 0; n < count; n++)
-        for (int i = 0; i < 3 && nodes[n] < scene->mesh->owned_nodes; i++)
-            sum[i] += result->reaction[3 * (size_t)nodes[n] + (size_t)i];
+        if (nodes[n] < scene->mesh->owned_nodes)
+            add_reaction(result, watch, nodes[n], sum);
     OST_FREE(nodes);
     OST_TRY(ost_sum(ctx, 3, sum));
     watched->value = component_of(sum, watch->component);
@@ -123,6 +138,8 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
         watched->value = result->checks.strain_energy;
         watched->error = energy_error(scene, result);
         return ost_energy_scale(result, &watched->scale);
+    case OST_WATCH_STRESS:
+        return ost_watch_stress(scene, result, watch, watched);
     }
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: this quantity of interest has no kind", scene->c->path,
                      watch->line);
@@ -130,6 +147,7 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
 
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
+    watched->placed = 0;
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
@@ -159,6 +177,8 @@ OstStatus ost_watch_check(const OstScene *scene)
     for (int w = 0; w < c->watch_count; w++) {
         OstWatch placed = c->watches[w]; /* for the warning alone: the solve finds the vertex itself */
         OST_TRY(ost_watch_place(scene->mesh, &placed));
+        if (placed.kind == OST_WATCH_STRESS)
+            OST_TRY(ost_watch_check_stress(scene, &placed));
         if (placed.kind == OST_WATCH_REACTION)
             OST_TRY(check_selection(scene, "the quantity", placed.name, placed.line, &placed.on));
     }
@@ -182,8 +202,13 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
-        (*values)[w] = (OstWatchedValue){watch->name, watched.value, watch->expected, watched.error,
-                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY};
+        (*values)[w] = (OstWatchedValue){watch->name,
+                                         watched.value,
+                                         watch->expected,
+                                         watched.error,
+                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY,
+                                         watched.placed,
+                                         {watched.place[0], watched.place[1], watched.place[2]}};
     }
     return OST_SUCCESS;
 }
@@ -197,6 +222,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
             printf(" +- %.2g", error);
         if (error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+        if (values[w].placed)
+            printf(" at (%.6g, %.6g, %.6g)", values[w].place[0], values[w].place[1], values[w].place[2]);
         if (values[w].by_adjoint)
             printf(", with its error added %.10g", values[w].value + values[w].error);
         if (!isnan(expected) && expected != 0.0)

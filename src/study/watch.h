@@ -11,6 +11,8 @@ typedef struct OstWatched {
     double value;
     double scale;
     double error; /* by how much the exact value is larger, as estimated; NAN: not estimated */
+    int placed;   /* has the value a place: that of a least or largest one? */
+    double place[3];
 } OstWatched;
 
 /* Collective. Moves the point of a displacement to the nearest vertex of this mesh (not a mid-edge node), so that it
@@ -24,6 +26,10 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
 
 /* Local. A line each: value, and the expected one where it is known. */
 void ost_watch_print(const OstWatchedValue *values, int count);
+
+/* Collective. Those of stress (study/watch_stress.c): the value, and whether there is such a point, or region. */
+OstStatus ost_watch_stress(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched);
+OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch);
 
 /* Collective. The size of energies in this answer: that of its strains if no eigenstrain relieved them. Where a body
  * swells freely, what is left of its energy is rounding. */

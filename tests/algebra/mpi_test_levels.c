@@ -2,6 +2,7 @@
 #include "algebra/matrix/scaling.h"
 #include "algebra/multigrid/coarsest.h"
 #include "algebra/multigrid/cycle.h"
+#include "algebra/multigrid/gathered_level.h"
 #include "elastic_block.h"
 #include "support.h"
 
@@ -14,13 +15,13 @@ typedef struct Setup {
     OstLevels levels;
 } Setup;
 
-static void set_up(const ElasticBlock *block, Setup *s)
+static void set_up_down_to(int coarsest, const ElasticBlock *block, Setup *s)
 {
     OstMetricGraph *graph = NULL;
     double *taken = NULL; /* by the levels */
     memset(s, 0, sizeof *s);
     s->options = ost_solver_default_options();
-    s->options.coarsest_unknowns = 100;
+    s->options.coarsest_unknowns = coarsest;
     assert_success(elastic_create(ctx, block, &s->problem));
     const size_t n = 3 * (size_t)s->problem.matrix->rows;
     assert_success(ost_scaling_create(s->problem.matrix, &s->scaling));
@@ -33,6 +34,11 @@ static void set_up(const ElasticBlock *block, Setup *s)
     assert_success(ost_levels_create(s->problem.matrix, s->scaling, &taken, &graph, &s->options, &s->levels));
     assert_null(taken);
     assert_true(s->levels.count >= 3);
+}
+
+static void set_up(const ElasticBlock *block, Setup *s)
+{
+    set_up_down_to(100, block, s);
 }
 
 static void tear_down(Setup *s)
@@ -78,11 +84,9 @@ static const ElasticBlock free_block = {.bricks = {14, 12, 16}, .size = {1, 1, 1
 static const ElasticBlock held_block = {
     .bricks = {14, 12, 16}, .size = {1, 1, 1}, .modulus = 3e5, .poisson = 0.3, .held = 1};
 
-static void coarse_matrices_are_the_galerkin_products(void **state)
+static void check_galerkin(const Setup *setup)
 {
-    (void)state;
-    Setup s;
-    set_up(&held_block, &s);
+    const Setup s = *setup;
     for (int l = 0; l + 1 < s.levels.count; l++) {
         OstLevelMatrix *fine = s.levels.matrix[l], *coarse = s.levels.matrix[l + 1];
         double *x = noise(coarse, 1), *px = new_vector(), *ax = new_vector(), *apx = new_vector();
@@ -97,6 +101,43 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
         OST_FREE(ax);
         OST_FREE(apx);
     }
+}
+
+static void coarse_matrices_are_the_galerkin_products(void **state)
+{
+    (void)state;
+    Setup s;
+    set_up(&held_block, &s);
+    check_galerkin(&s);
+    tear_down(&s);
+}
+
+static void few_nodes_go_to_fewer_ranks(void **state)
+{
+    (void)state;
+    const OstGlobal enough = OST_NODES_OF_RANK;
+    assert_int_equal(ost_gathered_stride(100 * enough, 64, 1, 0), 1);
+    assert_int_equal(ost_gathered_stride(40 * enough, 64, 1, 0), 1); /* not yet half as many */
+    assert_int_equal(ost_gathered_stride(32 * enough, 64, 1, 0), 2);
+    assert_int_equal(ost_gathered_stride(8 * enough, 64, 2, 0), 8);
+    assert_int_equal(ost_gathered_stride(1, 64, 8, 0), 64);
+    assert_int_equal(ost_gathered_stride(40 * enough, 64, 1, 1), 64); /* all together */
+    assert_int_equal(ost_gathered_stride(3 * enough, 7, 1, 0), 3);    /* ranks 0, 3 and 6 */
+    assert_int_equal(ost_gathered_stride(5, 1, 1, 1), 1);
+}
+
+/* About 60 nodes below 2500, and 8 below them. */
+static void gathered_levels_are_galerkin_products_too(void **state)
+{
+    (void)state;
+    const ElasticBlock block = {.bricks = {12, 12, 14}, .size = {1, 1, 1}, .modulus = 3e5, .poisson = 0.3, .held = 1};
+    const int stride = ost_size(ctx) == 4 ? 2 : 1;
+    Setup s;
+    set_up_down_to(60, &block, &s);
+    assert_true(s.levels.count == 3);
+    assert_true((s.levels.matrix[1]->rows > 0) == (ost_rank(ctx) % stride == 0));
+    assert_true((s.levels.matrix[2]->rows > 0) == (ost_rank(ctx) == 0));
+    check_galerkin(&s);
     tear_down(&s);
 }
 
@@ -221,6 +262,8 @@ static void the_coarsest_level_is_solved_exactly(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(coarse_matrices_are_the_galerkin_products),
+    cmocka_unit_test(few_nodes_go_to_fewer_ranks),
+    cmocka_unit_test(gathered_levels_are_galerkin_products_too),
     cmocka_unit_test(rigid_motions_pass_down_the_levels_and_cost_no_energy),
     cmocka_unit_test(the_smoother_is_symmetric_and_positive),
     cmocka_unit_test(the_cycle_is_symmetric_and_positive),

@@ -24,20 +24,21 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(
         CUBE "materials:\n  - region: all\n    youngs_modulos: 1\n",
         "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
-        "youngs_modulus, poissons_ratio, shear_modulus, density, axes, eigenstrain");
+        "youngs_modulus, poissons_ratio, shear_modulus, density, axes, eigenstrain, strengths");
     assert_refused(
         "mehs: 1\n",
         "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
-        "element, materials, constraints, springs, loads, accuracy, solver, output, watch, path, large_rotation, "
-        "formulation, verify");
+        "element, materials, constraints, springs, loads, watch, accuracy, solver, output, path, large_rotation, "
+        "formulation, verify, sweep, cases");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
-                   "relative_residual, algebraic_fraction, out_of_reach, relative_error");
+                   "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
                    "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
-                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, on, share, at, region, follows, time");
+                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, on, share, at, region, "
+                   "follows, time");
 }
 
 #define SPRING(text) CUBE STEEL "springs:\n  - {" text "}\n"
@@ -261,7 +262,7 @@ static void what_no_version_does_is_refused_in_words(void **state)
         CUBE STEEL "output: {fields: [displacement, temperature]}\n",
         "3:33: unknown field 'temperature'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
         "strain_energy_density, "
-        "axes, region, rank, error");
+        "axes, region, rank, error, tsai_wu_load_factor, ...");
 }
 
 static void bad_settings_are_refused(void **state)
@@ -318,8 +319,9 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "solver: {max_iterations: 0}\n",
                    "3:26: solver.max_iterations: found '0', expected a whole number from 1 to 1000000");
     assert_refused(CUBE STEEL "output: {file: a.vtk}\n",
-                   "3:16: output.file: found 'a.vtk', expected a name that ends with .vtkhdf");
-    assert_refused("mesh: {file: a.stl}\n" STEEL, "1:14: found the mesh file '...");
+                   "3:16: output.file: found 'a.vtk', expected a name that ends with .vtkhdf, .hdf, "
+                   ".vtu or .pvtu");
+    assert_refused("mesh: {file: a.stl}\n" STEEL, "1:14: ...");
     assert_refused("mesh: {tube: {axis: y, length: 1, radii: [2, 1], divisions: {around: 3, radial: 1, axial: 1}}}\n",
                    "1:42: found radii 2 and 1, expected the inner one first and smaller");
 }

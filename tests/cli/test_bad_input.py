@@ -142,15 +142,15 @@ MISTAKES = [
     ("cubic elements", with_mesh("m.veg"), {"m.veg": veg().replace("TET\n", "CUBIC\n")}, ["CUBIC"]),
     ("folded quadratic tet", with_mesh("m.msh"), {"m.msh": tet10_msh("2.5 0 0")}, ["tet 1", "folds over"]),
     ("two orders in one mesh", with_mesh("m.msh"), {"m.msh": tet10_msh(more="2 4 2 1 1 1 2 3 4\n")}, ["m.msh:", "one order"]),
-    ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, [".msh", ".veg"]),
+    ("unknown ending", with_mesh("m.stl"), {"m.stl": "solid"}, ["case.yaml:2:", "tetgen -pq"]),
+    ("an ending nobody knows", with_mesh("m.qqq"), {"m.qqq": "solid"}, [".msh", ".veg", ".inp", ".vtu"]),
     ("a mesh without tets", with_mesh("m.msh"), {"m.msh": MSH.replace("3 4 2 1 1 1 2 3 4", "3 2 2 1 1 1 2 4")},
      ["case.yaml:2:9: m.msh: holds no tets among its 3 elements; mesh the volume (gmsh -3 MODEL.geo -o NEW.msh)"]),
     ("a curve among faces", with_mesh("m.msh").replace("nearest: [1, 0, 0]", "boundary: [lid, rim]"), {"m.msh": MSH},
      ["case.yaml:8:21: ", "'rim' is one of curves"]),
-    ("potentials that meet", GOOD.replace("1000,", "[1000, 10, 10],").replace(
-        "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmin, to: ymin}}}}"), {},
-     ["case.yaml:4:78: gradient axes of region 'block', e2: the boundaries 'xmin' and 'ymin' share vertex 1; a potential "
-      "needs two boundaries that do not touch"]),
+    ("parallel potentials", GOOD.replace("1000,", "[1000, 10, 10],").replace(
+        "0.3}", "0.3, axes: {gradient: {e1: {from: xmin, to: xmax}, e2: {from: xmax, to: xmin}}}}"), {},
+     ["gradient axes of region 'block', tet ", "lie across each other"]),
     ("a residual no solver takes", GOOD + "accuracy: {relative_residual: 0.6}\n", {}, ["case.yaml:10:31:", "to 0.5"]),
     ("one tet twice", with_mesh("m.veg"), {"m.veg": TWICE.replace("SECOND", "1 2 0 3")}, ["tets 0 and 1", "doubled or overlapping"]),
     ("a tet with a vertex twice", with_mesh("m.veg"), {"m.veg": veg(tet="0 1 2 2")}, ["tet 0", "same node twice"]),

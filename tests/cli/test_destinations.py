@@ -46,7 +46,7 @@ def refused(folder, words, *arguments):
 def refuses_what_would_be_lost(folder):
     write(folder, "case.yaml", CASE)
     refused(folder, ["'case.yaml'", ".vtkhdf"], "case.yaml", "-o", "case.yaml")
-    refused(folder, ["'fields.vtu'", ".vtkhdf"], "case.yaml", "-o", "fields.vtu")
+    refused(folder, ["'fields.vtk'", ".vtkhdf"], "case.yaml", "-o", "fields.vtk")
     refused(folder, ["over the case itself"], "case.yaml", "--json", "case.yaml")
     refused(folder, ["over the case itself"], "case.yaml", "--json", "./folder/../case.yaml")
     os.symlink("case.yaml", os.path.join(folder, "to_case.json"))

@@ -24,13 +24,14 @@ def make_script(folder):
     write_program(os.path.join(folder, "scripts", "environment"),
                   f"cores=3 build={folder}/bin PATH={folder}/path:$PATH\nbuild_program() {{ :; }}\n")
     write_program(os.path.join(folder, "path", "mpirun"), MPIRUN)
-    shutil.copy(os.path.join(SOURCE, "scripts", "orthostat"), script)
+    for name in ("orthostat", "batch-ranks"):
+        shutil.copy(os.path.join(SOURCE, "scripts", name), os.path.join(folder, "scripts", name))
     return script, write_program(os.path.join(folder, "bin", "orthostat"), PROGRAM)
 
 
-def call(script, words, given="", output=subprocess.PIPE):
+def call(script, words, given="", output=subprocess.PIPE, job=None):
     return subprocess.run(["bash", script, *words.split()], text=True, input=given, stdout=output,
-                          stderr=subprocess.PIPE, timeout=60)
+                          stderr=subprocess.PIPE, timeout=60, env={**os.environ, **(job or {})})
 
 
 def takes_words_in_any_order(script, program):
@@ -46,6 +47,41 @@ def takes_words_in_any_order(script, program):
     refused = call(script, "-n 49 check a.yaml")
     check(refused.returncode == 2 and "-n 49 is far more ranks than the 3 cores" in refused.stderr and
           refused.stdout == "", f"49 ranks on 3 cores: {refused}")
+
+
+def takes_its_ranks_from_the_batch_system(folder, script, program):
+    nodes = os.path.join(folder, "nodes")
+    with open(nodes, "w") as stream:
+        stream.write("one\n" * 40 + "two\n" * 40)
+    slurm = {"SLURM_JOB_ID": "7"}
+    for job, ranks in [
+            ({**slurm, "SLURM_NTASKS": "128", "SLURM_JOB_CPUS_PER_NODE": "64(x2)"}, 128),
+            ({**slurm, "SLURM_JOB_NUM_NODES": "4", "SLURM_NTASKS_PER_NODE": "32"}, 128),
+            ({**slurm, "SLURM_JOB_CPUS_PER_NODE": "32(x3),16"}, 112),
+            ({**slurm, "SLURM_JOB_CPUS_PER_NODE": "32(x3),16", "SLURM_CPUS_PER_TASK": "2"}, 56),
+            ({"PBS_NP": "96"}, 96), ({"PBS_NODEFILE": nodes}, 80), ({"LSB_DJOB_NUMPROC": "24"}, 24),
+            ({"JOB_ID": "7", "NSLOTS": "12"}, 12), ({"FLUX_JOB_ID": "f1", "FLUX_JOB_SIZE": "48"}, 48), ({}, 3)]:
+        said = call(script, "solve a.yaml", job=job).stdout.strip()
+        check(said == f"mpirun --quiet -n {ranks} {program} solve a.yaml", f"{job}: {said}")
+    said = call(script, "-n 256 solve a", job={**slurm, "SLURM_NTASKS": "256"}).stdout.strip()
+    check(said == f"mpirun --quiet -n 256 {program} solve a", f"-n 256 in a job: {said}")
+    said = call(script, "scale a --ranks 1,2").stdout.strip()
+    check(said == "alone scale a --ranks 1,2", f"scale starts its ranks itself: {said}")
+    said = call(script, "scale a", job={**slurm, "SLURM_NTASKS": "8"}).stdout.strip()
+    check(said == f"mpirun --quiet -n 8 {program} scale a", f"scale in a job: {said}")
+
+
+def the_slurm_job_runs_the_case(folder):
+    job = os.path.join(SOURCE, "examples", "cluster", "orthostat.sbatch")
+    place = {"PATH": f"{folder}/path:{os.environ['PATH']}", "SLURM_JOB_ID": "7", "SCRATCH": folder, "HOME": folder}
+    said = subprocess.run(["bash", job, "cases/a.yaml", "--quiet"], text=True, stdout=subprocess.PIPE, input="",
+                          env={**os.environ, **place}, timeout=60)
+    results = os.path.join(folder, "orthostat-7")
+    check(said.returncode == 0 and said.stdout.strip() ==
+          f"mpirun --map-by core --bind-to core orthostat solve cases/a.yaml --output {results}/a.vtkhdf --json "
+          f"{results}/a.json --quiet" and os.path.isdir(results), f"the job: {said}")
+    said = subprocess.run(["bash", job], text=True, capture_output=True, env={**os.environ, **place}, timeout=60)
+    check(said.returncode != 0 and "Usage: sbatch" in said.stderr, f"a job without a case: {said}")
 
 
 def leaves_standard_input_alone(script):
@@ -83,6 +119,8 @@ def main():
     folder = new_folder()
     script, program = make_script(folder)
     takes_words_in_any_order(script, program)
+    takes_its_ranks_from_the_batch_system(folder, script, program)
+    the_slurm_job_runs_the_case(folder)
     leaves_standard_input_alone(script)
     a_full_disk_is_no_success(script)
     passes_on_the_exit_status(folder, script)

@@ -8,11 +8,15 @@ from pages import check, code_of, has_word, new_folder, read, run
 CASE = """
 title: everything at once
 mesh: {block: {size: [1, 1, 1], divisions: [3, 3, 3]}}
-materials: [{region: all, youngs_modulus: [1e6, 2e6, 3e6], poissons_ratio: 0.3, axes: {euler: {degrees: [10, 20, 30]}}}]
+materials: [{region: all, youngs_modulus: [1e6, 2e6, 3e6], poissons_ratio: 0.3, axes: {euler: {degrees: [10, 20, 30]}},
+   strengths: {tension: 1e5, shear: 5e4}}]
 constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
 loads: [{on: {boundary: xmax}, traction: [1e6, 0, 0]}]
 watch: {end: {displacement: {nearest: [1, 0, 0]}, component: x}}
 """
+
+
+WORDS = re.findall(r'X\(OST_FIELD_\w+, "(\w+)"\)', read("include", "orthostat", "output_field.h"))
 
 
 def keys_of(value, free=("watched",)):
@@ -30,7 +34,7 @@ folder = new_folder()
 with open(os.path.join(folder, "case.yaml"), "w") as stream:
     stream.write(CASE)
 with open(os.path.join(folder, "linear.yaml"), "w") as stream:
-    stream.write(CASE + "large_rotation: off\n")
+    stream.write(CASE + "large_rotation: off\noutput: {fields: [" + ", ".join(WORDS) + "]}\n")
 labels = []
 for case in "case.yaml", "linear.yaml":
     finished = run("solve", case, folder=folder)

@@ -18,13 +18,19 @@
 #define TWO                                                                       \
     "materials:\n  - {region: block, youngs_modulus: 1e6, poissons_ratio: 0.3}\n" \
     "  - {region: core, youngs_modulus: 2e6, poissons_ratio: 0.3}\n"
-#define HELD "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+#define STRONG "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, strengths: {tension: 1e4}}]\n"
+#define HELD "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
 #define MOVED                                                             \
     "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n" \
     "  - {on: {boundary: xmax}, displacement: [0.01, free, free]}\n"
 #define SLIDING                                                           \
     "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n" \
     "  - {on: {boundary: xmax}, slide: [1, 1, 0]}\n"
+#define RIGID HELD "  - {on: {boundary: xmax}, rigid: [2, 0, 0]}\n"
+#define TIED HELD "  - {on: {nearest: [2, 1, 1]}, tied_to: {boundary: xmin}, tolerance: 3}\n"
+#define CELL                                                                                                  \
+    "constraints: [{periodic: [[xmin, xmax], [ymin, ymax]], strain: {xx: 0.01}}, {on: {nearest: [0, 0, 0]}, " \
+    "displacement: [0, 0, 0]}]\n"
 #define FREE "constraints: free_body\n"
 #define PULLED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}]\n"
 #define TORN "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}, {on: {boundary: xmin}, traction: [-1, 0, 0]}]\n"
@@ -63,6 +69,9 @@ static const struct {
                                     QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
     ROW(OST_EFFECT_PRESCRIBED_DISPLACEMENT) = {BLOCK SOFT MOVED NO_FIELDS, BLOCK SOFT SLIDING PULLED NO_FIELDS},
     ROW(OST_EFFECT_SLIDING) = {BLOCK SOFT SLIDING PULLED NO_FIELDS, BLOCK SOFT FREE TORN NO_FIELDS},
+    ROW(OST_EFFECT_RIGID_FACE) = {BLOCK SOFT RIGID PULLED NO_FIELDS, BLOCK SOFT TIED PULLED NO_FIELDS},
+    ROW(OST_EFFECT_TIE) = {BLOCK SOFT TIED PULLED NO_FIELDS, BLOCK SOFT CELL NO_FIELDS},
+    ROW(OST_EFFECT_PERIODIC) = {BLOCK SOFT CELL NO_FIELDS, BLOCK SOFT RIGID PULLED NO_FIELDS},
     ROW(OST_EFFECT_FREE_BODY) = {BLOCK SOFT FREE TORN NO_FIELDS, BLOCK SOFT MOVED NO_FIELDS},
     ROW(OST_EFFECT_POINT_FORCE) = {BLOCK SOFT HELD POKED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_SURFACE_LOAD) = {BLOCK SOFT HELD SPREAD NO_FIELDS, BLOCK SOFT HELD POKED NO_FIELDS},
@@ -71,6 +80,7 @@ static const struct {
     ROW(OST_EFFECT_MOMENT) = {BLOCK SOFT HELD TWISTED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
     ROW(OST_EFFECT_FOLLOWER_PRESSURE) = {BLOCK SOFT HELD FOLLOWED NO_FIELDS, BLOCK SOFT HELD PRESSED NO_FIELDS},
     ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
+    ROW(OST_EFFECT_STRENGTH) = {BLOCK STRONG HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_FOUNDATION) = {BLOCK SOFT FOUNDED PULLED NO_FIELDS, BLOCK SOFT SPRUNG PULLED NO_FIELDS},
     ROW(OST_EFFECT_SPRINGS) = {BLOCK SOFT SPRUNG PULLED NO_FIELDS, BLOCK SOFT FOUNDED PULLED NO_FIELDS},
     ROW(OST_EFFECT_PATH) = {BLOCK SOFT HELD TIMED ALONG NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},

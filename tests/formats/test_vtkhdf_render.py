@@ -65,6 +65,19 @@ class Render(unittest.TestCase):
             self.assertGreater(panel[170:].mean(), 0.02)  # its section
             self.assertLess(abs(panel.mean() - panels[0].mean()), 0.01)
 
+    def test_colours_stand_for_the_field_asked_for(self):
+        picture = os.path.join(self.folder.name, "field.png")
+        pictures = []
+        for field in ("displacement:length", "displacement:y", "tet"):
+            done = self.render(self.result, picture, "--size", "800x500", "--scale", "2", "--field", field)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pictures.append(imread(picture)[80:420])
+        self.assertGreater(abs(pictures[0] - pictures[1]).mean(), 0.005)
+        self.assertGreater(abs(pictures[0] - pictures[2]).mean(), 0.005)
+        self.assertIn("has no field 'stres'; it has displacement", self.refusal(self.result, picture, "--field", "stres"))
+        self.assertIn("'displacement' has no part 'xx'; it has x, y, z, length",
+                      self.refusal(self.result, picture, "--field", "displacement:xx"))
+
     def test_loads_that_lie_together_become_one_arrow(self):
         places = numpy.array([[0, 0, 0], [0.1, 0, 0], [5, 0, 0], [9, 9, 9], [9, 8, 9], [9, 9, 8], [8, 9, 9]], float)
         load = numpy.array([[1, 0, 0], [3, 0, 0], [0, 2, 0]] + 4 * [[0, 0, 0]], float)

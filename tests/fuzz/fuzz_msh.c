@@ -8,7 +8,7 @@ static void read_mesh_and_field(OstContext *ctx, const char *path)
     OstMeshChunk *chunk = NULL;
     OstFileMaterials *materials = NULL;
     if (ost_mesh_file_read(ctx, path, &chunk, &materials) == OST_SUCCESS)
-        (void)ost_mesh_file_read_field(ctx, path, "swelling", chunk);
+        (void)ost_mesh_file_read_field(ctx, path, "swelling", OST_FIELD_OF_NUMBERS, chunk);
     ost_chunk_destroy(&chunk);
     ost_file_materials_destroy(&materials);
     read_mesh(ctx, path);

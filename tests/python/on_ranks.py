@@ -13,7 +13,7 @@ SOURCE = os.environ["ORTHOSTAT_SOURCE"]
 WOOD = {"region": "all", "youngs_modulus": [10, 0.8, 0.5], "poissons_ratio": {"nu12": 0.4, "nu23": 0.3, "nu31": 0.02},
         "shear_modulus": {"G12": 0.6, "G23": 0.04, "G31": 0.6}}
 BAR = {"title": "a bar", "mesh": {"block": {"size": np.array([4, 1, 1]), "divisions": (8, 2, 2)}}, "materials": [WOOD],
-       "constraints": [{"on": {"boundary": "xmin"}, "displacement": [0, "free", "free"]},
+       "constraints": [{"on": {"boundary": "xmin"}, "displacement": [0, None, np.nan]},
                        {"on": {"boundary": "ymin"}, "displacement": ["free", 0, "free"]},
                        {"on": {"boundary": "zmin"}, "displacement": ["free", "free", 0]}],
        "loads": [{"on": {"boundary": "xmax"}, "total_force": [np.float64(0.02), 0, 0]}],
@@ -118,8 +118,33 @@ def many_loads_share_one_hierarchy(folder):
     assert 0 < estimated.error.relative < 1 and estimated.stress is not None and estimated.strain is None
 
 
+def fields_are_those_of_the_file(folder):
+    strong = {**WOOD, "strengths": {"tension": [0.04, 0.02, 0.02], "compression": [0.04, 0.02, 0.02], "shear": {"S12": 0.01, "S23": 0.01, "S31": 0.01}}}
+    result = orthostat.solve({**BAR, "materials": [strong]})
+    tets = result.mesh.owned_tets
+    assert np.array_equal(result.field("stress"), result.stress) and not result.field("stress").flags.owndata
+    close(result.field("von_mises"), np.full(tets, 0.02), 1e-6)
+    close(result.field("principal_stress")[:, 0], np.full(tets, 0.02), 1e-6)
+    close(result.field("maximum_stress_load_factor"), np.full(tets, 2.0), 1e-6)
+    close(result.failure.least[2].factor, 2.0, 1e-6)
+    close(result.field("strain_tensor")[:, 3:], 0.5 * result.strain[:, 3:], 1e-6)
+    close(result.field("load")[:result.mesh.owned_nodes], result.load)
+    assert result.field("load").shape == (result.mesh.node_count, 3) and result.field("region").dtype == np.int32
+    assert np.array_equal(result.field("rank"), np.full(tets, result.context.rank))
+    close(result.field("axes"), np.tile(np.eye(3), (tets, 1, 1)))
+    assert orthostat.solve(BAR).field("hill_load_factor") is None  # no strengths
+    raises(ValueError, "field: 'misses' is none of", result.field, "misses")
+    held = result.field("pressure")
+    del result
+    gc.collect()
+    orthostat.solve(BAR)
+    close(held, np.full(tets, -0.02 / 3), 1e-6)
+
+
 def failures_are_exceptions_with_the_librarys_words(folder):
     raises(orthostat.FileFailed, "nowhere.yaml: cannot be opened", orthostat.solve, "nowhere.yaml")
+    raises(orthostat.InvalidInput, "unknown key 'mush'", orthostat.solve, "mush: from_program")
+    raises(ValueError, "three shear moduli", orthostat.Material, [1, 2, 3], [0.1, 0.2, 0.3])
     raises(OSError, "nowhere.yaml", orthostat.solve, "nowhere.yaml")
     raises(orthostat.InvalidInput, "did you mean 'loads'", orthostat.solve, {**BAR, "loots": []})
     raises(orthostat.InvalidInput, "region 'bone'", orthostat.solve, {**BAR, "materials": [WOOD, {**WOOD, "region": "bone"}]})
@@ -212,10 +237,11 @@ def constraints_may_be_given_along_directions(folder):
     x, nan = mesh.points, np.nan
     steel = orthostat.Material(200.0, 0.0)
     problem = orthostat.Problem(mesh, steel, constraints=[
-        (x[:, 0] == 0, 0.0, [1, 0, 0]), (np.flatnonzero(x[:, 0] == 2), [0.02, nan, nan]),
+        (x[:, 0] == 0, 0.0, [1, 0, 0]), (np.flatnonzero(x[:, 0] == 2), [[0.02, nan, nan]] * (x[:, 0] == 2).sum()),
         (np.ones(len(x), bool), [nan, 0, 0])])
     answer = problem.analysis().solve()
     close(answer.displacement, x * [0.01, 0, 0])
+    raises(ValueError, "there is no node 99", orthostat.Problem, mesh, steel, constraints=[([99], [0, 0, 0])])
     close(mesh.gather_nodes(answer.reaction)[mesh.gather_nodes(x)[:, 0] == 2].sum(axis=0), [2, 0, 0], 1e-6)
 
 
@@ -293,7 +319,7 @@ def main():
     context = orthostat.Context()
     folder = sys.argv[2]
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
-                 many_loads_share_one_hierarchy, failures_are_exceptions_with_the_librarys_words,
+                 many_loads_share_one_hierarchy, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
                  poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, communicators_are_handed_over,
                  materials_have_their_matrices):

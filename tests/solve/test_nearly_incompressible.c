@@ -7,7 +7,7 @@
 #include "assembly/system.h"
 #include "core/memory.h"
 #include "orthostat/orthostat.h"
-#include "solve/recovery.h"
+#include "recovery/recovery.h"
 
 /* A thick cylinder under internal pressure 1 in plane strain (Lamé): a = 3, b = 9, E = 1000. A quarter of it, one layer
  * of hexes high; 20 through the wall. */

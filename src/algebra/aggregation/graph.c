@@ -170,6 +170,23 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     return status;
 }
 
+OstStatus ost_metric_graph_of_pattern(OstContext *ctx, OstLocal rows, const OstLocal *row_start, const OstLocal *column,
+                                      const double *place, OstMetricGraph **graph)
+{
+    OstLocal edges = 0;
+    OST_TRY(allocate_graph(ctx, rows, row_start[rows], graph));
+    for (OstLocal i = 0; i < rows; i++) {
+        memcpy((*graph)->position + 3 * (size_t)i, place + 9 * (size_t)i, 3 * sizeof *place);
+        memcpy((*graph)->metric + 6 * (size_t)i, place + 9 * (size_t)i + 3, 6 * sizeof *place);
+        for (OstLocal k = row_start[i]; k < row_start[i + 1]; k++)
+            if (column[k] < rows && column[k] != i)
+                (*graph)->neighbour[edges++] = column[k];
+        (*graph)->edge_start[i + 1] = edges;
+    }
+    measure_edges(*graph);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most)
 {
     double least = 1.0; /* squared length in the metric over squared Euclidean length */

@@ -46,6 +46,11 @@ OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregat
  * node, whose metrics are averaged. */
 OstStatus ost_metric_graph_shortening(const OstMetricGraph *graph, double *most);
 
+/* Local. The graph of a matrix's pattern between its own rows; `place` has three coordinates and six numbers of the
+ * metric for each. */
+OstStatus ost_metric_graph_of_pattern(OstContext *ctx, OstLocal rows, const OstLocal *row_start, const OstLocal *column,
+                                      const double *place, OstMetricGraph **graph);
+
 void ost_metric_graph_destroy(OstMetricGraph **graph);
 
 void ost_aggregates_destroy(OstAggregates **aggregates);

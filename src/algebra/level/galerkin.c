@@ -4,6 +4,7 @@
 #include "algebra/level/block_sum.h"
 #include "algebra/level/fetched_rows.h"
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 
 #include <string.h>
@@ -157,7 +158,7 @@ OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k
 }
 
 /* block += pᵀ × (a column of A P) */
-static void add_product(size_t height, const double *p, const OstDouble8 *column, double *block)
+OST_UNROLLED void add_product(size_t height, const double *p, const OstDouble8 *column, double *block)
 {
     OstDouble8 sum[WIDTH] = {{0}};
     for (size_t r = 0; r < height; r++)
@@ -195,7 +196,7 @@ OST_UNROLLED OstStatus multiply_block(Product *product, int size, OstLocal b)
     return OST_SUCCESS;
 }
 
-static OstStatus multiply(Product *product)
+OST_KERNEL static OstStatus multiply(Product *product)
 {
     const OstSmootherBlocks *blocks = product->blocks;
     const size_t columns = (size_t)product->sum->owned + (size_t)product->sum->ghost->count;

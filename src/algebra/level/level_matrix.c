@@ -3,6 +3,7 @@
 
 #include "algebra/level/simd.h"
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 
 void ost_level_matrix_destroy(OstLevelMatrix **matrix)
@@ -50,7 +51,7 @@ OST_UNROLLED void fill_upper_half(const OstDoubleMatrix *source, int size, OstLe
     }
 }
 
-static OstStatus copy_upper_half(const OstDoubleMatrix *source, OstLevelMatrix *matrix)
+OST_KERNEL static OstStatus copy_upper_half(const OstDoubleMatrix *source, OstLevelMatrix *matrix)
 {
     OstContext *ctx = source->ctx;
     const size_t square = (size_t)(source->size * source->size);
@@ -121,8 +122,12 @@ OstStatus ost_level_vector_create(OstContext *ctx, int size, size_t columns, dou
 }
 
 /* 3 × 3 blocks. Each block right of the diagonal acts on its row and, transposed, on the row of its column. */
+<<<<<<< HEAD
 static void add3(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
                  const double *restrict x, double *restrict y)
+=======
+OST_KERNEL static void add3(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+>>>>>>> int
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 3 * (size_t)i;
@@ -155,8 +160,12 @@ static void add3(const OstLevelMatrix *matrix, const float *diagonal, const floa
 }
 
 /* The same with 6 × 6 blocks. */
+<<<<<<< HEAD
 static void add6(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
                  const double *restrict x, double *restrict y)
+=======
+OST_KERNEL static void add6(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+>>>>>>> int
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 6 * (size_t)i;

@@ -2,6 +2,7 @@
 #include "algebra/level/prolongator.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 
 #include <string.h>
@@ -53,7 +54,7 @@ static void book(const OstProlongator *prolongator)
     ost_ledger_multiplied(prolongator->ctx, entries * prolongator->height * OST_MODES);
 }
 
-void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
+OST_KERNEL void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
 {
     ost_exchange_import(prolongator->exchange, c);
     book(prolongator);
@@ -63,7 +64,7 @@ void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x
         add_rows(prolongator, 6, c, x);
 }
 
-void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
+OST_KERNEL void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
 {
     memset(c, 0, OST_MODES * (size_t)prolongator->columns * sizeof *c);
     if (prolongator->height == 3)

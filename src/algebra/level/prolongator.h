@@ -11,7 +11,7 @@ typedef struct OstProlongator {
     OstContext *ctx;
     int height; /* unknowns of a fine node: 3 or 6; a coarse node has OST_MODES */
     OstLocal rows, columns;
-    OstLocal *row_start, *column; /* columns ascend within a row */
+    OstLocal *row_start, *column; /* columns ascend within a row, until the coarse level is gathered on fewer ranks */
     float *value;                 /* row_start[rows] × height × OST_MODES, row by row, and padding */
     OstHalo *halo;                /* over columns */
     OstExchange *exchange;        /* of coarse vectors along that halo */

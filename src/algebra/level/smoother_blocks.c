@@ -4,6 +4,7 @@
 #include "algebra/aggregation/aggregates.h"
 #include "algebra/level/simd.h"
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 #include "core/small.h"
 
@@ -207,7 +208,7 @@ OST_UNROLLED void multiply_strips(int count, int side, const float *value, const
 
 /* out = value × in, in strips of eight rows of which the last two may overlap. With fewer than eight rows, out is
  * overwritten up to out[7]. */
-static void multiply_dense(int side, const float *value, const float *in, float *out)
+OST_UNROLLED void multiply_dense(int side, const float *value, const float *in, float *out)
 {
     for (int from = 0; from < side; from += 8 * MOST_STRIPS) {
         int count = 0, offset[MOST_STRIPS];
@@ -245,7 +246,7 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, int fr
     }
 }
 
-void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
+OST_KERNEL void ost_smoother_blocks_step(const OstSmootherBlocks *blocks, const OstBlockStep *step, const double *r)
 {
     ost_ledger_multiplied(blocks->ctx, (double)blocks->value_start[blocks->count]);
     if (blocks->size == 3 && step->from_zero)

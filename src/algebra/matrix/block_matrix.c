@@ -2,6 +2,7 @@
 #include "algebra/matrix/block_matrix.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ void ost_block_matrix_destroy(OstBlockMatrix **matrix)
     OST_FREE(*matrix);
 }
 
-void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *restrict x, double *restrict y)
+OST_KERNEL void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *restrict x, double *restrict y)
 {
     const OstLocal *restrict column = matrix->column;
     for (OstLocal i = 0; i < matrix->rows; i++) {
@@ -62,7 +63,8 @@ static inline void subtract_product(Sum *sum, double a, double b)
     sum->high = high;
 }
 
-OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f, double *u, double *residual)
+OST_KERNEL OstStatus ost_compensated_residual(const OstBlockMatrix *matrix, const double *f, double *u,
+                                              double *residual)
 {
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), u));
     ost_ledger_multiplied(matrix->ctx, 10.0 * 9.0 * matrix->row_start[matrix->rows]);

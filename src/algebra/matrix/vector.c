@@ -2,12 +2,13 @@
 #include "algebra/matrix/vector.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/parallel/reduce.h"
 
 #include <float.h>
 #include <math.h>
 
-double ost_dot(size_t n, const double *restrict a, const double *restrict b)
+OST_KERNEL double ost_dot(size_t n, const double *restrict a, const double *restrict b)
 {
     double total = 0.0;
 #pragma omp simd reduction(+ : total)

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,18 +27,30 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
     OST_FREE(*coarsest);
 }
 
-/* Counts the unknowns of each rank; they are factored as a dense matrix if all are few. */
+/* Has one rank all of them? Few are factored as a dense matrix. */
+static OstStatus count_unknowns(OstCoarsest *coarsest)
+{
+    OstGlobal all = coarsest->owned, most = coarsest->owned;
+    OST_TRY(ost_sum_numbers(coarsest->ctx, 1, &all));
+    OST_TRY(ost_max_numbers(coarsest->ctx, 1, &most));
+    coarsest->dense = all <= OST_COARSEST_LIMIT;
+    coarsest->alone = most == all;
+    coarsest->order = !coarsest->dense ? 0 : coarsest->alone ? coarsest->owned : (int)all;
+    return OST_SUCCESS;
+}
+
+/* Where each rank's unknowns are, if several have some. */
 static OstStatus number_unknowns(OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
+    const size_t ranks = coarsest->alone ? 1 : (size_t)ost_size(ctx);
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &coarsest->count, 2 * ranks)));
+    coarsest->start = coarsest->count + ranks;
+    if (coarsest->alone)
+        return OST_SUCCESS;
     OST_TRY(OST_MPI(ctx, MPI_Allgather(&coarsest->owned, 1, MPI_INT, coarsest->count, 1, MPI_INT, ost_comm(ctx))));
-    OstGlobal order = 0;
-    for (int r = 0; r < ost_size(ctx); r++) {
-        coarsest->start[r] = order <= OST_COARSEST_LIMIT ? (int)order : 0;
-        order += coarsest->count[r];
-    }
-    coarsest->dense = order <= OST_COARSEST_LIMIT;
-    coarsest->order = order <= OST_COARSEST_LIMIT ? (int)order : 0;
+    for (size_t r = 1; r < ranks; r++)
+        coarsest->start[r] = coarsest->start[r - 1] + coarsest->count[r - 1];
     return OST_SUCCESS;
 }
 
@@ -107,6 +120,12 @@ static OstStatus factor(OstCoarsest *coarsest)
         info, coarsest->order);
 }
 
+/* Of this rank. */
+static int first_unknown(const OstCoarsest *coarsest)
+{
+    return coarsest->start[coarsest->alone ? 0 : ost_rank(coarsest->ctx)];
+}
+
 static OstStatus factor_dense(const OstDoubleMatrix *matrix, OstCoarsest *coarsest)
 {
     OstContext *ctx = coarsest->ctx;
@@ -115,9 +134,10 @@ static OstStatus factor_dense(const OstDoubleMatrix *matrix, OstCoarsest *coarse
     OstStatus status;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &coarsest->factor, order * order + order)));
     coarsest->vector = coarsest->factor + order * order;
-    OST_TRY_DONE(ost_double_matrix_numbers(matrix, coarsest->start[ost_rank(ctx)], &number));
+    OST_TRY_DONE(ost_double_matrix_numbers(matrix, first_unknown(coarsest), &number));
     spread_rows(matrix, number, coarsest);
-    OST_TRY_DONE(ost_agree(ctx, gather_rows(coarsest)));
+    if (!coarsest->alone)
+        OST_TRY_DONE(ost_agree(ctx, gather_rows(coarsest)));
     OST_TRY_DONE(ost_agree(ctx, factor(coarsest)));
 done:
     OST_FREE(number);
@@ -127,17 +147,15 @@ done:
 OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest)
 {
     OstContext *ctx = matrix->ctx;
-    const size_t ranks = (size_t)ost_size(ctx);
     OstCoarsest *made = NULL;
     *coarsest = NULL;
-    OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->count, 2 * ranks);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    made->start = made->count + ranks;
+    OstStatus status;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
     made->ctx = ctx;
     made->owned = matrix->size * matrix->rows;
-    OST_TRY_DONE(ost_agree(ctx, number_unknowns(made)));
+    OST_TRY_DONE(count_unknowns(made));
+    if (made->dense)
+        OST_TRY_DONE(number_unknowns(made));
     if (made->dense)
         OST_TRY_DONE(factor_dense(matrix, made));
     else
@@ -156,14 +174,21 @@ OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x)
     int info = 0;
     if (coarsest->sparse)
         return ost_mumps_solve(coarsest->sparse, b, x);
-    OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
-                                        coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
-    ost_ledger_gathered(ctx, (double)coarsest->order * sizeof *b);
-    ost_ledger_multiplied(ctx, (double)coarsest->order * (double)coarsest->order / ost_size(ctx));
+    if (coarsest->alone) {
+        if (coarsest->order == 0)
+            return OST_SUCCESS;
+        memcpy(coarsest->vector, b, (size_t)coarsest->owned * sizeof *b);
+    } else {
+        OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
+                                            coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
+        ost_ledger_gathered(ctx, (double)coarsest->order * sizeof *b);
+    }
+    const double entries = (double)coarsest->order * (double)coarsest->order;
+    ost_ledger_multiplied(ctx, coarsest->alone ? entries : entries / ost_size(ctx));
     const int leading = coarsest->order > 0 ? coarsest->order : 1;
     dpotrs_("L", &coarsest->order, &one, coarsest->factor, &leading, coarsest->vector, &leading, &info, 1);
     if (info != 0)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "LAPACK's dpotrs returned %d", info);
-    memcpy(x, coarsest->vector + coarsest->start[ost_rank(ctx)], (size_t)coarsest->owned * sizeof *x);
+    memcpy(x, coarsest->vector + first_unknown(coarsest), (size_t)coarsest->owned * sizeof *x);
     return OST_SUCCESS;
 }

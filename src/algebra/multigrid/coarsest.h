@@ -4,11 +4,12 @@
 
 #include "algebra/direct/mumps.h"
 
-/* The factors of the coarsest level. A small matrix is stored and factored whole on every rank, as messages would cost
- * more than the arithmetic; a large one is factored by MUMPS. */
+/* The factors of the coarsest level. A small matrix is factored whole by the rank that has all of it, or, where several
+ * have it, on every rank, as messages would cost more than the arithmetic; a large one is factored by MUMPS. */
 typedef struct OstCoarsest {
     OstContext *ctx;
     int dense;
+    int alone;        /* has one rank all unknowns? It alone factors and solves them */
     OstMumps *sparse; /* if not dense; what follows is for a dense matrix */
     int order;        /* unknowns over all ranks */
     int owned;        /* of them on this rank */

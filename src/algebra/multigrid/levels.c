@@ -3,7 +3,11 @@
 
 #include "algebra/aggregation/aggregates.h"
 #include "algebra/level/galerkin.h"
+<<<<<<< HEAD
 #include "algebra/matrix/vector.h"
+=======
+#include "algebra/multigrid/gathered_level.h"
+>>>>>>> int
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -33,6 +37,7 @@ typedef struct Coarsening {
     OstLevels *levels;
     double **modes;     /* near-null space of the coarsest level so far */
     OstGlobal unknowns; /* on all ranks */
+    int stride;         /* every how manyth rank has nodes of it */
 } Coarsening;
 
 static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
@@ -90,6 +95,7 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     return ost_sum_numbers(work->ctx, 1, unknowns);
 }
 
+<<<<<<< HEAD
 /* The cycle's matrix of level l, which is the coarsest so far. */
 static OstStatus create_matrix(OstLevels *levels, int l)
 {
@@ -97,11 +103,29 @@ static OstStatus create_matrix(OstLevels *levels, int l)
     if (!ost_metric_graph_is_uneven(levels->graph[l]))
         return OST_SUCCESS;
     return ost_agree(levels->coarsest->ctx, ost_level_matrix_keep_rest(levels->coarsest, levels->matrix[l]));
+=======
+/* A level that is solved by dense factors goes to one rank, another one to as many as have enough to do. One that is
+ * factored by MUMPS stays where it is. */
+static OstStatus gather(Coarsening *work, OstGlobal first, OstGlobal unknowns, OstDoubleMatrix **coarse)
+{
+    const int l = work->levels->count - 1;
+    const int together = unknowns <= work->options.coarsest_unknowns;
+    const int stride = ost_gathered_stride(unknowns / OST_MODES, ost_size(work->ctx), work->stride, together);
+    if (stride == work->stride || (!together && l + 2 >= work->options.most_levels))
+        return OST_SUCCESS;
+    OstLooseLevel level = {.matrix = coarse,
+                           .graph = &work->levels->graph[l + 1],
+                           .modes = work->modes,
+                           .prolongator = work->levels->prolongator[l],
+                           .first = first};
+    work->stride = stride;
+    return ost_level_gather(&level, stride);
+>>>>>>> int
 }
 
 /* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
  */
-static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
+static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, OstGlobal unknowns)
 {
     OstLevels *levels = work->levels;
     const int l = levels->count - 1;
@@ -123,7 +147,13 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates)
     ost_double_matrix_mend_diagonal(coarse);
     ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
+<<<<<<< HEAD
     OST_TRY_DONE(create_matrix(levels, l + 1));
+=======
+    OST_TRY_DONE(gather(work, first, unknowns, &levels->coarsest));
+    coarse = levels->coarsest;
+    OST_TRY_DONE(ost_level_matrix_create(coarse, &levels->matrix[l + 1]));
+>>>>>>> int
     levels->count++;
 done:
     ost_tentative_destroy(&tentative);
@@ -142,7 +172,7 @@ static OstStatus coarsen(Coarsening *work)
             ost_metric_graph_destroy(&levels->graph[levels->count]);
             break;
         }
-        OST_TRY_DONE(add_level(work, aggregates));
+        OST_TRY_DONE(add_level(work, aggregates, unknowns));
         ost_aggregates_destroy(&aggregates);
         work->unknowns = unknowns;
     }
@@ -155,8 +185,12 @@ done:
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
                             OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels)
 {
-    Coarsening work = {
-        .ctx = matrix->ctx, .options = *options, .levels = levels, .modes = modes, .unknowns = 3 * matrix->global_rows};
+    Coarsening work = {.ctx = matrix->ctx,
+                       .options = *options,
+                       .levels = levels,
+                       .modes = modes,
+                       .unknowns = 3 * matrix->global_rows,
+                       .stride = 1};
     memset(levels, 0, sizeof *levels);
     levels->count = 1;
     levels->graph[0] = *finest_graph;

@@ -2,6 +2,7 @@
 #include "algebra/multigrid/prolongator_smoothing.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 #include "core/number_set.h"
 
@@ -159,7 +160,7 @@ OST_UNROLLED void smooth_block(Smoothing *s, int size, OstLocal b)
     }
 }
 
-static OstStatus smooth_blocks(Smoothing *s)
+OST_KERNEL static OstStatus smooth_blocks(Smoothing *s)
 {
     OstContext *ctx = s->matrix->ctx;
     const int size = s->matrix->size;

@@ -27,6 +27,9 @@ OstStatus ost_yaml_raise(const OstYaml *yaml, const OstYamlNode *node, const cha
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    const char *setting = ost_yaml_setting(yaml, node);
+    if (setting)
+        append(message, sizeof message, " (set by %.200s)", setting);
     return OST_RAISE(yaml->ctx, OST_INVALID_INPUT, "%s:%d:%d: %s", yaml->path, ost_yaml_line(node),
                      (int)node->column + 1, message);
 }

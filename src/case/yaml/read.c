@@ -106,6 +106,17 @@ OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYaml
     return OST_SUCCESS;
 }
 
+int ost_yaml_has(const OstYaml *yaml, const OstYamlNode *node, const char *name)
+{
+    const OstYamlNode *mapping = ost_yaml_follow(yaml, node), *key = mapping + 1;
+    for (uint32_t pair = 0; mapping->kind == OST_YAML_MAPPING && pair < mapping->value; pair++) {
+        if (ost_yaml_is(yaml, key, OST_YAML_SCALAR) && strcmp(scalar_text(yaml, key), name) == 0)
+            return 1;
+        key = ost_yaml_next(yaml, ost_yaml_next(yaml, key));
+    }
+    return 0;
+}
+
 OstStatus ost_yaml_one_of(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int count, int *which)
 {
     char list[OST_YAML_LIST_SIZE];

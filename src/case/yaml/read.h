@@ -25,6 +25,9 @@ OstPlace ost_yaml_at(const OstYamlNode *node);
  * `read`, in their order. */
 OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count);
 
+/* Does a mapping have this key? */
+int ost_yaml_has(const OstYaml *yaml, const OstYamlNode *node, const char *name);
+
 /* Which one of the first `count` keys has a value; refuses none, and more than one. */
 OstStatus ost_yaml_one_of(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int count, int *which);
 

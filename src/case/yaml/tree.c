@@ -242,6 +242,7 @@ static OstStatus measure_and_fill(OstYaml *yaml, const char *bytes, size_t size)
     yaml->count = walk->nodes;
     OST_TRY_DONE(OST_NEW(ctx, &yaml->node, walk->nodes));
     OST_TRY_DONE(OST_NEW(ctx, &yaml->text, walk->text));
+    yaml->text_size = walk->text;
     *walk = (Walk){.yaml = yaml, .bytes = bytes, .size = size, .filling = 1, .weight_limit = UINT64_MAX};
     OST_TRY_DONE(walk_text(walk));
 done:
@@ -273,6 +274,9 @@ void ost_yaml_destroy(OstYaml **yaml)
         return;
     OST_FREE((*yaml)->node);
     OST_FREE((*yaml)->text);
+    for (int s = 0; s < (*yaml)->settings; s++)
+        OST_FREE((*yaml)->setting[s]);
+    OST_FREE((*yaml)->setting);
     OST_FREE(*yaml);
 }
 
@@ -299,4 +303,9 @@ const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node)
 const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node)
 {
     return &yaml->node[node->next];
+}
+
+const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node)
+{
+    return node->set > 0 ? yaml->setting[node->set - 1] : NULL;
 }

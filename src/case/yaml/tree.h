@@ -20,6 +20,7 @@ typedef struct OstYamlNode {
     uint64_t column : 24;
     uint64_t kind : 2;
     uint64_t quoted : 1; /* SCALAR: is in quotes, so it is text even if it reads as a number */
+    uint64_t set : 8;    /* 0: the file's; or 1 + the number of the setting that made it (case/yaml/set.h) */
     uint32_t value;      /* SCALAR: where its text starts; SEQUENCE: items; MAPPING: pairs; ALIAS: node it stands for */
     uint32_t next;
 } OstYamlNode;
@@ -30,6 +31,9 @@ typedef struct OstYaml {
     uint32_t count;
     OstYamlNode *node; /* node[0] is the document */
     char *text;        /* the scalars, each ended by 0 */
+    size_t text_size;
+    int settings; /* that have changed the tree, in their words */
+    char **setting;
 } OstYaml;
 
 /* Limits; a file beyond them is refused with a message. */
@@ -50,5 +54,8 @@ int ost_yaml_is(const OstYaml *yaml, const OstYamlNode *node, OstYamlKind kind);
 /* Local. The first child of a sequence or mapping; the node after a node and its children. */
 const OstYamlNode *ost_yaml_first(const OstYaml *yaml, const OstYamlNode *node);
 const OstYamlNode *ost_yaml_next(const OstYaml *yaml, const OstYamlNode *node);
+
+/* Local. The setting "KEY=VALUE" that made a node (case/yaml/set.h); NULL: the file did. */
+const char *ost_yaml_setting(const OstYaml *yaml, const OstYamlNode *node);
 
 #endif

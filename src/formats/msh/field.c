@@ -7,15 +7,17 @@
 #include <math.h>
 #include <string.h>
 
-/* $ElementData, by Gmsh's manual: strings, the first of which is the name; numbers, the first the time; integers, the
- * step, the components and the elements; then a line, or record, for each element: its tag and the components. */
+/* $ElementData and $NodeData, by Gmsh's manual: strings, the first of which is the name; numbers, the first the time;
+ * integers, the step, the components and the elements; then a line, or record, for each element or node: its tag and
+ * the components. */
 
 typedef struct Field {
     OstMsh msh; /* its cursor and version alone are used */
     const char *name;
-    OstMeshChunk *chunk;
-    OstLabelIndex tets;
-    int found, step, later; /* is it there; its step; are there further ones? */
+    const OstMeshChunk *chunk;
+    OstFileField *out;
+    OstLabelIndex rows; /* of tets, or of nodes */
+    int step, later;    /* its step; are there further ones? */
 } Field;
 
 enum { STEP, COMPONENTS, ELEMENTS, INTEGERS };
@@ -67,43 +69,61 @@ static OstStatus read_integers(OstMshCursor *cursor, int integer[INTEGERS])
                                   : OST_RAISE_MSH(cursor, "%d elements found, expected 0 or more", integer[ELEMENTS]);
 }
 
-static OstStatus make_room(Field *field, int width)
+/* Tags of what the section is on. */
+static OstStatus index_rows(Field *field, int on_nodes)
 {
-    OstMeshChunk *chunk = field->chunk;
-    OST_TRY(ost_tet_field_check(chunk->ctx, field->msh.cursor.path, field->name, width));
-    if (field->found && width != chunk->field_width)
-        return OST_RAISE_MSH(&field->msh.cursor, "'%s' has %d components here, and %d before", field->name, width,
-                             chunk->field_width);
-    if (field->found)
+    const OstMeshChunk *chunk = field->chunk;
+    if (on_nodes)
+        return ost_label_index_create(chunk->ctx, chunk->node_count, chunk->node_label, &field->rows);
+    if (chunk->relabelled)
+        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
+                         "%s: the tets were numbered anew, as several had one tag, so that the field '%s' cannot be "
+                         "told tet by tet; give each element its own tag",
+                         field->msh.cursor.path, field->name);
+    return ost_label_index_create(chunk->ctx, chunk->tet_count, chunk->tet_label, &field->rows);
+}
+
+static OstStatus make_room(Field *field, int on_nodes, int width)
+{
+    OstContext *ctx = field->chunk->ctx;
+    OstFileField *out = field->out;
+    OST_TRY(ost_tet_field_check(ctx, field->msh.cursor.path, field->name, width));
+    if (out->found && (width != out->width || on_nodes != out->on_nodes))
+        return OST_RAISE_MSH(&field->msh.cursor, "'%s' has %d components on %s here, and %d on %s before", field->name,
+                             width, on_nodes ? "nodes" : "elements", out->width, out->on_nodes ? "nodes" : "elements");
+    if (out->found)
         return OST_SUCCESS;
-    chunk->field_width = width;
-    OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_field, (size_t)chunk->tet_count * (size_t)width));
-    for (size_t i = 0; i < (size_t)chunk->tet_count * (size_t)width; i++)
-        chunk->tet_field[i] = NAN;
+    OST_TRY(index_rows(field, on_nodes));
+    out->width = width;
+    out->on_nodes = on_nodes;
+    const size_t count = (size_t)field->rows.count * (size_t)width;
+    OST_TRY(OST_NEW(ctx, &out->values, count));
+    for (size_t i = 0; i < count; i++)
+        out->values[i] = NAN;
     return OST_SUCCESS;
 }
 
-/* Elements that are no tets of the mesh are passed over. */
+/* Elements that are no tets of the mesh, and nodes of no tet, are passed over. */
 static OstStatus read_values(Field *field, int width, int count)
 {
     OstMshCursor *cursor = &field->msh.cursor;
-    OST_TRY(ost_msh_check_count(cursor, "elements with data", count, 1 + width));
+    OST_TRY(ost_msh_check_count(cursor, "entries of data", count, 1 + width));
     for (int i = 0; i < count; i++) {
         int tag;
-        OST_TRY(ost_msh_int(cursor, "the tag of an element", &tag));
-        const OstGlobal tet = ost_label_index_find(&field->tets, tag);
+        OST_TRY(ost_msh_int(cursor, "the tag of an element or node", &tag));
+        const OstGlobal row = ost_label_index_find(&field->rows, tag);
         for (int k = 0; k < width; k++) {
             double value;
-            OST_TRY(ost_msh_double(cursor, "a value of an element", &value));
-            if (tet >= 0)
-                field->chunk->tet_field[(size_t)tet * (size_t)width + (size_t)k] = value;
+            OST_TRY(ost_msh_double(cursor, "a value of an element or node", &value));
+            if (row >= 0)
+                field->out->values[(size_t)row * (size_t)width + (size_t)k] = value;
         }
     }
     return OST_SUCCESS;
 }
 
 /* Partitions and appended views may state a field in several sections of one step. */
-static OstStatus read_data(Field *field)
+static OstStatus read_data(Field *field, int on_nodes)
 {
     OstMshCursor *cursor = &field->msh.cursor;
     const int binary = cursor->binary;
@@ -114,11 +134,11 @@ static OstStatus read_data(Field *field)
     OST_THEN(read_integers(cursor, integer));
     cursor->binary = binary;
     OST_TRY(status);
-    field->later |= wanted && field->found && integer[STEP] != field->step;
-    if (!wanted || (field->found && integer[STEP] != field->step))
+    field->later |= wanted && field->out->found && integer[STEP] != field->step;
+    if (!wanted || (field->out->found && integer[STEP] != field->step))
         return OST_SUCCESS;
-    OST_TRY(make_room(field, integer[COMPONENTS]));
-    field->found = 1;
+    OST_TRY(make_room(field, on_nodes, integer[COMPONENTS]));
+    field->out->found = 1;
     field->step = integer[STEP];
     return read_values(field, integer[COMPONENTS], integer[ELEMENTS]);
 }
@@ -134,40 +154,26 @@ static OstStatus read_sections(Field *field)
         ost_msh_section_name(line, name);
         if (strcmp(name, "MeshFormat") == 0 && field->msh.version == 0)
             OST_TRY(ost_msh_format(&field->msh));
-        else if (strcmp(name, "ElementData") == 0)
-            OST_TRY(read_data(field));
+        else if (strcmp(name, "ElementData") == 0 || strcmp(name, "NodeData") == 0)
+            OST_TRY(read_data(field, name[0] == 'N'));
         OST_TRY(ost_msh_skip_section(cursor, name));
         ost_msh_rest_of_line(cursor); /* its end */
     }
     return OST_SUCCESS;
 }
 
-static OstStatus index_tets(Field *field)
+OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name, const OstMeshChunk *chunk,
+                             OstFileField *out)
 {
-    const OstMeshChunk *chunk = field->chunk;
-    const char *path = field->msh.cursor.path;
-    if (chunk->relabelled)
-        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
-                         "%s: the tets were numbered anew, as several had one tag, so that the field '%s' cannot be "
-                         "told tet by tet; give each element its own tag",
-                         path, field->name);
-    return ost_label_index_create(chunk->ctx, chunk->tet_count, chunk->tet_label, &field->tets);
-}
-
-OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk)
-{
-    Field field = {.name = name, .chunk = chunk};
+    Field field = {.name = name, .chunk = chunk, .out = out};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_msh_open(ctx, path, &field.msh.cursor));
-    OST_TRY_DONE(index_tets(&field));
     OST_TRY_DONE(read_sections(&field));
-    if (!field.found)
-        status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: there is no $ElementData of the name '%s'", path, name);
-    else if (field.later)
+    if (field.later)
         ost_warn(ctx, "%s: the field '%s' has several time steps; step %d, the first, is taken", path, name,
                  field.step);
 done:
-    ost_label_index_clear(&field.tets);
+    ost_label_index_clear(&field.rows);
     ost_msh_close(&field.msh.cursor);
     return status;
 }

@@ -92,6 +92,20 @@ void ost_tets_turn(OstMeshChunk *chunk, const char *path)
     ost_warn(chunk->ctx, "%s: all tets are inverted; their vertices were reordered", path);
 }
 
+OstStatus ost_tets_orient(OstMeshChunk *chunk, const char *path, OstLocal *turned)
+{
+    const size_t width = (size_t)chunk->nodes_per_tet;
+    *turned = 0;
+    if (chunk->tet_count > 0 && chunk->node_count != chunk->global_nodes)
+        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: tets of this file are oriented on one rank only", path);
+    for (size_t t = 0; t < (size_t)chunk->tet_count; t++)
+        if (volume(chunk, chunk->tet_nodes + t * width) < 0.0) {
+            reorder(chunk->tet_nodes + t * width, chunk->nodes_per_tet);
+            ++*turned;
+        }
+    return OST_SUCCESS;
+}
+
 /* Numbers the nodes that tets use, in their order; -1 for the others. Returns how many are used. */
 static OstLocal number_used(const OstMeshChunk *chunk, OstLocal *number)
 {

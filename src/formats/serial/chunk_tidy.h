@@ -11,6 +11,10 @@ OstStatus ost_tets_sort(OstMeshChunk *chunk, const char *path);
  */
 void ost_tets_turn(OstMeshChunk *chunk, const char *path);
 
+/* Local. Reorders the vertices of each tet that is inverted; returns how many were. Raises OST_INVALID_INPUT if nodes
+ * of this rank's tets are on other ranks (.vtkhdf on several). */
+OstStatus ost_tets_orient(OstMeshChunk *chunk, const char *path, OstLocal *turned);
+
 /* Local. Keeps one of the tets of a whole mesh that have the same vertices and lie in several regions: it goes to the
  * region of these with the fewest tets, and regions that lose all theirs are removed; warns. Raises OST_INVALID_INPUT
  * if two tets of one region, with different labels, have the same vertices. */

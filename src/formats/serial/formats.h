@@ -17,12 +17,29 @@ typedef struct OstFileMaterials {
 /* Collective. As ost_chunk_read, with the materials of the file. */
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
-/* Collective. Adds to the chunk that was read from the file a field on its tets, by its name: chunk->tet_field, of 1,
- * 3, 6 or 9 numbers a tet; NAN where a .msh file states none. From .msh its $ElementData, from .vtkhdf its CellData. */
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk);
+/* What a field says of a tet: numbers, or a direction that has no sense (a fibre), of which those of a tet's vertices
+ * are turned alike before their mean is taken. */
+typedef enum { OST_FIELD_OF_NUMBERS, OST_FIELD_OF_DIRECTIONS } OstFieldUse;
 
-/* Local. Refuses a field of another number of numbers a tet. */
+/* Collective. Adds to the chunk that was read from the file a field, by its name, as further columns of its
+ * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh file states none. A tet takes the mean of its vertices
+ * where the field is on nodes: $NodeData of .msh, PointData of .vtu. */
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+                                   OstMeshChunk *chunk);
+
+/* A field as the reader of a serial format finds it, on the tets or the nodes of a chunk. */
+typedef struct OstFileField {
+    int found, on_nodes, width;
+    double *values; /* tets or nodes × width */
+} OstFileField;
+
+/* Local. Refuses a field of another number of numbers a tet; adds the columns of one to a chunk. */
 OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width);
+OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *name, int width, const double *values);
+
+/* Local. Is the file's name that of a format that is read? If not, raises OST_INVALID_INPUT with the way to one that
+ * is. */
+OstStatus ost_mesh_file_check_name(OstContext *ctx, const char *path);
 
 /* Local. Is the file at `sought` part of a mesh file: the file itself, or one that it includes? */
 int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought);
@@ -39,7 +56,8 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
 
 /* Readers of the serial formats: local, called on one rank. They read the whole mesh. */
 OstStatus ost_msh_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
-OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name, OstMeshChunk *chunk);
+OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name, const OstMeshChunk *chunk,
+                             OstFileField *field);
 OstStatus ost_veg_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
 /* Local. Is the file at `sought` this .veg file, or one that it includes? Errors in it are left to the reader. */

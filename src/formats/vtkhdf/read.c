@@ -353,15 +353,18 @@ static OstStatus read_field(const OstHdf5 *h5, const char *name, OstMeshChunk *c
 {
     OstGlobal rows = 0;
     int width = 0;
+    double *values = NULL;
     if (!ost_hdf5_has(h5, name))
         return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the cells", h5->path,
                          name + strlen(cell_data));
     OST_TRY(ost_hdf5_shape(h5, name, &rows, &width));
     OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, name + strlen(cell_data), width));
-    chunk->field_width = width;
-    OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_field, (size_t)chunk->tet_count * (size_t)width));
-    return ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, width, chunk->global_tets, chunk->first_tet,
-                              chunk->tet_count, chunk->tet_field);
+    OST_TRY(OST_NEW(chunk->ctx, &values, (size_t)chunk->tet_count * (size_t)width));
+    OstStatus status = ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, width, chunk->global_tets, chunk->first_tet,
+                                          chunk->tet_count, values);
+    OST_THEN(ost_tet_field_add(chunk, h5->path, name + strlen(cell_data), width, values));
+    OST_FREE(values);
+    return status;
 }
 
 OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstMeshChunk *chunk)

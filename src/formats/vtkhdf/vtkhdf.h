@@ -3,33 +3,14 @@
 #define ORTHOSTAT_FORMATS_VTKHDF_VTKHDF_H
 
 #include "formats/serial/formats.h"
+#include "formats/serial/output_array.h"
 #include "mesh/mesh_data.h"
-
-typedef enum { OST_ON_NODES, OST_ON_TETS } OstCentring;
-typedef enum { OST_VALUES_DOUBLE, OST_VALUES_INT32 } OstValueType;
-
-/* One array of the file. `values` start at local node 0 (all local nodes) or at owned tet 0 (owned tets). */
-typedef struct OstOutputArray {
-    const char *name;
-    OstCentring centring;
-    OstValueType type;
-    int components;
-    const void *values;
-} OstOutputArray;
-
-/* Marks the fields of a file as no answer: an attribute Status of /VTKHDF, the reasons in /Orthostat/Objections, and
- * field data arrays `refused` and, if so, `unfinished` (1), which VTK's reader passes on. */
-typedef struct OstOutputMark {
-    const char *status; /* one word */
-    int unfinished;
-    int reason_count;
-    char *const *reasons;
-} OstOutputMark;
 
 /* Collective. Writes a VTKHDF 1.0 UnstructuredGrid in parallel, one piece per rank (its owned tets and their nodes).
  * The file gets its name only when complete (core/write_aside.h); after a failure an earlier file is still there.
- * `mark` is NULL for an answer. Labels, region names and boundaries are written too, so that the file can be read back
- * as a mesh. All values must be finite. */
+ * `mark` is NULL for an answer; else it becomes an attribute Status of /VTKHDF, the reasons in /Orthostat/Objections,
+ * and field data arrays `refused` and, if so, `unfinished` (1), which VTK's reader passes on. Labels, region names and
+ * boundaries are written too, so that the file can be read back as a mesh. All values must be finite. */
 OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mesh, int array_count,
                            const OstOutputArray *arrays, const OstOutputMark *mark);
 

@@ -203,8 +203,8 @@ static OstStatus fill_tets(const Making *making, const OstGlobal *label)
     OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_region, count));
     if (mesh->tet_axes)
         OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_axes, 9 * count));
-    const size_t field = (size_t)mesh->field_width;
-    chunk->field_width = mesh->field_width;
+    const size_t field = (size_t)ost_tet_fields_width(&mesh->fields);
+    chunk->fields = mesh->fields;
     if (field > 0)
         OST_TRY(OST_NEW(chunk->ctx, &chunk->tet_field, field * count));
     for (size_t i = 0; i < count; i++) {

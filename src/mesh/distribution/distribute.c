@@ -19,7 +19,7 @@ static OstStatus label_all(OstMeshChunk *chunk)
 static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
 {
     mesh->nodes_per_tet = chunk->nodes_per_tet;
-    mesh->field_width = chunk->field_width;
+    mesh->fields = chunk->fields;
     mesh->global_nodes = chunk->global_nodes;
     mesh->global_tets = chunk->global_tets;
     mesh->regions = chunk->regions;

@@ -81,9 +81,9 @@ static OstStatus carry_tets(OstMeshChunk *chunk, const OstRoute *route, OstMesh 
     if (axes)
         OST_TRY(ost_route_carry(route, 9 * sizeof(double), chunk->tet_axes, (void **)&mesh->tet_axes));
     OST_FREE(chunk->tet_axes);
-    if (mesh->field_width > 0)
-        OST_TRY(ost_route_carry(route, (size_t)mesh->field_width * sizeof(double), chunk->tet_field,
-                                (void **)&mesh->tet_field));
+    const size_t field = (size_t)ost_tet_fields_width(&mesh->fields);
+    if (field > 0)
+        OST_TRY(ost_route_carry(route, field * sizeof(double), chunk->tet_field, (void **)&mesh->tet_field));
     OST_FREE(chunk->tet_field);
     mesh->tet_count = route->receives;
     return OST_SUCCESS;
@@ -159,7 +159,8 @@ static OstStatus put_owned_tets_first(OstMesh *mesh, OstGlobal **nodes)
     if (mesh->tet_axes)
         OST_TRY_DONE(reorder(ctx, count, order, 9 * sizeof(double), (void **)&mesh->tet_axes));
     if (mesh->tet_field)
-        OST_TRY_DONE(reorder(ctx, count, order, (size_t)mesh->field_width * sizeof(double), (void **)&mesh->tet_field));
+        OST_TRY_DONE(reorder(ctx, count, order, (size_t)ost_tet_fields_width(&mesh->fields) * sizeof(double),
+                             (void **)&mesh->tet_field));
 done:
     OST_FREE(order);
     return status;

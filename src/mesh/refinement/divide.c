@@ -242,8 +242,8 @@ static OstStatus fill_tets(Making *making)
     OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_region, mesh->tet_count));
     if (parent->tet_axes)
         OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_axes, 9 * (size_t)mesh->tet_count));
-    const size_t field = (size_t)parent->field_width;
-    mesh->field_width = parent->field_width;
+    const size_t field = (size_t)ost_tet_fields_width(&parent->fields);
+    mesh->fields = parent->fields;
     if (field > 0)
         OST_TRY(OST_NEW(mesh->ctx, &mesh->tet_field, field * (size_t)mesh->tet_count));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {

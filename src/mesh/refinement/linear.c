@@ -58,8 +58,8 @@ static OstStatus fill_tets(const OstMesh *quadratic, const OstLocal *vertex, Ost
     OST_TRY(OST_NEW(linear->ctx, &linear->tet_region, count));
     if (quadratic->tet_axes)
         OST_TRY(OST_NEW(linear->ctx, &linear->tet_axes, 9 * count));
-    const size_t field = (size_t)quadratic->field_width * count;
-    linear->field_width = quadratic->field_width;
+    const size_t field = (size_t)ost_tet_fields_width(&quadratic->fields) * count;
+    linear->fields = quadratic->fields;
     if (field > 0) {
         OST_TRY(OST_NEW(linear->ctx, &linear->tet_field, field));
         memcpy(linear->tet_field, quadratic->tet_field, field * sizeof(double));

@@ -85,6 +85,9 @@ void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations,
     work[OST_STAGE_ESTIMATE] = estimate->on ? dearer * (iteration_bytes(plan) + estimate->bytes) : 0.0;
     work[OST_STAGE_REST] = plan->bytes_matrix + dearer * ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
     work[OST_STAGE_OUTPUT] = c->output_fields != 0 ? plan->bytes_output : 0.0;
+    for (int s = 0; s < OST_STAGES; s++) /* of load cases on one stiffness */
+        if (c->load_case_count > 0 && s != OST_STAGE_MESH && s != OST_STAGE_ASSEMBLY && s != OST_STAGE_SETUP)
+            work[s] *= c->load_case_count;
 }
 
 void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *rates, int ranks, OstForecast *forecast)

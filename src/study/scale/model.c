@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/scale/model.h"
 
+#include "algebra/multigrid/gathered_level.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -55,21 +57,22 @@ static double log2_of(double ranks)
     return ranks > 1.0 ? ceil(log2(ranks)) : 0.0;
 }
 
-/* The levels of so many unknowns, coarsened as those of the run; returns how many. */
+/* The levels of so many unknowns, coarsened as those of the run and gathered on fewer ranks as multigrid does it;
+ * returns how many. */
 static int list_levels(const OstScaleRun *run, double ranks, double unknowns, Level *level)
 {
-    int count = 1;
-    level[0] = (Level){.unknowns = unknowns, .width = fine_width, .ranks = ranks};
+    int count = 1, stride = 1;
+    level[0] = (Level){.unknowns = unknowns, .width = fine_width, .ranks = fmin(ranks, unknowns / fine_width)};
     for (; count < OST_MAX_LEVELS && level[count - 1].unknowns > coarsest_unknowns; count++) {
+        const Level *above = &level[count - 1];
         const int known = count + 1 < run->levels || (count + 1 == run->levels && count == 1);
         const double gain = known ? run->level[count - 1].unknowns / run->level[count].unknowns : usual_gain;
-        const double next = fmax(level[count - 1].unknowns / gain, coarse_width * ranks); /* one aggregate a rank */
-        if (level[count - 1].unknowns < least_gain * next)
+        const double next = fmax(above->unknowns / gain, coarse_width * above->ranks); /* one aggregate a rank */
+        if (above->unknowns < least_gain * next)
             break;
-        level[count] = (Level){.unknowns = next, .width = coarse_width, .ranks = ranks};
+        stride = ost_gathered_stride((OstGlobal)(next / coarse_width), (int)ranks, stride, next <= coarsest_unknowns);
+        level[count] = (Level){.unknowns = next, .width = coarse_width, .ranks = ceil(ranks / stride)};
     }
-    for (int l = 0; l < count; l++)
-        level[l].ranks = fmin(ranks, level[l].unknowns / level[l].width);
     for (int l = 0; l < count; l++)
         level[l].visits = exp2(fmin(l, count > 1 ? count - 2 : 0));
     return count;
@@ -91,12 +94,12 @@ static void add_level(const OstScaleRun *run, const OstNetwork *network, const L
     const double visits = fmax(work->visits, 1.0), width = m == 0 ? fine_width : coarse_width;
     const double exchanges = level->visits * work->exchanges / visits;
     const double nodes = level->unknowns / (level->width * level->ranks);
-    const double ghosts = ghosts_of(work->unknowns / (width * run->ranks), run->ranks);
+    const double ghosts = ghosts_of(work->unknowns / (width * work->ranks), work->ranks);
     const double counted = work->exchanges > 0.0 ? work->bytes.most / (work->exchanges * 8.0 * width) : 0.0;
     /* The shape of this body's parts is other than a cube's. */
     const double shape = ghosts > 0.0 && counted > 0.0 ? counted / ghosts : 1.0;
     const double sent = 8.0 * level->width * shape * ghosts_of(nodes, level->ranks);
-    const double entries = work->multiplied.most * run->ranks / work->unknowns / visits; /* of an unknown */
+    const double entries = work->multiplied.mean * run->ranks / work->unknowns / visits; /* of an unknown */
     const double read = entry_bytes * level->visits * entries * level->unknowns / level->ranks;
     const double messages = exchanges * neighbours_of(nodes, level->ranks);
     forecast->part[OST_SCALE_MEMORY] += read * network->ranks / network->memory;
@@ -106,7 +109,8 @@ static void add_level(const OstScaleRun *run, const OstNetwork *network, const L
     forecast->bytes += exchanges * sent;
 }
 
-/* The last level: factored by LAPACK on every rank, by MUMPS through rank 0, or smoothed if it is too large. */
+/* The last level: factored by LAPACK on one rank, or on every one that has some of it; by MUMPS through rank 0; or
+ * smoothed if it is too large. */
 static void add_coarsest(const OstScaleRun *run, const OstNetwork *network, const Level *level, int l,
                          OstScaleForecast *forecast)
 {
@@ -122,8 +126,9 @@ static void add_coarsest(const OstScaleRun *run, const OstNetwork *network, cons
         *seconds += 2.0 * visits * (level->ranks * network->latency + 8.0 * n / bandwidth);
     } else {
         const double read = 8.0 * n * n; /* of the factor, twice its half */
-        *seconds += visits * (log2_of(level->ranks) * network->latency + 8.0 * n / bandwidth +
-                              read * network->ranks / network->memory);
+        *seconds += visits * read * network->ranks / network->memory;
+        if (level->ranks > 1.0)
+            *seconds += visits * (log2_of(level->ranks) * network->latency + 8.0 * n / bandwidth);
     }
 }
 

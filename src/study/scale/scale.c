@@ -186,7 +186,8 @@ static OstStatus create(const OstCase *c, OstScale *scale)
     return list_runs(scale);
 }
 
-OstStatus ost_scale_create(const OstCase *c, const OstScaleVariants *variants, OstScale **scale)
+OstStatus ost_scale_create(const OstCase *c, OstScaleRead read, const void *from, const OstScaleVariants *variants,
+                           OstScale **scale)
 {
     OstContext *ctx = c->ctx;
     double own = ost_scale_unknowns(c);
@@ -196,7 +197,7 @@ OstStatus ost_scale_create(const OstCase *c, const OstScaleVariants *variants, O
         OST_TRY(ost_agree(ctx, count_file(c, &own)));
     OstStatus status = OST_NEW(ctx, scale, 1);
     if (status == OST_SUCCESS) {
-        **scale = (OstScale){.ctx = ctx, .variants = *variants, .own_unknowns = own};
+        **scale = (OstScale){.ctx = ctx, .read = read, .from = from, .variants = *variants, .own_unknowns = own};
         qsort((*scale)->variants.ranks, (size_t)variants->rank_count, sizeof(int), compare_ranks);
         status = create(c, *scale);
     }

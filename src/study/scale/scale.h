@@ -37,6 +37,7 @@ typedef struct OstScaleCount {
 /* What a rank does in one iteration: on a level of multigrid, or outside of all. */
 typedef struct OstScaleWork {
     double unknowns; /* over all ranks */
+    double ranks;    /* that have some of them */
     double visits, exchanges, reductions, gathers;
     OstScaleCount messages, bytes, gathered, multiplied;
 } OstScaleWork;
@@ -66,8 +67,13 @@ typedef struct OstScaleRun {
     OstScaleWork setup; /* of multigrid, as a whole */
 } OstScaleRun;
 
+/* Collective. Reads the case anew, in the context of the ranks that take part. */
+typedef OstStatus (*OstScaleRead)(OstContext *ctx, const void *from, OstCase **c);
+
 typedef struct OstScale {
     OstContext *ctx;
+    OstScaleRead read;
+    const void *from;
     char *path, *title;
     OstScaleVariants variants;
     double own_unknowns; /* of the case as it is, about */
@@ -81,8 +87,10 @@ typedef struct OstScale {
 /* Local. Ranks 1, 2, 4 … up to `most`, the case as it is, weak scaling too, ten minutes, InfiniBand. */
 OstScaleVariants ost_scale_default_variants(int most);
 
-/* Collective. Lists the runs. Raises OST_INVALID_INPUT for a value out of range. */
-OstStatus ost_scale_create(const OstCase *c, const OstScaleVariants *variants, OstScale **scale);
+/* Collective. Lists the runs of the case, which `read` reads again from `from` for each of them. Raises
+ * OST_INVALID_INPUT for a value out of range. */
+OstStatus ost_scale_create(const OstCase *c, OstScaleRead read, const void *from, const OstScaleVariants *variants,
+                           OstScale **scale);
 void ost_scale_destroy(OstScale **scale);
 
 /* Collective. Runs, in order, what fits into the bounds. A run that fails is listed with its reason; returns the last

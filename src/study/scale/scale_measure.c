@@ -7,6 +7,7 @@
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* Other work on the machine disturbs short runs most: they are repeated, and the fastest counts. */
@@ -30,10 +31,11 @@ static OstStatus count_ranks(OstContext *ctx, int count, const double *mine, Ost
 static OstStatus share_work(OstContext *ctx, const OstWork *work, double times, OstScaleWork *shared)
 {
     const double one = times > 0.0 ? 1.0 / times : 0.0;
-    const double mine[] = {one * work->messages,  one * work->bytes,      one * work->gathered, one * work->multiplied,
-                           one * work->exchanges, one * work->reductions, one * work->gathers,  one * work->visits};
-    OstScaleCount counts[8];
-    OST_TRY(count_ranks(ctx, 8, mine, counts));
+    const double mine[] = {one * work->messages,   one * work->bytes,     one * work->gathered,
+                           one * work->multiplied, one * work->exchanges, one * work->reductions,
+                           one * work->gathers,    one * work->visits,    work->multiplied > 0.0};
+    OstScaleCount counts[9];
+    OST_TRY(count_ranks(ctx, 9, mine, counts));
     shared->messages = counts[0];
     shared->bytes = counts[1];
     shared->gathered = counts[2];
@@ -42,6 +44,7 @@ static OstStatus share_work(OstContext *ctx, const OstWork *work, double times, 
     shared->reductions = counts[5].most;
     shared->gathers = counts[6].most;
     shared->visits = counts[7].most;
+    shared->ranks = round(counts[8].mean * ost_size(ctx));
     return OST_SUCCESS;
 }
 

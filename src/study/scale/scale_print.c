@@ -63,9 +63,9 @@ static void print_runs(const OstScale *scale, int weak)
 
 static void print_work(const char *name, const OstScaleWork *work)
 {
-    printf("  %-12s %12.0f %7.1f %10.1f %10.1f %10.1f %10.1f %8.1f %8.1f %10.1f\n", name, work->unknowns, work->visits,
-           work->exchanges, work->messages.mean, work->messages.most, work->bytes.most / kilobyte, work->reductions,
-           work->gathers, work->multiplied.most / 1e3);
+    printf("  %-12s %12.0f %6.0f %7.1f %10.1f %10.1f %10.1f %10.1f %8.1f %8.1f %10.1f\n", name, work->unknowns,
+           work->ranks, work->visits, work->exchanges, work->messages.mean, work->messages.most,
+           work->bytes.most / kilobyte, work->reductions, work->gathers, work->multiplied.most / 1e3);
 }
 
 static void print_counts(const OstScale *scale)
@@ -75,9 +75,9 @@ static void print_counts(const OstScale *scale)
     if (!run)
         return;
     printf("\nwhat a rank does in an iteration: %lld unknowns on %d rank%s, %s\n"
-           "  %-12s %12s %7s %10s %10s %10s %10s %8s %8s %10s\n",
-           (long long)run->unknowns, run->ranks, run->ranks == 1 ? "" : "s", run->engine, "", "unknowns", "visits",
-           "exchanges", "messages", "at most", "kB, most", "sums", "gathers", "10³ entries");
+           "  %-12s %12s %6s %7s %10s %10s %10s %10s %8s %8s %10s\n",
+           (long long)run->unknowns, run->ranks, run->ranks == 1 ? "" : "s", run->engine, "", "unknowns", "ranks",
+           "visits", "exchanges", "messages", "at most", "kB, most", "sums", "gathers", "10³ entries");
     print_work("stiffness", &run->iteration);
     for (int l = 0; l < run->levels; l++) {
         snprintf(name, sizeof name, "level %d", l);

@@ -103,10 +103,11 @@ static json_t *count_json(const OstScaleCount *count)
 
 static json_t *work_json(const OstScaleWork *work)
 {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o}", "unknowns", work->unknowns, "visits",
-                     work->visits, "exchanges", work->exchanges, "sums", work->reductions, "gathers", work->gathers,
-                     "messages", count_json(&work->messages), "bytes", count_json(&work->bytes), "gathered",
-                     count_json(&work->gathered), "multiplied", count_json(&work->multiplied));
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o}", "unknowns", work->unknowns, "ranks",
+                     work->ranks, "visits", work->visits, "exchanges", work->exchanges, "sums", work->reductions,
+                     "gathers", work->gathers, "messages", count_json(&work->messages), "bytes",
+                     count_json(&work->bytes), "gathered", count_json(&work->gathered), "multiplied",
+                     count_json(&work->multiplied));
 }
 
 static json_t *forecast_json(const OstScaleForecast *f)

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/links.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+OstStatus ost_links_create(const OstMesh *mesh, OstLinks **links)
+{
+    OstContext *ctx = mesh->ctx;
+    OST_TRY(OST_NEW(ctx, links, 1));
+    (*links)->ctx = ctx;
+    (*links)->mesh = mesh;
+    OstStatus status = OST_NEW(ctx, &(*links)->of_node, mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &(*links)->leads, mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &(*links)->kept, mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &(*links)->offset, 3 * (size_t)mesh->node_count));
+    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
+        (*links)->of_node[n] = -1;
+    if (status != OST_SUCCESS)
+        ost_links_destroy(links);
+    return status;
+}
+
+void ost_links_destroy(OstLinks **links)
+{
+    if (!*links)
+        return;
+    OST_FREE((*links)->link);
+    OST_FREE((*links)->of_node);
+    OST_FREE((*links)->leads);
+    OST_FREE((*links)->kept);
+    OST_FREE((*links)->offset);
+    OST_FREE((*links)->face);
+    ost_halo_destroy(&(*links)->halo);
+    OST_FREE(*links);
+}
+
+static OstStatus make_room(OstLinks *links, OstLocal count)
+{
+    if (count <= links->capacity)
+        return OST_SUCCESS;
+    const OstLocal capacity = count + links->capacity / 2 + 64;
+    OST_TRY(OST_RESIZE(links->ctx, &links->link, capacity));
+    links->capacity = capacity;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLeader *leader, const double place[3],
+                        const double offset[3])
+{
+    const long long label = (long long)links->mesh->node_label[node];
+    if (links->of_node[node] >= 0)
+        return OST_RAISE(links->ctx, OST_INVALID_INPUT,
+                         "vertex %lld is to follow two others: two of tied, periodic and rigid faces meet there; leave "
+                         "it out of one of them",
+                         label);
+    OST_TRY(make_room(links, links->count + 1));
+    OstLink *link = &links->link[links->count];
+    *link = (OstLink){.node = node, .count = count};
+    memcpy(link->leader, leader, (size_t)count * sizeof *leader);
+    memcpy(link->place, place, sizeof link->place);
+    memcpy(links->offset + 3 * (size_t)node, offset, 3 * sizeof *offset);
+    links->of_node[node] = links->count++;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
+{
+    OST_TRY(OST_RESIZE(links->ctx, &links->face, links->face_count + 1));
+    links->face[links->face_count++] = *face;
+    for (int k = 0; k < 2; k++) {
+        const OstGlobal local = face->carrier[k] - links->mesh->first_node;
+        if (face->carrier[k] >= 0 && local >= 0 && local < links->mesh->owned_nodes)
+            links->kept[local] = 1;
+    }
+    return OST_SUCCESS;
+}
+
+/* Numbers the links of ghosts after those of owned nodes, in the order of nodes, as ost_halo_subset needs it. */
+static OstStatus order_links(OstLinks *links, OstLocal *order)
+{
+    const OstMesh *mesh = links->mesh;
+    OstLink *ordered = NULL;
+    memcpy(order, links->of_node, (size_t)mesh->owned_nodes * sizeof *order);
+    OST_TRY(ost_halo_import(mesh->halo, sizeof *order, order));
+    links->all = 0;
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        order[n] = order[n] < 0 ? -1 : links->all++;
+    OST_TRY(OST_NEW(links->ctx, &ordered, links->all));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        if (order[n] >= 0)
+            ordered[order[n]] = links->link[links->of_node[n]];
+    OST_FREE(links->link);
+    links->link = ordered;
+    links->capacity = links->all;
+    memcpy(links->of_node, order, (size_t)mesh->node_count * sizeof *order);
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        if (order[n] >= 0)
+            links->link[order[n]].node = n;
+    return OST_SUCCESS;
+}
+
+/* Leader by leader: a whole link is longer than what a halo carries. */
+static OstStatus share_links(OstLinks *links, OstHalo *halo)
+{
+    OstLeader *leader = NULL;
+    int *count = NULL;
+    OstStatus status = OST_NEW(links->ctx, &leader, links->all);
+    OST_THEN(OST_NEW(links->ctx, &count, links->all));
+    OST_TRY_DONE(ost_agree(links->ctx, status));
+    for (OstLocal i = 0; i < links->count; i++)
+        count[i] = links->link[i].count;
+    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, sizeof *count, count)));
+    for (int k = 0; k < OST_MOST_LEADERS; k++) {
+        for (OstLocal i = 0; i < links->count; i++)
+            leader[i] = links->link[i].leader[k];
+        OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, sizeof *leader, leader)));
+        for (OstLocal i = links->count; i < links->all; i++)
+            links->link[i].leader[k] = leader[i];
+    }
+    for (OstLocal i = links->count; i < links->all; i++)
+        links->link[i].count = count[i];
+done:
+    OST_FREE(leader);
+    OST_FREE(count);
+    return status;
+}
+
+static OstStatus share_with_ghosts(OstLinks *links)
+{
+    OstContext *ctx = links->ctx;
+    OstLocal *order = NULL;
+    OstHalo *halo = NULL;
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &order, links->mesh->node_count));
+    OST_THEN(ost_agree(ctx, order_links(links, order)));
+    OST_THEN(ost_agree(ctx, ost_halo_subset(links->mesh->halo, order, &halo)));
+    OST_THEN(share_links(links, halo));
+    ost_halo_destroy(&halo);
+    OST_FREE(order);
+    return status;
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const OstGlobal x = *(const OstGlobal *)a;
+    const OstGlobal y = *(const OstGlobal *)b;
+    return (x > y) - (x < y);
+}
+
+static int is_mine(const OstLinks *links, OstGlobal number)
+{
+    return number >= links->mesh->first_node && number < links->mesh->first_node + links->mesh->owned_nodes;
+}
+
+/* The leaders of other ranks, ascending, each once. */
+static OstStatus list_far_leaders(const OstLinks *links, OstGlobal **number, OstLocal *count)
+{
+    OstLocal listed = 0;
+    *count = 0;
+    OST_TRY(OST_NEW(links->ctx, number, OST_MOST_LEADERS * (size_t)links->all));
+    for (OstLocal i = 0; i < links->all; i++)
+        for (int k = 0; k < links->link[i].count; k++)
+            if (!is_mine(links, links->link[i].leader[k].number))
+                (*number)[listed++] = links->link[i].leader[k].number;
+    qsort(*number, (size_t)listed, sizeof **number, compare_numbers);
+    for (OstLocal i = 0; i < listed; i++)
+        if (i == 0 || (*number)[i] != (*number)[*count - 1])
+            (*number)[(*count)++] = (*number)[i];
+    return OST_SUCCESS;
+}
+
+static OstStatus connect_leaders(OstLinks *links)
+{
+    const OstMesh *mesh = links->mesh;
+    OstGlobal *far = NULL;
+    OstLocal count = 0;
+    OstStatus status = ost_agree(links->ctx, list_far_leaders(links, &far, &count));
+    OST_THEN(ost_agree(links->ctx,
+                       ost_halo_create(links->ctx, mesh->owned_nodes, mesh->first_node, count, far, &links->halo)));
+    links->slots = mesh->owned_nodes + count;
+    for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++)
+        for (int k = 0; k < links->link[i].count; k++) {
+            const OstGlobal *number = &links->link[i].leader[k].number;
+            links->link[i].slot[k] = (OstLocal)(*number - mesh->first_node);
+            if (!is_mine(links, *number)) {
+                const OstGlobal *found = bsearch(number, far, (size_t)count, sizeof *far, compare_numbers);
+                links->link[i].slot[k] = mesh->owned_nodes + (OstLocal)(found - far);
+            }
+        }
+    OST_FREE(far);
+    return status;
+}
+
+/* What a leader has to say: does it follow others itself, and how is it held? */
+typedef struct Leading {
+    OstHeld held;
+    int follows;
+} Leading;
+
+static OstStatus check_follower(const OstLinks *links, const Leading *leading, OstLocal node)
+{
+    if (leading[node].held.constrained == 0)
+        return OST_SUCCESS;
+    return OST_RAISE(
+        links->ctx, OST_INVALID_INPUT,
+        "vertex %lld is constrained, and follows others besides (a tied, periodic or rigid face); leave it "
+        "out of one of them, or constrain those that it follows",
+        (long long)links->mesh->node_label[node]);
+}
+
+/* The leaders' own supports: u = W (P v + g). */
+static OstStatus take_leader(const OstLinks *links, const Leading *leading, OstLink *link, int k)
+{
+    const Leading *of = &leading[link->slot[k]];
+    double weight[9], moved[3];
+    if (of->follows)
+        return OST_RAISE(links->ctx, OST_INVALID_INPUT,
+                         "vertex %lld follows one that itself follows another (tied, periodic or rigid faces meet); "
+                         "exchange the two faces of a pair, or leave the edge out of one selection",
+                         (long long)links->mesh->node_label[link->node]);
+    memcpy(weight, link->leader[k].weight, sizeof weight);
+    ost_multiply3(weight, of->held.projector, link->leader[k].weight);
+    ost_apply3(weight, of->held.prescribed, moved);
+    for (int i = 0; i < 3; i++)
+        links->offset[3 * (size_t)link->node + (size_t)i] += moved[i];
+    return OST_SUCCESS;
+}
+
+/* Collective. Only own links: ghosts get theirs later. */
+static OstStatus take_supports(OstLinks *links, const OstHeld *held)
+{
+    const OstMesh *mesh = links->mesh;
+    Leading *leading = NULL;
+    OST_TRY(ost_agree(links->ctx, OST_NEW(links->ctx, &leading, links->slots)));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        leading[n].held = held[n];
+        leading[n].follows = links->of_node[n] >= 0 && !links->kept[n];
+    }
+    OstStatus status = ost_agree(links->ctx, ost_halo_import(links->halo, sizeof *leading, leading));
+    for (OstLocal i = 0; i < links->count && status == OST_SUCCESS; i++) {
+        status = check_follower(links, leading, links->link[i].node);
+        for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
+            status = take_leader(links, leading, &links->link[i], k);
+    }
+    OST_FREE(leading);
+    return ost_agree(links->ctx, status);
+}
+
+static OstStatus mark_leaders(OstLinks *links)
+{
+    double *marks = NULL;
+    OST_TRY(ost_agree(links->ctx, OST_NEW(links->ctx, &marks, links->slots)));
+    for (OstLocal i = 0; i < links->count; i++)
+        for (int k = 0; k < links->link[i].count; k++)
+            marks[links->link[i].slot[k]] += 1.0;
+    const OstStatus status = ost_agree(links->ctx, ost_halo_add_to_owners(links->halo, 1, marks));
+    for (OstLocal n = 0; n < links->mesh->owned_nodes; n++)
+        links->leads[n] = marks[n] > 0.0;
+    OST_FREE(marks);
+    return status == OST_SUCCESS ? ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 1, links->leads)) : status;
+}
+
+OstStatus ost_links_complete(OstLinks *links, const OstHeld *held)
+{
+    int moves = 0;
+    links->all = links->count;
+    OST_TRY(connect_leaders(links)); /* of own links: their supports change the weights that ghosts get */
+    OST_TRY(take_supports(links, held));
+    ost_halo_destroy(&links->halo);
+    OST_TRY(share_with_ghosts(links));
+    OST_TRY(connect_leaders(links));
+    OST_TRY(mark_leaders(links));
+    OST_TRY(ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 3 * sizeof(double), links->offset)));
+    for (size_t i = 0; i < 3 * (size_t)links->mesh->owned_nodes; i++)
+        moves |= links->offset[i] != 0.0;
+    links->moves = moves;
+    return ost_max_ints(links->ctx, 1, &links->moves);
+}
+
+OstStatus ost_links_follow(const OstLinks *links, double *of_leaders, double *u)
+{
+    OST_TRY(ost_agree(links->ctx, ost_halo_import(links->halo, 3 * sizeof(double), of_leaders)));
+    for (OstLocal i = 0; i < links->count; i++) {
+        const OstLink *link = &links->link[i];
+        for (int k = 0; k < link->count; k++) {
+            double moved[3];
+            ost_apply3(link->leader[k].weight, of_leaders + 3 * (size_t)link->slot[k], moved);
+            for (int c = 0; c < 3; c++)
+                u[3 * (size_t)link->node + (size_t)c] += moved[c];
+        }
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_links_gather(const OstLinks *links, const double *force, double *of_leaders)
+{
+    memset(of_leaders, 0, 3 * (size_t)links->slots * sizeof *of_leaders);
+    for (OstLocal i = 0; i < links->count; i++) {
+        const OstLink *link = &links->link[i];
+        for (int k = 0; k < link->count; k++) {
+            double part[3];
+            ost_apply3_transposed(link->leader[k].weight, force + 3 * (size_t)link->node, part);
+            for (int c = 0; c < 3; c++)
+                of_leaders[3 * (size_t)link->slot[k] + (size_t)c] += part[c];
+        }
+    }
+    return ost_agree(links->ctx, ost_halo_add_to_owners(links->halo, 3, of_leaders));
+}

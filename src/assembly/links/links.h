@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ASSEMBLY_LINKS_LINKS_H
+#define ORTHOSTAT_ASSEMBLY_LINKS_LINKS_H
+
+#include "mesh/mesh_data.h"
+
+/* Nodes that follow others: u = sum of W_k v_k + g, with 3×3 weights W_k on the unknowns v_k of at most six leaders, of
+ * any rank. Tied faces, periodic pairs and rigid faces have this form. Followers have no unknowns of their own; the
+ * equations are T' K T v = T' (f - K g) (system.h).
+ *
+ * A rigid face has six unknowns, which take the rows of two of its nodes, the carriers: the point's displacement, and
+ * its rotation times a length. */
+enum { OST_MOST_LEADERS = 6 };
+
+typedef struct OstLeader {
+    OstGlobal number; /* of the node (mesh->node_number) */
+    double weight[9];
+} OstLeader;
+
+typedef struct OstLink {
+    OstLocal node;
+    int count;
+    OstLeader leader[OST_MOST_LEADERS];
+    OstLocal slot[OST_MOST_LEADERS]; /* where the leader is in the halo's arrays */
+    double place[3];                 /* where the leaders' mean is; the node itself, of a rigid face */
+} OstLink;
+
+/* A rigid face: its point, and its motion there, prescribed or free. */
+typedef struct OstRigidFace {
+    double point[3], length;
+    OstGlobal first;      /* the lowest of its nodes */
+    OstGlobal carrier[2]; /* of the displacement, and of the rotation times `length`; -1: all of it is prescribed */
+    int constrained[6];   /* displacement, rotation */
+} OstRigidFace;
+
+typedef struct OstLinks {
+    OstContext *ctx;
+    const OstMesh *mesh;
+    OstLocal count, all, capacity; /* links of owned nodes; then of ghosts, once complete */
+    OstLink *link;
+    OstLocal *of_node;    /* node_count: the link of a node, or -1 */
+    unsigned char *leads; /* node_count: does another follow this one? */
+    unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */
+    double *offset;       /* 3 × node_count: g of followers, and 0 */
+    int periodic;         /* are there periodic pairs? On edges of the cell leaders follow others */
+    int moves;            /* is any offset not zero, on any rank? */
+    struct OstHalo *halo; /* owned nodes, and leaders of other ranks */
+    OstLocal slots;       /* both together */
+    int face_count;
+    OstRigidFace *face;
+} OstLinks;
+
+OstStatus ost_links_create(const OstMesh *mesh, OstLinks **links);
+void ost_links_destroy(OstLinks **links);
+
+/* Local. Makes an owned node follow others, moved by `offset` besides. Raises OST_INVALID_INPUT with the node's label
+ * if it follows others already. */
+OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLeader *leader, const double place[3],
+                        const double offset[3]);
+
+/* Local. Notes a rigid face; its carriers' rows are kept. */
+OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face);
+
+/* How a node is supported: u = P v + g. */
+typedef struct OstHeld {
+    double projector[9], prescribed[3];
+    int constrained; /* number of directions */
+} OstHeld;
+
+/* Collective. Call it when all links are there: takes the supports of the owned nodes, as leaders, into weights and
+ * offsets, and gives ghosts their owners' links. Raises OST_INVALID_INPUT where a follower is constrained, or followed.
+ */
+OstStatus ost_links_complete(OstLinks *links, const OstHeld *held);
+
+/* Collective. u += W v of the owned followers, from what owned nodes have of v (`of_leaders`, 3 × links->slots, whose
+ * ghosts are filled here); u has 3 numbers for each node. */
+OstStatus ost_links_follow(const OstLinks *links, double *of_leaders, double *u);
+
+/* Collective. W' f of the owned followers' forces (3 × owned_nodes), added up at their leaders: `of_leaders` has 3 ×
+ * links->slots numbers, the owned nodes first. */
+OstStatus ost_links_gather(const OstLinks *links, const double *force, double *of_leaders);
+
+/* Local. The link of a node, or NULL. `links` may be NULL. */
+static inline const OstLink *ost_link_of(const OstLinks *links, OstLocal node)
+{
+    return links && links->of_node[node] >= 0 ? &links->link[links->of_node[node]] : NULL;
+}
+
+#endif

@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "cli/solve_cases.h"
+
+#include "case/plan.h"
+#include "cli/destination.h"
+#include "cli/solve_path.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "output/load_case_files.h"
+#include "output/path_files.h"
+#include "output/probe_files.h"
+#include "solve/cases/load_cases.h"
+#include "study/watch.h"
+
+#include <stdio.h>
+#include <string.h>
+
+OstStatus ost_cli_check_case_outputs(const OstCase *c, const char *output)
+{
+    char path[OST_LONGEST_PATH], table[OST_LONGEST_PATH];
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
+    ost_load_case_table_name(output, sizeof table, table);
+    OST_TRY(ost_check_outputs(c, 2, (const char *const[]){path, table}));
+    for (int k = 0; k < c->load_case_count; k++) {
+        ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
+        OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
+        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
+    }
+    return OST_SUCCESS;
+}
+
+/* All load cases, on their way. */
+typedef struct Run {
+    OstContext *ctx;
+    const OstCase *c;
+    const OstSolveCases *how;
+    OstScene *scene;
+    OstLoadCaseReport *report; /* of each */
+    OstStatus failed;          /* how the first that failed did */
+} Run;
+
+static int prints(const Run *run)
+{
+    return ost_log_level(run->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(run->how->json);
+}
+
+static OstStatus note_failure(Run *run, OstStatus status, OstLoadCaseReport *report)
+{
+    report->status = status;
+    run->failed = run->failed == OST_SUCCESS ? status : run->failed;
+    return ost_agree(run->ctx, ost_copy_string(run->ctx, ost_error_text(run->ctx), &report->failure));
+}
+
+/* Writes the fields of a result and says what it is. */
+static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *result, const OstAdaption *adaption,
+                             OstLoadCaseReport *report)
+{
+    OstContext *ctx = run->ctx;
+    char file[OST_LONGEST_PATH];
+    OstWatchedValue *watched = NULL;
+    const int is_answer = result->verdict.count == 0;
+    const int writes = result->checks.finite && (is_answer || run->how->keeps);
+    ost_load_case_fields_name(run->how->output, report->name, sizeof file, file);
+    if (writes)
+        OST_TRY(ost_result_write(result, scene->c->output_fields, file));
+    if (writes && scene->c->probe_count > 0)
+        OST_TRY(ost_probe_write(scene, result, file));
+    OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
+    if (prints(run)) {
+        ost_summary_print(scene, result, writes ? file : NULL);
+        if (ost_rank(ctx) == 0)
+            ost_watch_print(watched, scene->c->watch_count);
+        if (adaption)
+            ost_adaption_print(adaption);
+        if (ost_rank(ctx) == 0)
+            puts("");
+    }
+    return ost_agree(ctx, ost_load_case_note(scene, result, watched, writes ? file : NULL, report));
+}
+
+/* What is wrong with one load case keeps no other from being solved; what is wrong with the machine does. */
+static int ends_all(OstStatus status)
+{
+    return status == OST_OUT_OF_MEMORY || status == OST_LIBRARY_FAILED || status == OST_FILE_FAILED;
+}
+
+static OstStatus conclude(Run *run, OstStatus status, const OstScene *scene, const OstResult *result,
+                          const OstAdaption *adaption, OstLoadCaseReport *report)
+{
+    if (status != OST_SUCCESS)
+        OST_TRY(note_failure(run, status, report));
+    if (ends_all(status))
+        return status;
+    return result && result->reached ? take_result(run, scene, result, adaption, report) : OST_SUCCESS;
+}
+
+static void show_progress(const Run *run, int done, int number)
+{
+    char what[128];
+    snprintf(what, sizeof what, "load case %s, %d of %d", run->c->load_cases[number].name, done + 1,
+             run->c->load_case_count);
+    ost_progress_task(run->ctx, what, (double)done / run->c->load_case_count);
+    ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
+}
+
+static void warn_if_idle(const OstScene *scene)
+{
+    if (!ost_plan_acts(scene->c, &scene->plan))
+        ost_warn(scene->ctx,
+                 "%s: nothing acts on the body in load case '%s': there is no load and no prescribed "
+                 "displacement",
+                 scene->c->path, scene->c->title);
+}
+
+/* On one mesh. */
+static OstStatus solve_together(Run *run)
+{
+    OstLoadCases *cases = NULL;
+    OstStatus status = ost_load_cases_create(run->scene, &cases);
+    for (int k = 0; k < run->c->load_case_count && status == OST_SUCCESS; k++)
+        status = ost_watch_check(ost_load_cases_scene(cases, k));
+    while (status == OST_SUCCESS && ost_load_cases_left(cases) > 0) {
+        OstResult *result = NULL;
+        const int number = ost_load_cases_next(cases);
+        const OstScene *scene = ost_load_cases_scene(cases, number);
+        show_progress(run, ost_load_cases_count(cases) - ost_load_cases_left(cases), number);
+        warn_if_idle(scene);
+        const OstStatus solved = ost_load_cases_solve(cases, ost_scene_result_fields(scene), &result);
+        status = conclude(run, solved, scene, result, NULL, &run->report[number]);
+        ost_result_destroy(&result);
+    }
+    ost_load_cases_destroy(&cases);
+    return status;
+}
+
+/* Each on a mesh of its own, refined where its error is. */
+static OstStatus solve_accurately(Run *run, int number)
+{
+    OstAdaption *adaption = NULL;
+    OstLoadCaseReport *report = &run->report[number];
+    OstStatus status = ost_adapt(run->c->load_cases[number].c, run->how->limits, &adaption);
+    const OstScene *scene = adaption ? ost_adaption_scene(adaption) : NULL;
+    const OstResult *result = adaption ? ost_adaption_result(adaption) : NULL;
+    status = conclude(run, status, scene, result, adaption, report);
+    if (status == OST_SUCCESS && report->status == OST_SUCCESS && adaption->end != OST_ADAPT_MET) {
+        char words[OST_LONGEST_ADAPT_WORDS];
+        ost_adaption_words(adaption, words);
+        status = note_failure(run, OST_RAISE(run->ctx, OST_NOT_CONVERGED, "%s", words), report);
+    }
+    ost_adaption_destroy(&adaption);
+    return status;
+}
+
+static OstStatus solve_all(Run *run)
+{
+    if (!run->c->asks_error)
+        return solve_together(run);
+    for (int k = 0; k < run->c->load_case_count; k++) {
+        show_progress(run, k, k);
+        OST_TRY(solve_accurately(run, k));
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus tell(Run *run)
+{
+    const int count = run->c->load_case_count;
+    const OstSolveCases *how = run->how;
+    OstLedgerSummary ledger;
+    OST_TRY(ost_agree(run->ctx, ost_load_cases_write(run->ctx, count, run->report, how->output)));
+    OST_TRY(ost_ledger_summarise(run->ctx, &ledger));
+    if (prints(run)) {
+        ost_load_cases_print(run->scene, count, run->report, how->output);
+        ost_ledger_print(run->scene, &ledger);
+    }
+    if (!how->json)
+        return OST_SUCCESS;
+    return ost_agree(run->ctx,
+                     ost_load_cases_write_json(run->scene, count, run->report, &ledger, how->output, how->json));
+}
+
+/* The failures of all, in one text. */
+static OstStatus raise_failures(const Run *run)
+{
+    char text[OST_ERROR_TEXT_SIZE] = "";
+    size_t used = 0;
+    int failures = 0;
+    for (int k = 0; k < run->c->load_case_count; k++) {
+        const OstLoadCaseReport *report = &run->report[k];
+        if (report->status == OST_SUCCESS)
+            continue;
+        failures++;
+        if (used < sizeof text)
+            used += (size_t)snprintf(text + used, sizeof text - used, "\n  %s: %.500s", report->name, report->failure);
+    }
+    return OST_RAISE(run->ctx, run->failed, "%s: %d of %d load cases %s no answer%s:%s", run->c->path, failures,
+                     run->c->load_case_count, failures == 1 ? "has" : "have",
+                     run->how->keeps ? "" : ", and nothing of them was written", text);
+}
+
+OstStatus ost_cli_solve_cases(const OstCase *c, const OstSolveCases *how)
+{
+    Run run = {.ctx = c->ctx, .c = c, .how = how};
+    OstStatus status = ost_agree(c->ctx, OST_NEW(c->ctx, &run.report, c->load_case_count));
+    for (int k = 0; k < c->load_case_count && status == OST_SUCCESS; k++) {
+        run.report[k].c = c->load_cases[k].c;
+        run.report[k].name = c->load_cases[k].name;
+    }
+    OST_THEN(ost_scene_create(c, &run.scene));
+    OST_THEN(solve_all(&run));
+    ost_progress_task(c->ctx, "", -1.0);
+    OST_THEN(tell(&run));
+    if (status == OST_SUCCESS && run.failed != OST_SUCCESS)
+        status = raise_failures(&run);
+    for (int k = 0; run.report && k < c->load_case_count; k++)
+        ost_load_case_report_release(&run.report[k]);
+    OST_FREE(run.report);
+    ost_scene_destroy(&run.scene);
+    return status;
+}

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/cells/cells.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { FIRST_ROOM = 64 };
+
+const OstCellFacts ost_cell_facts[OST_CELL_KINDS] = {
+    [OST_CELL_POINT] = {0, 1},     [OST_CELL_LINE2] = {1, 2}, [OST_CELL_LINE3] = {1, 3},  [OST_CELL_TRIANGLE3] = {2, 3},
+    [OST_CELL_TRIANGLE6] = {2, 6}, [OST_CELL_TET4] = {3, 4},  [OST_CELL_TET10] = {3, 10},
+};
+
+OstStatus ost_cells_open(OstContext *ctx, const char *path, OstCells *cells)
+{
+    *cells = (OstCells){.ctx = ctx, .path = path};
+    OST_TRY(OST_NEW(ctx, &cells->chunk, 1));
+    cells->chunk->ctx = ctx;
+    return OST_SUCCESS;
+}
+
+void ost_cells_close(OstCells *cells)
+{
+    for (int k = 0; k < OST_CELL_KINDS; k++) {
+        OST_FREE(cells->list[k].nodes);
+        OST_FREE(cells->list[k].label);
+        OST_FREE(cells->list[k].group);
+    }
+    for (int n = 0; n < cells->name_count; n++)
+        OST_FREE(cells->name[n].name);
+    for (int s = 0; s < cells->set_count; s++) {
+        OST_FREE(cells->set[s].name);
+        OST_FREE(cells->set[s].item);
+    }
+    OST_FREE(cells->name);
+    OST_FREE(cells->set);
+    ost_label_index_clear(&cells->nodes);
+    ost_label_index_clear(&cells->labels);
+    ost_chunk_destroy(&cells->chunk);
+}
+
+OstStatus ost_cells_grow(const OstCells *cells, OstLocal count, OstLocal *room)
+{
+    const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
+    if (grown > INT_MAX)
+        return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
+                         "%s: more than %d nodes or elements, too many for a serial file", cells->path,
+                         INT_MAX / 3 * 2);
+    *room = (OstLocal)grown;
+    return OST_SUCCESS;
+}
+
+static OstStatus check_label(const OstCells *cells, const char *what, OstGlobal label)
+{
+    if (label >= 0 && label <= OST_LARGEST_LABEL)
+        return OST_SUCCESS;
+    return OST_RAISE(cells->ctx, OST_INVALID_INPUT, "%s: %s number %" PRId64 " found, expected 0 to %" PRId64,
+                     cells->path, what, label, OST_LARGEST_LABEL);
+}
+
+OstStatus ost_cells_add_node(OstCells *cells, OstGlobal label, const double x[3])
+{
+    OstMeshChunk *chunk = cells->chunk;
+    OST_TRY(check_label(cells, "node", label));
+    if (chunk->node_count == cells->node_room) {
+        OST_TRY(ost_cells_grow(cells, chunk->node_count, &cells->node_room));
+        OST_TRY(OST_RESIZE(cells->ctx, &chunk->node_label, cells->node_room));
+        OST_TRY(OST_RESIZE(cells->ctx, &chunk->coordinates, 3 * (size_t)cells->node_room));
+    }
+    chunk->node_label[chunk->node_count] = label;
+    memcpy(chunk->coordinates + 3 * (size_t)chunk->node_count++, x, 3 * sizeof *x);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cells_add(OstCells *cells, OstCellKind kind, OstGlobal label, OstGlobal group, const OstGlobal *nodes)
+{
+    OstCellList *list = &cells->list[kind];
+    const size_t width = (size_t)ost_cell_facts[kind].nodes;
+    OST_TRY(check_label(cells, "element", label));
+    if (list->count == list->room) {
+        OST_TRY(ost_cells_grow(cells, list->count, &list->room));
+        OST_TRY(OST_RESIZE(cells->ctx, &list->nodes, (size_t)list->room * width));
+        OST_TRY(OST_RESIZE(cells->ctx, &list->label, list->room));
+        OST_TRY(OST_RESIZE(cells->ctx, &list->group, list->room));
+    }
+    memcpy(list->nodes + (size_t)list->count * width, nodes, width * sizeof *nodes);
+    list->label[list->count] = label;
+    list->group[list->count++] = group;
+    return OST_SUCCESS;
+}
+
+void ost_cells_skip(OstCells *cells, int dimension, const char *shape)
+{
+    char *first = dimension == 3 ? cells->solid : cells->other;
+    OstGlobal *count = dimension == 3 ? &cells->solids : &cells->others;
+    if ((*count)++ == 0)
+        snprintf(first, sizeof cells->solid, "%s", shape);
+}
+
+OstStatus ost_cells_name(OstCells *cells, int dimension, OstGlobal group, const char *name)
+{
+    OST_TRY(OST_RESIZE(cells->ctx, &cells->name, cells->name_count + 1));
+    OstCellName *last = &cells->name[cells->name_count++];
+    *last = (OstCellName){.dimension = dimension, .group = group};
+    return ost_copy_string(cells->ctx, name, &last->name);
+}
+
+int ost_cells_find_set(const OstCells *cells, OstSetKind kind, const char *name)
+{
+    for (int s = 0; s < cells->set_count; s++)
+        if (cells->set[s].kind == kind && strcasecmp(cells->set[s].name, name) == 0)
+            return s;
+    return -1;
+}
+
+OstStatus ost_cells_set(OstCells *cells, OstSetKind kind, const char *name, int *set)
+{
+    *set = ost_cells_find_set(cells, kind, name);
+    if (*set >= 0)
+        return OST_SUCCESS;
+    OST_TRY(OST_RESIZE(cells->ctx, &cells->set, cells->set_count + 1));
+    *set = cells->set_count++;
+    cells->set[*set] = (OstCellSet){.kind = kind, .is_region = kind == OST_SET_OF_CELLS};
+    return ost_copy_string(cells->ctx, name, &cells->set[*set].name);
+}
+
+OstStatus ost_cells_put(OstCells *cells, int set, OstGlobal item)
+{
+    OstCellSet *into = &cells->set[set];
+    if (into->count == into->room) {
+        OST_TRY(ost_cells_grow(cells, into->count, &into->room));
+        OST_TRY(OST_RESIZE(cells->ctx, &into->item, into->room));
+    }
+    into->item[into->count++] = item;
+    return OST_SUCCESS;
+}

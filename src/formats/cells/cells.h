@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_FORMATS_CELLS_CELLS_H
+#define ORTHOSTAT_FORMATS_CELLS_CELLS_H
+
+#include "formats/serial/label_index.h"
+#include "mesh/mesh_data.h"
+
+/* A mesh as other programs have it, while its file is read: nodes and elements by number and in any order, and sets of
+ * them. Memory grows with what is read, never with a count that a file states. */
+
+/* Mid-edge nodes of a tet come in VTK's order, 01 12 02 03 13 23; those of a triangle as 01 12 20. */
+typedef enum {
+    OST_CELL_POINT,
+    OST_CELL_LINE2,
+    OST_CELL_LINE3,
+    OST_CELL_TRIANGLE3,
+    OST_CELL_TRIANGLE6,
+    OST_CELL_TET4,
+    OST_CELL_TET10,
+    OST_CELL_KINDS
+} OstCellKind;
+
+typedef struct OstCellFacts {
+    int dimension, nodes;
+} OstCellFacts;
+extern const OstCellFacts ost_cell_facts[OST_CELL_KINDS];
+
+/* All cells of a kind. */
+typedef struct OstCellList {
+    OstLocal count, room;
+    OstGlobal *nodes; /* count × nodes: labels */
+    OstGlobal *label;
+    OstGlobal *group; /* a number, or OST_NO_GROUP */
+} OstCellList;
+#define OST_NO_GROUP INT64_MIN
+
+/* The name of a group of cells; without one it is volume-7, surface-7, ... by its number. */
+typedef struct OstCellName {
+    int dimension; /* -1: any */
+    OstGlobal group;
+    char *name;
+} OstCellName;
+
+/* A named list of nodes, of cells, or of faces of tets. */
+typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES } OstSetKind;
+typedef struct OstCellSet {
+    OstSetKind kind;
+    char *name;
+    int is_region; /* of cells: may be a region if it holds tets; else it only bounds */
+    OstLocal count, room;
+    OstGlobal *item; /* labels; of faces: 4 × the tet's label + the vertex opposite the face, 0 to 3 */
+} OstCellSet;
+
+typedef struct OstCells {
+    OstContext *ctx;
+    const char *path; /* for messages; the caller's */
+    OstMeshChunk *chunk;
+    OstLocal node_room;
+    OstCellList list[OST_CELL_KINDS];
+    int name_count;
+    OstCellName *name;
+    int set_count;
+    OstCellSet *set;
+    OstGlobal solids, others; /* that are no tets; that are neither solids, triangles, lines nor points */
+    char solid[48], other[48];
+    OstGlobal missing;    /* items of sets that are not in the file */
+    OstLabelIndex nodes;  /* label to position; then */
+    OstLabelIndex labels; /* of cells of all kinds, kind after kind */
+} OstCells;
+
+/* Local. `path` outlives the cells. */
+OstStatus ost_cells_open(OstContext *ctx, const char *path, OstCells *cells);
+void ost_cells_close(OstCells *cells);
+
+/* Local. Add a node; a cell with the labels of its nodes and its group. Labels are 0 to OST_LARGEST_LABEL. */
+OstStatus ost_cells_add_node(OstCells *cells, OstGlobal label, const double x[3]);
+OstStatus ost_cells_add(OstCells *cells, OstCellKind kind, OstGlobal label, OstGlobal group, const OstGlobal *nodes);
+
+/* Local. Counts a cell of another kind: solids are refused in the end, others are left out with a warning. */
+void ost_cells_skip(OstCells *cells, int dimension, const char *shape);
+
+/* Local. Names a group of cells of a dimension, or (-1) of any. */
+OstStatus ost_cells_name(OstCells *cells, int dimension, OstGlobal group, const char *name);
+
+/* Local. The set of a name (capitals are the same as small letters): a new one if there is none; or -1. Sets hold what
+ * is put into them, perhaps before the file defines it. */
+OstStatus ost_cells_set(OstCells *cells, OstSetKind kind, const char *name, int *set);
+int ost_cells_find_set(const OstCells *cells, OstSetKind kind, const char *name);
+OstStatus ost_cells_put(OstCells *cells, int set, OstGlobal item);
+
+/* Local. Keeps each item of a set once. Puts the items of one set into another, each once; or those of the numbers
+ * first, first + step, ... last that nodes or cells have. */
+void ost_cells_keep_once(OstCells *cells, int set);
+OstStatus ost_cells_put_set(OstCells *cells, int set, int from);
+OstStatus ost_cells_put_range(OstCells *cells, int set, OstGlobal first, OstGlobal last, OstGlobal step);
+
+/* Local. Makes the chunk: sets and groups of tets become regions (a tet in several goes to the one with the fewest),
+ * those of triangles, lines, points, nodes and faces become boundaries; what is no part of the body is left out with
+ * warnings. Raises OST_INVALID_INPUT for solids that are no tets, for nodes that are not there and for labels that
+ * occur twice. `chunk` is then the caller's. */
+OstStatus ost_cells_finish(OstCells *cells, OstMeshChunk **chunk);
+
+/* Local. The two halves of that. */
+OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets);
+OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets);
+
+/* Local. Where a cell is, by its label: its kind and position, or a kind of OST_CELL_KINDS. */
+OstCellKind ost_cells_find(const OstCells *cells, OstGlobal label, OstLocal *position);
+
+/* Local. Grows an array's room by half once `count` has reached it. */
+OstStatus ost_cells_grow(const OstCells *cells, OstLocal count, OstLocal *room);
+
+#endif

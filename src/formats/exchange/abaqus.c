@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/exchange/abaqus.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/exchange/exchange.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+/* Abaqus's and CalculiX's input: keyword lines begin with *, comments with **, and data lines follow their keyword. Of
+ * a model's many keywords those that state the mesh and its sets are read. */
+
+enum { MOST_INCLUDES = 8 };
+
+/* Elements by the beginning of their type. */
+static const struct {
+    const char *begins;
+    OstCellKind kind; /* OST_CELL_KINDS: not a kind that is read */
+    int dimension;
+} types[] = {
+    {"C3D4", OST_CELL_TET4, 3},        {"DC3D4", OST_CELL_TET4, 3},       {"C3D10", OST_CELL_TET10, 3},
+    {"DC3D10", OST_CELL_TET10, 3},     {"STRI65", OST_CELL_TRIANGLE6, 2}, {"M3D6", OST_CELL_TRIANGLE6, 2},
+    {"SFM3D6", OST_CELL_TRIANGLE6, 2}, {"CPS6", OST_CELL_TRIANGLE6, 2},   {"CPE6", OST_CELL_TRIANGLE6, 2},
+    {"S6", OST_CELL_TRIANGLE6, 2},     {"STRI3", OST_CELL_TRIANGLE3, 2},  {"S3", OST_CELL_TRIANGLE3, 2},
+    {"M3D3", OST_CELL_TRIANGLE3, 2},   {"SFM3D3", OST_CELL_TRIANGLE3, 2}, {"R3D3", OST_CELL_TRIANGLE3, 2},
+    {"CPS3", OST_CELL_TRIANGLE3, 2},   {"CPE3", OST_CELL_TRIANGLE3, 2},   {"DS3", OST_CELL_TRIANGLE3, 2},
+    {"C3D", OST_CELL_KINDS, 3},        {"DC3D", OST_CELL_KINDS, 3},       {"SC", OST_CELL_KINDS, 3},
+    {"CSS8", OST_CELL_KINDS, 3},       {"COH3D", OST_CELL_KINDS, 3},
+};
+
+static void find_type(OstInp *inp, const char *type)
+{
+    inp->kind = OST_CELL_KINDS;
+    inp->dimension = 2;
+    snprintf(inp->type, sizeof inp->type, "%s", type);
+    for (size_t t = 0; t < sizeof types / sizeof *types; t++) {
+        const size_t length = strlen(types[t].begins);
+        /* A digit that follows makes it another type: C3D4 is not C3D40. */
+        if (strncasecmp(type, types[t].begins, length) == 0 &&
+            (types[t].kind == OST_CELL_KINDS || !isdigit((unsigned char)type[length]))) {
+            inp->kind = types[t].kind;
+            inp->dimension = types[t].dimension;
+            return;
+        }
+    }
+}
+
+/* --- keyword lines --- */
+
+const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter)
+{
+    for (int p = 0; p < keyword->count; p++)
+        if (strcmp(keyword->parameter[p], parameter) == 0)
+            return keyword->value[p];
+    return NULL;
+}
+
+/* Copies without blanks and quotes at the ends. */
+static void copy_word(const char *start, const char *end, int capitals, char word[OST_INP_WORD])
+{
+    size_t length = 0;
+    while (start < end && strchr(" \t\"", *start))
+        start++;
+    while (end > start && strchr(" \t\"", end[-1]))
+        end--;
+    for (; start < end && length + 1 < OST_INP_WORD; start++)
+        word[length++] = capitals ? (char)toupper((unsigned char)*start) : *start;
+    word[length] = '\0';
+}
+
+static void add_parameters(const char *text, OstInpKeyword *keyword)
+{
+    while (*text && keyword->count < OST_INP_PARAMETERS) {
+        const char *end = text + strcspn(text, ",");
+        const char *equals = memchr(text, '=', (size_t)(end - text));
+        const int p = keyword->count;
+        copy_word(text, equals ? equals : end, 1, keyword->parameter[p]);
+        copy_word(equals ? equals + 1 : end, end, 0, keyword->value[p]);
+        keyword->count += keyword->parameter[p][0] != '\0';
+        text = *end ? end + 1 : end;
+    }
+}
+
+static int goes_on(const OstLineReader *lines)
+{
+    const size_t length = strlen(lines->text);
+    return length > 0 && lines->text[length - 1] == ',';
+}
+
+OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword)
+{
+    const char *text = inp->lines->text + strspn(inp->lines->text, " \t") + 1;
+    const char *end = text + strcspn(text, ",");
+    memset(keyword, 0, sizeof *keyword);
+    copy_word(text, end, 1, keyword->name);
+    add_parameters(*end ? end + 1 : end, keyword);
+    while (goes_on(inp->lines)) {
+        int found = 0;
+        OST_TRY(ost_lines_next(inp->lines, &found));
+        if (!found)
+            return OST_RAISE_LINE(inp->lines, "the file ends within the keyword *%s", keyword->name);
+        add_parameters(inp->lines->text, keyword);
+    }
+    return OST_SUCCESS;
+}
+
+/* --- nodes and elements --- */
+
+static OstStatus read_node(OstInp *inp)
+{
+    OstGlobal label = 0;
+    double x[3] = {0.0};
+    OST_TRY(ost_lines_integer(inp->lines, "the number of a node", &label));
+    for (int d = 0; d < 3 && !ost_lines_ended(inp->lines); d++)
+        OST_TRY(ost_lines_number(inp->lines, "a coordinate", &x[d]));
+    OST_TRY(ost_cells_add_node(&inp->cells, label, x));
+    return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, label);
+}
+
+/* A line may end within an element, which the next one then goes on with. */
+static OstStatus read_element(OstInp *inp)
+{
+    const int width = 1 + ost_cell_facts[inp->kind].nodes;
+    while (inp->filled < width && !ost_lines_ended(inp->lines)) {
+        OST_TRY(ost_lines_integer(inp->lines, inp->filled == 0 ? "the number of an element" : "a node of an element",
+                                  &inp->element[inp->filled]));
+        inp->filled++;
+    }
+    if (inp->filled < width)
+        return OST_SUCCESS;
+    inp->filled = 0;
+    OST_TRY(ost_lines_finish(inp->lines, "the nodes of an element"));
+    OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, inp->element + 1));
+    return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, inp->element[0]);
+}
+
+static OstStatus begin_nodes(OstInp *inp, const OstInpKeyword *keyword)
+{
+    const char *set = ost_inp_value(keyword, "NSET"), *system = ost_inp_value(keyword, "SYSTEM");
+    if (system && strcasecmp(system, "R") != 0)
+        return OST_RAISE_LINE(inp->lines, "nodes in the coordinate system '%s'; only rectangular ones are read",
+                              system);
+    inp->block = OST_INP_NODES;
+    return set ? ost_cells_set(&inp->cells, OST_SET_OF_NODES, set, &inp->set) : OST_SUCCESS;
+}
+
+static OstStatus begin_elements(OstInp *inp, const OstInpKeyword *keyword)
+{
+    const char *set = ost_inp_value(keyword, "ELSET"), *type = ost_inp_value(keyword, "TYPE");
+    if (!type)
+        return OST_RAISE_LINE(inp->lines, "*ELEMENT without TYPE, such as *ELEMENT, TYPE=C3D4");
+    find_type(inp, type);
+    inp->block = inp->kind == OST_CELL_KINDS ? OST_INP_SKIPPED : OST_INP_ELEMENTS;
+    return set ? ost_cells_set(&inp->cells, OST_SET_OF_CELLS, set, &inp->set) : OST_SUCCESS;
+}
+
+/* --- parts --- */
+
+static OstStatus begin_instance(OstInp *inp)
+{
+    inp->block = OST_INP_INSTANCE;
+    inp->instance_lines = 0;
+    if (++inp->instances > 1)
+        return OST_RAISE_LINE(
+            inp->lines, "a second instance; each has its own numbers. Write the model without parts and "
+                        "assemblies (in CAE: model attributes, 'Do not use parts and assemblies in input files')");
+    return OST_SUCCESS;
+}
+
+static OstStatus read_instance_line(OstInp *inp)
+{
+    if (inp->instance_lines++ > 0)
+        return OST_RAISE_LINE(inp->lines, "the instance is turned; write the model without parts and assemblies");
+    for (int d = 0; d < 3; d++)
+        OST_TRY(ost_lines_number(inp->lines, "a component of the instance's translation", &inp->shift[d]));
+    return OST_SUCCESS;
+}
+
+/* --- the file --- */
+
+static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth);
+
+/* Names of files are relative to the file that they are in. */
+static void join_path(const char *beside, const char *name, char path[PATH_MAX])
+{
+    const char *slash = strrchr(beside, '/');
+    if (name[0] == '/' || !slash)
+        snprintf(path, PATH_MAX, "%s", name);
+    else
+        snprintf(path, PATH_MAX, "%.*s/%s", (int)(slash - beside), beside, name);
+}
+
+static OstStatus include(OstInp *inp, const OstInpKeyword *keyword, int depth)
+{
+    char path[PATH_MAX];
+    OstLineReader *outer = inp->lines, lines;
+    const char *name = ost_inp_value(keyword, "INPUT");
+    if (!name || depth == MOST_INCLUDES)
+        return OST_RAISE_LINE(inp->lines,
+                              name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
+    join_path(outer->path, name, path);
+    OST_TRY(ost_lines_open(inp->ctx, path, &lines));
+    const OstStatus status = read_lines(inp, &lines, depth + 1);
+    inp->lines = outer;
+    ost_lines_close(&lines);
+    return status;
+}
+
+static OstStatus mark_section(OstInp *inp, const OstInpKeyword *keyword)
+{
+    const char *name = ost_inp_value(keyword, "ELSET");
+    int set = -1;
+    if (!name)
+        return OST_SUCCESS;
+    OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, name, &set));
+    inp->cells.set[set].is_region = 2;
+    inp->sections = 1;
+    return OST_SUCCESS;
+}
+
+static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int depth)
+{
+    const char *name = keyword->name;
+    if (inp->filled > 0)
+        return OST_RAISE_LINE(inp->lines, "element %" PRId64 " has %d nodes, expected %d", inp->element[0],
+                              inp->filled - 1, ost_cell_facts[inp->kind].nodes);
+    if (strcmp(name, "INCLUDE") == 0)
+        return include(inp, keyword, depth);
+    inp->block = OST_INP_NOTHING;
+    inp->set = -1;
+    if (strcmp(name, "NODE") == 0)
+        return begin_nodes(inp, keyword);
+    if (strcmp(name, "ELEMENT") == 0)
+        return begin_elements(inp, keyword);
+    if (strcmp(name, "NSET") == 0 || strcmp(name, "ELSET") == 0)
+        return ost_inp_begin_set(inp, keyword, name[0] == 'N' ? OST_SET_OF_NODES : OST_SET_OF_CELLS);
+    if (strcmp(name, "SURFACE") == 0)
+        return ost_inp_begin_surface(inp, keyword);
+    if (strcmp(name, "SOLID SECTION") == 0)
+        return mark_section(inp, keyword);
+    return strcmp(name, "INSTANCE") == 0 ? begin_instance(inp) : OST_SUCCESS;
+}
+
+static OstStatus read_data_line(OstInp *inp)
+{
+    switch (inp->block) {
+    case OST_INP_NODES:
+        return read_node(inp);
+    case OST_INP_ELEMENTS:
+        return read_element(inp);
+    case OST_INP_SKIPPED:
+        ost_cells_skip(&inp->cells, inp->dimension, inp->type);
+        return OST_SUCCESS;
+    case OST_INP_SET:
+        return ost_inp_set_line(inp);
+    case OST_INP_SURFACE:
+        return ost_inp_surface_line(inp);
+    case OST_INP_INSTANCE:
+        return read_instance_line(inp);
+    case OST_INP_NOTHING:
+        break;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth)
+{
+    int found = 0;
+    inp->lines = lines;
+    OST_TRY(ost_lines_next(lines, &found));
+    for (; found; inp->lines = lines) {
+        if (!ost_lines_take(lines, '*')) {
+            OST_TRY(read_data_line(inp));
+        } else if (*lines->next != '*') {
+            OstInpKeyword keyword;
+            OST_TRY(ost_inp_keyword(inp, &keyword));
+            OST_TRY(begin_block(inp, &keyword, depth));
+        }
+        OST_TRY(ost_lines_next(lines, &found));
+    }
+    return inp->filled == 0 ? OST_SUCCESS
+                            : OST_RAISE_LINE(lines, "the file ends within element %" PRId64, inp->element[0]);
+}
+
+/* Sections say which sets are made of a material; without any, all sets of tets may be regions. */
+static void choose_regions(OstInp *inp)
+{
+    for (int s = 0; s < inp->cells.set_count && inp->sections; s++)
+        inp->cells.set[s].is_region = inp->cells.set[s].is_region == 2;
+    if (inp->left_out > 0)
+        ost_warn(inp->ctx,
+                 "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S4, SPOS or SNEG) of tets or triangles, and "
+                 "are left out",
+                 inp->cells.path, inp->left_out);
+}
+
+static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)
+{
+    OstLineReader lines;
+    OST_TRY(ost_lines_open(inp->ctx, path, &lines));
+    const OstStatus status = read_lines(inp, &lines, 0);
+    ost_lines_close(&lines);
+    OST_TRY(status);
+    choose_regions(inp);
+    for (size_t n = 0; n < (size_t)inp->cells.chunk->node_count; n++)
+        for (size_t d = 0; d < 3; d++)
+            inp->cells.chunk->coordinates[3 * n + d] += inp->shift[d];
+    return ost_cells_finish(&inp->cells, chunk);
+}
+
+OstStatus ost_abaqus_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    OstInp inp = {.ctx = ctx, .set = -1};
+    OstStatus status = ost_cells_open(ctx, path, &inp.cells);
+    OST_THEN(read_file(&inp, path, chunk));
+    ost_cells_close(&inp.cells);
+    return status;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "formats/exchange/abaqus.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Sets and surfaces of Abaqus's and CalculiX's input. */
+
+/* Faces S1 to S4 of a tet by the vertex opposite: S1 is 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1. */
+static const int opposite[4] = {3, 2, 0, 1};
+
+OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind)
+{
+    const char *name = ost_inp_value(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET");
+    if (!name || !name[0])
+        return OST_RAISE_LINE(inp->lines, "*%s without its name, such as *%s, %s=TOP", keyword->name, keyword->name,
+                              keyword->name);
+    inp->block = OST_INP_SET;
+    inp->generate = ost_inp_value(keyword, "GENERATE") != NULL;
+    OST_TRY(ost_cells_set(&inp->cells, kind, name, &inp->set));
+    /* CAE keeps the tets of a surface in sets of its own. */
+    if (ost_inp_value(keyword, "INTERNAL"))
+        inp->cells.set[inp->set].is_region = 0;
+    return OST_SUCCESS;
+}
+
+static OstStatus read_range(OstInp *inp)
+{
+    OstGlobal first = 0, last = 0, step = 1;
+    OST_TRY(ost_lines_integer(inp->lines, "the first number of a range", &first));
+    OST_TRY(ost_lines_integer(inp->lines, "the last number of a range", &last));
+    if (!ost_lines_ended(inp->lines))
+        OST_TRY(ost_lines_integer(inp->lines, "the step of a range", &step));
+    if (first < 0 || last < first || last > OST_LARGEST_LABEL || step < 1)
+        return OST_RAISE_LINE(
+            inp->lines, "the range %" PRId64 " to %" PRId64 " in steps of %" PRId64 " found, expected it to ascend",
+            first, last, step);
+    return ost_cells_put_range(&inp->cells, inp->set, first, last, step);
+}
+
+/* A number, or the name of a set before. A number may come with its instance: Part-1-1.17. */
+static OstStatus put_word(OstInp *inp, const char *word)
+{
+    const OstSetKind kind = inp->cells.set[inp->set].kind;
+    const int from = ost_cells_find_set(&inp->cells, kind, word);
+    const char *dot = strrchr(word, '.');
+    const char *digits = dot ? dot + 1 : word;
+    char *end = NULL;
+    const OstGlobal label = strtoll(digits, &end, 10);
+    if (isdigit((unsigned char)digits[0]) && *end == '\0' && label <= OST_LARGEST_LABEL)
+        return ost_cells_put(&inp->cells, inp->set, label);
+    if (from < 0)
+        return OST_RAISE_LINE(inp->lines, "'%s' found, expected a number or the name of a set before this one", word);
+    return ost_cells_put_set(&inp->cells, inp->set, from);
+}
+
+OstStatus ost_inp_set_line(OstInp *inp)
+{
+    char word[OST_INP_WORD];
+    if (inp->generate)
+        return read_range(inp);
+    while (!ost_lines_ended(inp->lines)) {
+        ost_lines_word(inp->lines, word, sizeof word);
+        OST_TRY(put_word(inp, word));
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
+{
+    const char *name = ost_inp_value(keyword, "NAME"), *type = ost_inp_value(keyword, "TYPE");
+    const int of_nodes = type && strcasecmp(type, "NODE") == 0;
+    if (!name || !name[0])
+        return OST_RAISE_LINE(inp->lines, "*SURFACE without its name, such as *SURFACE, NAME=TOP");
+    if (type && !of_nodes && strcasecmp(type, "ELEMENT") != 0)
+        return OST_SUCCESS; /* one that is no part of the mesh */
+    inp->block = of_nodes ? OST_INP_SET : OST_INP_SURFACE;
+    inp->generate = 0;
+    return ost_cells_set(&inp->cells, of_nodes ? OST_SET_OF_NODES : OST_SET_OF_FACES, name, &inp->set);
+}
+
+/* Triangles have a side of their own name: they are put into a set of cells that bounds. */
+static OstStatus put_triangles(OstInp *inp, const char *word)
+{
+    const int set = inp->set;
+    OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name, &inp->set));
+    const OstStatus status = put_word(inp, word);
+    inp->set = set;
+    return status;
+}
+
+static OstStatus put_face(OstInp *inp, OstGlobal label, int side)
+{
+    return label < 0 || label > OST_LARGEST_LABEL ? OST_SUCCESS
+                                                  : ost_cells_put(&inp->cells, inp->set, 4 * label + opposite[side]);
+}
+
+/* The faces of an element, or of all of a set. */
+static OstStatus put_faces(OstInp *inp, const char *word, int side)
+{
+    const int from = ost_cells_find_set(&inp->cells, OST_SET_OF_CELLS, word);
+    const char *dot = strrchr(word, '.');
+    const char *digits = dot ? dot + 1 : word;
+    char *end = NULL;
+    const OstGlobal label = strtoll(digits, &end, 10);
+    if (isdigit((unsigned char)digits[0]) && *end == '\0')
+        return put_face(inp, label, side);
+    if (from < 0)
+        return OST_RAISE_LINE(inp->lines, "'%s' found, expected the number of an element or the name of a set before",
+                              word);
+    for (OstLocal i = 0; i < inp->cells.set[from].count; i++)
+        OST_TRY(put_face(inp, inp->cells.set[from].item[i], side));
+    ost_cells_keep_once(&inp->cells, inp->set);
+    return OST_SUCCESS;
+}
+
+/* Elements or a set of them, and which face: S1 to S4 of tets, SPOS and SNEG of triangles. */
+OstStatus ost_inp_surface_line(OstInp *inp)
+{
+    char word[OST_INP_WORD], face[OST_INP_WORD];
+    ost_lines_word(inp->lines, word, sizeof word);
+    ost_lines_word(inp->lines, face, sizeof face);
+    if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
+        return put_triangles(inp, word);
+    if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '4' && face[2] == '\0')
+        return put_faces(inp, word, face[1] - '1');
+    inp->left_out++;
+    return OST_SUCCESS;
+}

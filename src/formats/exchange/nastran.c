@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/cells/cells.h"
+#include "formats/exchange/exchange.h"
+#include "formats/exchange/numbers.h"
+#include "formats/msh/cursor.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Nastran's bulk data: cards of a name and fields, in columns of 8 (small), of 16 (large: the name ends with *), or
+ * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
+ * boundary, and so does each set of constraints. */
+
+enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 10 };
+
+typedef struct Nastran {
+    OstMshCursor cursor;
+    OstCells cells;
+    char name[NAME]; /* of the present card, in capitals; "" before the first */
+    int fields, room;
+    char (*field)[FIELD];
+    const char *line; /* where the card begins */
+} Nastran;
+
+/* --- cards --- */
+
+static OstStatus add_field(Nastran *nastran, const char *text, size_t length)
+{
+    while (length > 0 && isspace((unsigned char)*text)) {
+        text++;
+        length--;
+    }
+    while (length > 0 && isspace((unsigned char)text[length - 1]))
+        length--;
+    if (length >= FIELD) { /* no number that is read; titles have such fields */
+        text = "(too long)";
+        length = strlen(text);
+    }
+    if (nastran->fields == nastran->room) {
+        nastran->room = nastran->room ? 2 * nastran->room : FIRST_FIELDS;
+        OST_TRY(OST_RESIZE(nastran->cursor.ctx, &nastran->field, nastran->room));
+    }
+    memcpy(nastran->field[nastran->fields], text, length);
+    nastran->field[nastran->fields++][length] = '\0';
+    return OST_SUCCESS;
+}
+
+/* Fields between commas; a last one that only names the continuation is the ninth. */
+static OstStatus free_fields(Nastran *nastran, const char *text, const char *end)
+{
+    for (int f = 0; f < 8 && text < end; f++) {
+        const char *comma = memchr(text, ',', (size_t)(end - text));
+        const char *stop = comma ? comma : end;
+        OST_TRY(add_field(nastran, text, (size_t)(stop - text)));
+        text = comma ? comma + 1 : end;
+    }
+    return OST_SUCCESS;
+}
+
+/* Blank fields at the end of a line count: the next line begins with the ninth. */
+static OstStatus fixed_fields(Nastran *nastran, const char *text, const char *end, int width)
+{
+    for (int f = 0; f < 64 / width; f++) {
+        const ptrdiff_t left = end - text;
+        const ptrdiff_t length = left < 0 ? 0 : left < width ? left : width;
+        OST_TRY(add_field(nastran, text, (size_t)length));
+        text += length;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus read_fields(Nastran *nastran, const char *line, const char *end)
+{
+    const char *comma = memchr(line, ',', (size_t)(end - line));
+    const ptrdiff_t name = end - line < SMALL ? end - line : SMALL;
+    if (comma)
+        return free_fields(nastran, comma + 1, end);
+    return fixed_fields(nastran, line + name, end, memchr(line, '*', (size_t)name) ? LARGE : SMALL);
+}
+
+static const char *field_of(const Nastran *nastran, int number)
+{
+    return number < nastran->fields ? nastran->field[number] : "";
+}
+
+static OstStatus take_integer(Nastran *nastran, const char *what, int number, OstGlobal *value)
+{
+    const char *text = field_of(nastran, number);
+    nastran->cursor.place = nastran->line;
+    return ost_fortran_integer(text, strlen(text), value)
+               ? OST_SUCCESS
+               : OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", number + 1, nastran->name, text,
+                               what);
+}
+
+/* --- what is read of them --- */
+
+static OstStatus read_grid(Nastran *nastran)
+{
+    OstGlobal label = 0, system = 0;
+    double x[3] = {0.0};
+    OST_TRY(take_integer(nastran, "the number of a node", 0, &label));
+    if (field_of(nastran, 1)[0])
+        OST_TRY(take_integer(nastran, "a coordinate system", 1, &system));
+    if (system != 0)
+        return OST_RAISE_MSH(&nastran->cursor,
+                             "node %" PRId64 " is in coordinate system %" PRId64 "; only the basic one is read", label,
+                             system);
+    for (int d = 0; d < 3; d++) {
+        const char *text = field_of(nastran, 2 + d);
+        nastran->cursor.place = nastran->line;
+        if (text[0] && !ost_fortran_real(text, strlen(text), &x[d]))
+            return OST_RAISE_MSH(&nastran->cursor, "field %d of GRID is '%s', expected a coordinate", 3 + d, text);
+    }
+    return ost_cells_add_node(&nastran->cells, label, x);
+}
+
+/* Mid-edge nodes are all there, or none. */
+static OstStatus read_cell(Nastran *nastran, OstCellKind linear, OstCellKind quadratic)
+{
+    const int vertices = ost_cell_facts[linear].nodes, all = ost_cell_facts[quadratic].nodes;
+    OstGlobal label = 0, property = 0, nodes[MOST_NODES];
+    int middles = 0;
+    OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
+    OST_TRY(take_integer(nastran, "a property", 1, &property));
+    for (int n = vertices; n < all; n++)
+        middles += field_of(nastran, 2 + n)[0] != '\0' && strcmp(field_of(nastran, 2 + n), "0") != 0;
+    if (linear == OST_CELL_TRIANGLE3 && quadratic != OST_CELL_TRIANGLE6)
+        middles = 0;
+    if (middles > 0 && middles < all - vertices) {
+        nastran->cursor.place = nastran->line;
+        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has %d of %d mid-edge nodes", label, middles,
+                             all - vertices);
+    }
+    for (int n = 0; n < (middles > 0 ? all : vertices); n++)
+        OST_TRY(take_integer(nastran, "a node", 2 + n, &nodes[n]));
+    return ost_cells_add(&nastran->cells, middles > 0 ? quadratic : linear, label, property, nodes);
+}
+
+static OstStatus constraint_set(Nastran *nastran, int *set)
+{
+    OstGlobal number = 0;
+    char name[32];
+    OST_TRY(take_integer(nastran, "the number of a set", 0, &number));
+    snprintf(name, sizeof name, "spc-%" PRId64, number);
+    return ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, set);
+}
+
+/* SPC1: set, components, then nodes, or a node, THRU and another. */
+static OstStatus read_constraints(Nastran *nastran)
+{
+    OstGlobal node = 0, last = 0;
+    int set = -1;
+    OST_TRY(constraint_set(nastran, &set));
+    for (int f = 2; f < nastran->fields; f++) {
+        if (!field_of(nastran, f)[0])
+            continue;
+        OST_TRY(take_integer(nastran, "a node", f, &node));
+        if (strcasecmp(field_of(nastran, f + 1), "THRU") == 0) {
+            OST_TRY(take_integer(nastran, "a node", f + 2, &last));
+            if (node < 0 || last < node || last > OST_LARGEST_LABEL)
+                return OST_RAISE_MSH(&nastran->cursor, "nodes %" PRId64 " THRU %" PRId64, node, last);
+            OST_TRY(ost_cells_put_range(&nastran->cells, set, node, last, 1));
+            ost_cells_keep_once(&nastran->cells, set);
+            f += 2;
+        } else {
+            OST_TRY(ost_cells_put(&nastran->cells, set, node));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* SPC: set, then a node, components and a displacement, twice. */
+static OstStatus read_constraint(Nastran *nastran)
+{
+    OstGlobal node = 0;
+    int set = -1;
+    OST_TRY(constraint_set(nastran, &set));
+    for (int f = 1; f <= 4; f += 3)
+        if (field_of(nastran, f)[0]) {
+            OST_TRY(take_integer(nastran, "a node", f, &node));
+            OST_TRY(ost_cells_put(&nastran->cells, set, node));
+        }
+    return OST_SUCCESS;
+}
+
+static OstStatus end_card(Nastran *nastran)
+{
+    static const struct {
+        const char *name;
+        int dimension;
+    } others[] = {{"CHEXA", 3},  {"CPENTA", 3}, {"CPYRAM", 3}, {"CHEXA8", 3}, {"CHEXA20", 3},
+                  {"CQUAD4", 2}, {"CQUAD8", 2}, {"CQUADR", 2}, {"CQUAD", 2},  {"CSHEAR", 2},
+                  {"CBAR", 1},   {"CBEAM", 1},  {"CROD", 1},   {"CTUBE", 1},  {"CONROD", 1}};
+    const char *name = nastran->name;
+    if (strcmp(name, "GRID") == 0)
+        return read_grid(nastran);
+    if (strcmp(name, "CTETRA") == 0)
+        return read_cell(nastran, OST_CELL_TET4, OST_CELL_TET10);
+    if (strcmp(name, "CTRIA6") == 0)
+        return read_cell(nastran, OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE6);
+    if (strcmp(name, "CTRIA3") == 0 || strcmp(name, "CTRIAR") == 0)
+        return read_cell(nastran, OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3);
+    if (strcmp(name, "SPC1") == 0)
+        return read_constraints(nastran);
+    if (strcmp(name, "SPC") == 0)
+        return read_constraint(nastran);
+    for (size_t o = 0; o < sizeof others / sizeof *others; o++)
+        if (strcmp(name, others[o].name) == 0)
+            ost_cells_skip(&nastran->cells, others[o].dimension, name);
+    return OST_SUCCESS;
+}
+
+static void begin_card(Nastran *nastran, const char *line, const char *end)
+{
+    int length = 0;
+    for (; line + length < end && length < NAME - 1 && !strchr(" ,*\t", line[length]); length++)
+        nastran->name[length] = (char)toupper((unsigned char)line[length]);
+    nastran->name[length] = '\0';
+    nastran->fields = 0;
+    nastran->line = line;
+}
+
+/* HyperMesh names properties in comments: $HMNAME PROP       11"wood" 4. */
+static OstStatus read_comment(Nastran *nastran, const char *line, const char *end)
+{
+    static const char word[] = "$HMNAME PROP";
+    char name[64];
+    OstGlobal property = 0;
+    const size_t begins = sizeof word - 1;
+    const char *quote = memchr(line, '"', (size_t)(end - line));
+    if ((size_t)(end - line) < begins || strncasecmp(line, word, begins) != 0 || !quote || quote < line + begins ||
+        !ost_fortran_integer(line + begins, (size_t)(quote - line) - begins, &property))
+        return OST_SUCCESS;
+    const char *close = memchr(quote + 1, '"', (size_t)(end - quote - 1));
+    snprintf(name, sizeof name, "%.*s", close ? (int)(close - quote - 1) & 63 : 0, quote + 1);
+    return name[0] ? ost_cells_name(&nastran->cells, -1, property, name) : OST_SUCCESS;
+}
+
+static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
+{
+    if (line == end)
+        return OST_SUCCESS;
+    if (*line == '$')
+        return read_comment(nastran, line, end);
+    if (!strchr("+* ,\t", *line)) {
+        OST_TRY(end_card(nastran));
+        begin_card(nastran, line, end);
+    } else if (!nastran->name[0])
+        return OST_SUCCESS;
+    return read_fields(nastran, line, end);
+}
+
+static OstStatus read_lines(Nastran *nastran)
+{
+    OstMshCursor *cursor = &nastran->cursor;
+    while (cursor->next < cursor->end) {
+        const char *line = cursor->next;
+        const OstMshText text = ost_msh_rest_of_line(cursor);
+        cursor->place = line;
+        if (text.length >= 7 && strncasecmp(text.start, "ENDDATA", 7) == 0)
+            break;
+        OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
+    }
+    return end_card(nastran);
+}
+
+OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    Nastran nastran = {.line = NULL};
+    OstStatus status = ost_cells_open(ctx, path, &nastran.cells);
+    OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
+    OST_THEN(read_lines(&nastran));
+    OST_FREE(nastran.field);
+    ost_msh_close(&nastran.cursor);
+    OST_THEN(ost_cells_finish(&nastran.cells, chunk));
+    ost_cells_close(&nastran.cells);
+    return status;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/export/export.h"
+
+#include "core/error.h"
+#include "core/write_aside.h"
+#include "formats/vtkhdf/vtkhdf.h"
+
+#include <string.h>
+#include <strings.h>
+
+/* The formats that rank 0 writes. */
+static const struct {
+    const char *ending;
+    OstStatus (*write)(FILE *file, const void *whole);
+} writers[] = {{".msh", ost_msh_write}, {".inp", ost_abaqus_write}};
+enum { WRITERS = sizeof writers / sizeof *writers };
+
+static int ends_with(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+OstStatus ost_mesh_export_check(OstContext *ctx, const char *path)
+{
+    for (int w = 0; w < WRITERS; w++)
+        if (ends_with(path, writers[w].ending))
+            return OST_SUCCESS;
+    return ends_with(path, ".vtkhdf")
+               ? OST_SUCCESS
+               : OST_RAISE(
+                     ctx, OST_INVALID_USAGE,
+                     "'%s': a mesh is written as .msh (Gmsh, which converts it further), .inp (Abaqus) or .vtkhdf",
+                     path);
+}
+
+static OstStatus write_alone(const OstMesh *mesh, const char *path, OstStatus (*write)(FILE *file, const void *whole))
+{
+    OstMeshChunk *whole = NULL;
+    OST_TRY(ost_mesh_gather(mesh, &whole));
+    const OstStatus status = ost_rank(mesh->ctx) == 0 ? ost_write_aside(mesh->ctx, path, write, whole) : OST_SUCCESS;
+    ost_chunk_destroy(&whole);
+    return ost_agree(mesh->ctx, status);
+}
+
+OstStatus ost_mesh_export(const OstMesh *mesh, const char *path)
+{
+    OST_TRY(ost_mesh_export_check(mesh->ctx, path));
+    for (int w = 0; w < WRITERS; w++)
+        if (ends_with(path, writers[w].ending))
+            return write_alone(mesh, path, writers[w].write);
+    const OstOutputArray region = {"region", OST_ON_TETS, OST_VALUES_INT32, 1, mesh->tet_region};
+    return ost_vtkhdf_write(mesh->ctx, path, mesh, 1, &region, NULL);
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/mesh_formats.h"
+
+#include "formats/exchange/exchange.h"
+#include "formats/vtk/vtk.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+const OstMeshFormat ost_mesh_formats[] = {
+    {".msh", 0, ost_msh_read, NULL, ost_msh_read_field},
+    {".msh.gz", 0, ost_msh_read, NULL, ost_msh_read_field},
+    {".vtkhdf", 1, NULL, NULL, NULL},
+    {".vtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
+    {".vtk", 0, ost_vtk_read, NULL, ost_vtk_read_field},
+    {".inp", 0, ost_abaqus_read, NULL, NULL},
+    {".mesh", 0, ost_medit_read, NULL, NULL},
+    {".meshb", 0, ost_medit_read, NULL, NULL},
+    {".bdf", 0, ost_nastran_read, NULL, NULL},
+    {".nas", 0, ost_nastran_read, NULL, NULL},
+    {".unv", 0, ost_unv_read, NULL, NULL},
+    {".node", 0, ost_tetgen_read, NULL, NULL},
+    {".ele", 0, ost_tetgen_read, NULL, NULL},
+    {".veg", 0, NULL, ost_veg_read, NULL},
+};
+const int ost_mesh_format_count = sizeof ost_mesh_formats / sizeof *ost_mesh_formats;
+
+/* The way from other formats to one that is read. */
+typedef enum { BY_MESHIO, BY_GMSH, MESH_SOLID, MESH_SURFACE, BY_PARAVIEW, BY_EXPORT } Way;
+
+static const char *const way_words[] = {
+    [BY_MESHIO] = "convert it: meshio convert %s %.*s.vtu (Debian: python3-meshio; or pip install meshio)",
+    [BY_GMSH] = "convert it: gmsh -save %s -format msh41 -o %.*s.msh",
+    [MESH_SOLID] = "mesh it: gmsh -3 %s -o %.*s.msh",
+    [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
+    [BY_PARAVIEW] = "open %s in ParaView, and save it as %.*s.vtu (File, Save Data)",
+    [BY_EXPORT] = "export %s from its program as %.*s.inp (Abaqus) or .bdf (Nastran)",
+};
+
+static const struct {
+    const char *ending, *what;
+    Way way;
+} others[] = {
+    {".exo", "Exodus", BY_MESHIO},
+    {".ex2", "Exodus", BY_MESHIO},
+    {".e", "Exodus", BY_MESHIO},
+    {".xdmf", "XDMF", BY_MESHIO},
+    {".xmf", "XDMF", BY_MESHIO},
+    {".xml", "DOLFIN", BY_MESHIO},
+    {".su2", "SU2", BY_MESHIO},
+    {".h5m", "MOAB", BY_MESHIO},
+    {".vol", "Netgen", BY_MESHIO},
+    {".vol.gz", "Netgen", BY_MESHIO},
+    {".avs", "AVS", BY_MESHIO},
+    {".f3grid", "FLAC3D", BY_MESHIO},
+    {".post", "PERMAS", BY_MESHIO},
+    {".dato", "PERMAS", BY_MESHIO},
+    {".ugrid", "UGRID", BY_MESHIO},
+    {".mdpa", "Kratos", BY_MESHIO},
+    {".dat", "Tecplot or Nastran (then rename it .bdf)", BY_MESHIO},
+    {".tec", "Tecplot", BY_MESHIO},
+    {".med", "MED (Salome, Code_Aster)", BY_GMSH},
+    {".cgns", "CGNS", BY_GMSH},
+    {".p3d", "Plot3D", BY_GMSH},
+    {".geo", "Gmsh's model", MESH_SOLID},
+    {".geo_unrolled", "Gmsh's model", MESH_SOLID},
+    {".step", "STEP", MESH_SOLID},
+    {".stp", "STEP", MESH_SOLID},
+    {".iges", "IGES", MESH_SOLID},
+    {".igs", "IGES", MESH_SOLID},
+    {".brep", "OpenCASCADE", MESH_SOLID},
+    {".stl", "STL", MESH_SURFACE},
+    {".ply", "PLY", MESH_SURFACE},
+    {".off", "OFF", MESH_SURFACE},
+    {".poly", "TetGen's input", MESH_SURFACE},
+    {".smesh", "TetGen's input", MESH_SURFACE},
+    {".obj", "Wavefront", MESH_SURFACE},
+    {".pvtu", "VTK in pieces", BY_PARAVIEW},
+    {".vtm", "VTK in blocks", BY_PARAVIEW},
+    {".vtp", "VTK polygons", BY_PARAVIEW},
+    {".pvd", "ParaView's list", BY_PARAVIEW},
+    {".case", "EnSight", BY_PARAVIEW},
+    {".foam", "OpenFOAM", BY_PARAVIEW},
+    {".frd", "CalculiX's result", BY_EXPORT},
+    {".cdb", "ANSYS", BY_EXPORT},
+    {".mphtxt", "COMSOL", BY_EXPORT},
+    {".k", "LS-DYNA", BY_EXPORT},
+    {".key", "LS-DYNA", BY_EXPORT},
+    {".feb", "FEBio", BY_EXPORT},
+    {".odb", "Abaqus's result", BY_EXPORT},
+};
+
+static int has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+void ost_mesh_format_advice(const char *path, char *text, size_t size)
+{
+    const char *name = strrchr(path, '/');
+    name = name ? name + 1 : path;
+    const char *dot = strrchr(name, '.');
+    for (size_t o = 0; o < sizeof others / sizeof *others; o++)
+        if (has_ending(path, others[o].ending)) {
+            const int used = snprintf(text, size, "files of %s are not read; ", others[o].what);
+            const int stem = (int)(strlen(name) - strlen(others[o].ending));
+            if (used > 0 && (size_t)used < size)
+                snprintf(text + used, size - (size_t)used, way_words[others[o].way], name, stem, name);
+            return;
+        }
+    int used = snprintf(text, size, "the ending '%s' is not that of a mesh file; read are", dot ? dot : "");
+    for (int f = 0; f < ost_mesh_format_count && used > 0 && (size_t)used < size; f++)
+        used += snprintf(text + used, size - (size_t)used, "%s %s", f > 0 ? "," : "", ost_mesh_formats[f].ending);
+    if (used > 0 && (size_t)used < size)
+        snprintf(text + used, size - (size_t)used, "; others: meshio convert %s NEW.vtu, or gmsh -save %s -o NEW.msh",
+                 name, name);
+}

@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "formats/vtk/grid.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/cells/cells.h"
+#include "formats/vtk/vtk.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* Names of cell arrays that say which region or boundary a cell is in, as programs write them; the first that a file
+ * has counts. */
+static const char *const region_names[] = {
+    "region",     "regions",  "gmsh:physical", "medit:ref",   "CellEntityIds",  "cell_tags", "MaterialIDs",
+    "MaterialID", "material", "mat",           "attribute",   "attributes",     "physical",  "PartID",
+    "part",       "label",    "labels",        "GeometryIds", "ElementBlockIds"};
+enum { REGION_NAMES = sizeof region_names / sizeof *region_names };
+
+/* What VTK's cell types are here. */
+enum { VTK_TYPES = 82 };
+typedef struct CellType {
+    OstCellKind kind; /* where `nodes` is not 0 */
+    int nodes, dimension;
+} CellType;
+static const CellType cell_types[VTK_TYPES] = {
+    [1] = {OST_CELL_POINT, 1, 0},      [3] = {OST_CELL_LINE2, 2, 1},   [5] = {OST_CELL_TRIANGLE3, 3, 2},
+    [10] = {OST_CELL_TET4, 4, 3},      [21] = {OST_CELL_LINE3, 3, 1},  [22] = {OST_CELL_TRIANGLE6, 6, 2},
+    [24] = {OST_CELL_TET10, 10, 3},    [68] = {OST_CELL_LINE3, 3, 1}, /* Lagrange's, of second order */
+    [69] = {OST_CELL_TRIANGLE6, 6, 2}, [71] = {OST_CELL_TET10, 10, 3}, [11] = {.dimension = 3},
+    [12] = {.dimension = 3},           [13] = {.dimension = 3},        [14] = {.dimension = 3},
+    [15] = {.dimension = 3},           [16] = {.dimension = 3},        [25] = {.dimension = 3},
+    [26] = {.dimension = 3},           [27] = {.dimension = 3},        [29] = {.dimension = 3},
+    [31] = {.dimension = 3},           [32] = {.dimension = 3},        [33] = {.dimension = 3},
+    [37] = {.dimension = 3},           [41] = {.dimension = 3},        [42] = {.dimension = 3},
+    [72] = {.dimension = 3},           [73] = {.dimension = 3},        [74] = {.dimension = 3},
+    [78] = {.dimension = 3},           [79] = {.dimension = 3},        [80] = {.dimension = 3},
+    [81] = {.dimension = 3},
+};
+
+void ost_vtk_clear(OstVtkGrid *grid)
+{
+    for (int a = 0; a < grid->array_count; a++)
+        OST_FREE(grid->array[a].values);
+    OST_FREE(grid->array);
+    OST_FREE(grid->coordinates);
+    OST_FREE(grid->end);
+    OST_FREE(grid->connectivity);
+    OST_FREE(grid->type);
+}
+
+int ost_vtk_wants(const OstVtkGrid *grid, const char *name)
+{
+    if (grid->wanted)
+        return strcmp(grid->wanted, name) == 0;
+    for (int n = 0; n < REGION_NAMES; n++)
+        if (strcasecmp(region_names[n], name) == 0)
+            return 1;
+    return 0;
+}
+
+/* A further piece's values follow those before. */
+static OstStatus extend(OstVtkGrid *grid, OstVtkArray *array, int components, OstGlobal tuples, const double *values)
+{
+    const size_t before = (size_t)array->tuples * (size_t)components, more = (size_t)tuples * (size_t)components;
+    if (components != array->components)
+        return OST_RAISE(grid->ctx, OST_INVALID_INPUT, "%s: '%s' has %d components in one place and %d in another",
+                         grid->path, array->name, array->components, components);
+    OST_TRY(OST_RESIZE(grid->ctx, &array->values, before + more));
+    if (more > 0)
+        memcpy(array->values + before, values, more * sizeof *values);
+    array->tuples += tuples;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_vtk_add_array(OstVtkGrid *grid, const char *name, int on_points, int components, OstGlobal tuples,
+                            double **values)
+{
+    for (int a = 0; a < grid->array_count; a++)
+        if (grid->array[a].on_points == on_points && strcmp(grid->array[a].name, name) == 0)
+            return extend(grid, &grid->array[a], components, tuples, *values);
+    OST_TRY(OST_RESIZE(grid->ctx, &grid->array, grid->array_count + 1));
+    OstVtkArray *last = &grid->array[grid->array_count++];
+    *last = (OstVtkArray){.on_points = on_points, .components = components, .tuples = tuples, .values = *values};
+    strncpy(last->name, name, OST_VTK_NAME - 1);
+    *values = NULL;
+    return OST_SUCCESS;
+}
+
+double ost_vtk_number(OstVtkType type, int swapped, const char *bytes)
+{
+    unsigned char b[8] = {0};
+    const int n = type.bytes;
+    uint64_t bits = 0;
+    for (int i = 0; i < n; i++)
+        b[i] = (unsigned char)bytes[swapped ? n - 1 - i : i];
+    memcpy(&bits, b, sizeof bits);
+    if (type.kind == OST_VTK_FLOAT) {
+        float single;
+        double value;
+        memcpy(&single, b, sizeof single);
+        memcpy(&value, b, sizeof value);
+        return n == 4 ? (double)single : value;
+    }
+    if (type.kind == OST_VTK_SIGNED && n < 8 && bits >> (8 * n - 1) & 1U)
+        bits |= ~(uint64_t)0 << (8 * n);
+    return type.kind == OST_VTK_SIGNED ? (double)(int64_t)bits : (double)bits;
+}
+
+OstStatus ost_vtk_whole(OstMshCursor *cursor, const char *what, OstGlobal count, const double *values,
+                        OstGlobal largest, OstGlobal *numbers)
+{
+    for (OstGlobal i = 0; i < count; i++) {
+        if (!(values[i] >= 0.0 && values[i] <= (double)largest) || values[i] != floor(values[i]))
+            return OST_RAISE_MSH(cursor, "%g found as %s, expected a whole number from 0 to %" PRId64, values[i], what,
+                                 largest);
+        numbers[i] = (OstGlobal)values[i];
+    }
+    return OST_SUCCESS;
+}
+
+/* --- the mesh --- */
+
+/* The array of whole numbers that says which region a cell is in, or NULL. */
+static const OstVtkArray *region_array(const OstVtkGrid *grid)
+{
+    for (int n = 0; n < REGION_NAMES; n++)
+        for (int a = 0; a < grid->array_count; a++) {
+            const OstVtkArray *array = &grid->array[a];
+            OstGlobal whole = 0;
+            if (array->on_points || array->components != 1 || array->tuples != grid->cells ||
+                strcasecmp(array->name, region_names[n]) != 0)
+                continue;
+            while (whole < array->tuples && array->values[whole] == floor(array->values[whole]) &&
+                   fabs(array->values[whole]) < 1e15)
+                whole++;
+            if (whole == array->tuples)
+                return array;
+        }
+    return NULL;
+}
+
+static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal group, OstCells *cells)
+{
+    const OstGlobal start = cell > 0 ? grid->end[cell - 1] : 0, count = grid->end[cell] - start;
+    const int type = grid->type[cell];
+    const CellType *facts = type < VTK_TYPES ? &cell_types[type] : &cell_types[0];
+    OstGlobal nodes[10];
+    char what[32];
+    snprintf(what, sizeof what, "of VTK's type %d", type);
+    if (facts->nodes == 0 || (count != facts->nodes && type >= 68)) {
+        ost_cells_skip(cells, facts->dimension, what);
+        return OST_SUCCESS;
+    }
+    if (count != facts->nodes)
+        return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
+                         "%s: cell %" PRId64 " of VTK's type %d has %" PRId64 " points, expected %d", grid->path, cell,
+                         type, count, facts->nodes);
+    for (OstGlobal i = 0; i < count; i++)
+        nodes[i] = grid->connectivity[start + i] + 1;
+    return ost_cells_add(cells, facts->kind, cell + 1, group, nodes);
+}
+
+static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
+{
+    const OstVtkArray *region = region_array(grid);
+    for (OstGlobal p = 0; p < grid->points; p++)
+        OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
+    for (OstGlobal c = 0; c < grid->cells; c++)
+        OST_TRY(add_cell(grid, c, region ? (OstGlobal)region->values[c] : OST_NO_GROUP, cells));
+    return OST_SUCCESS;
+}
+
+static OstStatus check_grid(const OstVtkGrid *grid)
+{
+    if (grid->cells == 0 || !grid->type || !grid->end || !grid->coordinates)
+        return OST_RAISE(grid->ctx, OST_INVALID_INPUT, "%s: holds no cells; an unstructured grid of tets is expected",
+                         grid->path);
+    for (OstGlobal c = 0; c < grid->cells; c++)
+        if (grid->end[c] < (c > 0 ? grid->end[c - 1] : 0) || grid->end[c] > grid->connections)
+            return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
+                             "%s: cell %" PRId64 " ends at entry %" PRId64 " of a connectivity of %" PRId64, grid->path,
+                             c, grid->end[c], grid->connections);
+    return OST_SUCCESS;
+}
+
+static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstVtkGrid *grid)
+{
+    OstMshCursor cursor;
+    *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted};
+    OST_TRY(ost_msh_open(ctx, path, &cursor));
+    const char *ending = strrchr(path, '.');
+    OstStatus status = ending && strcasecmp(ending, ".vtu") == 0 ? ost_vtk_xml_grid(&cursor, grid)
+                                                                 : ost_vtk_legacy_grid(&cursor, grid);
+    ost_msh_close(&cursor);
+    OST_THEN(check_grid(grid));
+    return status;
+}
+
+OstStatus ost_vtk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    OstVtkGrid grid;
+    OstCells cells = {0};
+    OstStatus status = read_grid(ctx, path, NULL, &grid);
+    OST_THEN(ost_cells_open(ctx, path, &cells));
+    OST_THEN(add_all(&grid, &cells));
+    ost_vtk_clear(&grid);
+    OST_THEN(ost_cells_finish(&cells, chunk));
+    ost_cells_close(&cells);
+    return status;
+}
+
+/* --- a field --- */
+
+static OstStatus take_field(const OstVtkGrid *grid, const OstMeshChunk *chunk, OstFileField *field)
+{
+    const OstVtkArray *array = NULL;
+    for (int a = 0; a < grid->array_count; a++)
+        if (array == NULL || !grid->array[a].on_points)
+            array = &grid->array[a];
+    if (!array)
+        return OST_SUCCESS;
+    const OstGlobal count = array->on_points ? chunk->node_count : chunk->tet_count;
+    const OstGlobal *label = array->on_points ? chunk->node_label : chunk->tet_label;
+    const size_t width = (size_t)array->components;
+    field->found = 1;
+    field->on_nodes = array->on_points;
+    field->width = array->components;
+    OST_TRY(OST_NEW(grid->ctx, &field->values, (size_t)count * width));
+    for (OstGlobal i = 0; i < count; i++) {
+        if (label[i] < 1 || label[i] > array->tuples)
+            return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
+                             "%s: '%s' has %" PRId64 " entries, and entry %" PRId64 " is asked for", grid->path,
+                             array->name, array->tuples, label[i]);
+        memcpy(field->values + (size_t)i * width, array->values + (size_t)(label[i] - 1) * width,
+               width * sizeof(double));
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_vtk_read_field(OstContext *ctx, const char *path, const char *name, const OstMeshChunk *chunk,
+                             OstFileField *field)
+{
+    OstVtkGrid grid;
+    OstStatus status = read_grid(ctx, path, name, &grid);
+    OST_THEN(take_field(&grid, chunk, field));
+    ost_vtk_clear(&grid);
+    return status;
+}

@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "output/load_case_files.h"
+
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/memory.h"
+#include "core/write_aside.h"
+#include "formats/serial/output_array.h"
+#include "output/path_files.h"
+#include "output/series.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST_PATH = 4096 };
+
+OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched, const char *file,
+                             OstLoadCaseReport *report)
+{
+    OstContext *ctx = scene->ctx;
+    report->is_known = 1;
+    report->largest_displacement = result->largest_displacement;
+    report->strain_energy = result->checks.strain_energy;
+    report->relative_error = result->answer.known ? result->answer.relative : NAN;
+    report->iterations = result->solve.iterations;
+    report->newton_iterations = result->newton.iterations;
+    report->nonzeros = result->solve.nonzeros;
+    report->watched = watched;
+    if (file)
+        OST_TRY(ost_copy_string(ctx, file, &report->file));
+    if (ost_rank(ctx) == 0) {
+        report->json = ost_summary_json(scene, result, NULL, watched, file);
+        if (report->json)
+            json_object_set_new_nocheck(report->json, "load_case", json_string(report->name));
+    }
+    return OST_SUCCESS;
+}
+
+void ost_load_case_report_release(OstLoadCaseReport *report)
+{
+    OST_FREE(report->failure);
+    OST_FREE(report->watched);
+    OST_FREE(report->file);
+    json_decref(report->json);
+    report->json = NULL;
+}
+
+/* --- names --- */
+
+void ost_load_case_fields_name(const char *output, const char *name, size_t size, char *path)
+{
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(path, size, "%.*s_%s%s", (int)stem, output, name, output + stem);
+}
+
+void ost_load_case_table_name(const char *output, size_t size, char *path)
+{
+    size_t stem;
+    ost_result_form(output, &stem);
+    snprintf(path, size, "%.*s_cases.csv", (int)stem, output);
+}
+
+/* --- the list of files --- */
+
+static OstStatus write_series(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output)
+{
+    char list[LONGEST_PATH];
+    OstSeriesFile *files = NULL;
+    int written = 0;
+    OST_TRY(OST_NEW(ctx, &files, count));
+    for (int k = 0; k < count; k++)
+        if (reports[k].file)
+            files[written++] = (OstSeriesFile){reports[k].file, k + 1};
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof list, list);
+    const OstStatus status = ost_series_write(ctx, list, written, files);
+    OST_FREE(files);
+    return status;
+}
+
+/* --- the table --- */
+
+/* The names of all quantities of interest, each once. */
+typedef struct Columns {
+    int count;
+    const char **name;
+} Columns;
+
+static int column_of(const Columns *columns, const char *name)
+{
+    int column = 0;
+    while (column < columns->count && strcmp(columns->name[column], name) != 0)
+        column++;
+    return column;
+}
+
+static OstStatus find_columns(OstContext *ctx, int count, const OstLoadCaseReport *reports, Columns *columns)
+{
+    *columns = (Columns){0};
+    for (int k = 0; k < count; k++)
+        for (int w = 0; w < reports[k].c->watch_count; w++) {
+            const char *name = reports[k].c->watches[w].name;
+            if (column_of(columns, name) < columns->count)
+                continue;
+            OST_TRY(OST_RESIZE(ctx, &columns->name, columns->count + 1));
+            columns->name[columns->count++] = name;
+        }
+    return OST_SUCCESS;
+}
+
+/* The value of a quantity; NAN where the case does not have it, or no answer. */
+static double value_of(const OstLoadCaseReport *report, const char *name)
+{
+    for (int w = 0; report->watched && w < report->c->watch_count; w++)
+        if (strcmp(report->c->watches[w].name, name) == 0)
+            return report->watched[w].value;
+    return NAN;
+}
+
+static const char *state_of(const OstLoadCaseReport *report)
+{
+    return report->status == OST_SUCCESS ? "accepted" : report->is_known ? "refused" : "failed";
+}
+
+typedef struct Table {
+    int count;
+    const OstLoadCaseReport *reports;
+    Columns columns;
+} Table;
+
+static void write_number(FILE *file, double number)
+{
+    fputc(',', file);
+    if (isfinite(number))
+        fprintf(file, "%.17g", number);
+}
+
+static OstStatus write_rows(FILE *file, const void *content)
+{
+    const Table *table = content;
+    fputs("case,status,largest_displacement,strain_energy,relative_error,newton_iterations,iterations", file);
+    for (int w = 0; w < table->columns.count; w++)
+        ost_csv_write_name(file, table->columns.name[w]);
+    fputc('\n', file);
+    for (int k = 0; k < table->count; k++) {
+        const OstLoadCaseReport *report = &table->reports[k];
+        fprintf(file, "%s,%s", report->name, state_of(report));
+        write_number(file, report->is_known ? report->largest_displacement : NAN);
+        write_number(file, report->is_known ? report->strain_energy : NAN);
+        write_number(file, report->is_known ? report->relative_error : NAN);
+        fprintf(file, ",%d,%d", report->newton_iterations, report->iterations);
+        for (int w = 0; w < table->columns.count; w++)
+            write_number(file, value_of(report, table->columns.name[w]));
+        fputc('\n', file);
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_load_cases_write(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output)
+{
+    Table table = {count, reports, {0}};
+    char name[LONGEST_PATH];
+    if (ost_rank(ctx) != 0)
+        return OST_SUCCESS;
+    OstStatus status = find_columns(ctx, count, reports, &table.columns);
+    ost_load_case_table_name(output, sizeof name, name);
+    OST_THEN(ost_write_aside(ctx, name, write_rows, &table));
+    OST_THEN(write_series(ctx, count, reports, output));
+    OST_FREE(table.columns.name);
+    return status;
+}
+
+static void print_rows(const Table *table)
+{
+    printf("  %-16s %14s %14s %9s %7s %7s", "case", "largest |u|", "strain energy", "off by", "Newton", "solver");
+    for (int w = 0; w < table->columns.count; w++)
+        printf(" %14.14s", table->columns.name[w]);
+    puts("");
+    for (int k = 0; k < table->count; k++) {
+        const OstLoadCaseReport *report = &table->reports[k];
+        printf("  %-16s ", report->name);
+        if (!report->is_known) {
+            puts("no answer");
+            continue;
+        }
+        printf("%14.8g %14.8g ", report->largest_displacement, report->strain_energy);
+        if (isfinite(report->relative_error))
+            printf("%7.2g %%", 100.0 * report->relative_error);
+        else
+            printf("%9s", "-");
+        printf(" %7d %7d", report->newton_iterations, report->iterations);
+        for (int w = 0; w < table->columns.count; w++)
+            if (isfinite(value_of(report, table->columns.name[w])))
+                printf(" %14.8g", value_of(report, table->columns.name[w]));
+            else
+                printf(" %14s", "-");
+        puts(report->status == OST_SUCCESS ? "" : "  NO ANSWER");
+    }
+}
+
+void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output)
+{
+    Table table = {count, reports, {0}};
+    char series[LONGEST_PATH], csv[LONGEST_PATH];
+    int written = 0;
+    if (ost_rank(scene->ctx) != 0 || find_columns(scene->ctx, count, reports, &table.columns) != OST_SUCCESS)
+        return;
+    printf("\n%d load case%s\n", count, count == 1 ? "" : "s");
+    print_rows(&table);
+    OST_FREE(table.columns.name);
+    for (int k = 0; k < count; k++)
+        written += reports[k].file != NULL;
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof series, series);
+    ost_load_case_table_name(output, sizeof csv, csv);
+    printf("  %-16s %d file%s, listed in %s for ParaView; this table in %s\n", "written to", written,
+           written == 1 ? "" : "s", series, csv);
+}
+
+/* --- JSON --- */
+
+static json_t *case_json(OstLoadCaseReport *report)
+{
+    json_t *object = report->json;
+    report->json = NULL;
+    if (!object)
+        return json_pack("{s:s, s:b, s:s, s:[s]}", "load_case", report->name, "accepted", 0, "status", "failed",
+                         "reasons", report->failure ? report->failure : "");
+    return object;
+}
+
+OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCaseReport *reports,
+                                    const OstLedgerSummary *summary, const char *output, const char *to)
+{
+    OstContext *ctx = scene->ctx;
+    json_t *cases = json_array();
+    char series[LONGEST_PATH];
+    double nonzeros = 0.0;
+    int accepted = 1;
+    if (ost_rank(ctx) != 0) {
+        json_decref(cases);
+        return OST_SUCCESS;
+    }
+    for (int k = 0; k < count; k++) {
+        accepted &= reports[k].status == OST_SUCCESS;
+        nonzeros = fmax(nonzeros, reports[k].nonzeros);
+        json_array_append_new(cases, case_json(&reports[k]));
+    }
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof series, series);
+    json_t *document = json_pack(
+        "{s:s, s:s?, s:b, s:o, s:i, s:I, s:I, s:o, s:o, s:o, s:s}", "case", scene->c->path, "title", scene->c->title,
+        "accepted", accepted, "warnings", ost_json_warnings(ctx), "ranks", ost_size(ctx), "vertices",
+        (json_int_t)scene->mesh->global_nodes, "tets", (json_int_t)scene->mesh->global_tets, "cases", cases, "effects",
+        ost_effects_json(&scene->plan.effects), "ledger", ost_ledger_json(ctx, nonzeros, summary), "output", series);
+    if (!document)
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds what JSON cannot hold");
+    return ost_json_write(ctx, document, to);
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_OUTPUT_LOAD_CASE_FILES_H
+#define ORTHOSTAT_OUTPUT_LOAD_CASE_FILES_H
+
+#include "output/summary.h"
+
+#include <stddef.h>
+
+/* What comes of load cases: for bridge.vtkhdf the fields of each, bridge_wind.vtkhdf and so on; bridge.hdf.series,
+ * which lists them in their order; and bridge_cases.csv, a line for each. */
+
+/* One load case, solved or not. Start from {0}. */
+typedef struct OstLoadCaseReport {
+    const OstCase *c;
+    const char *name;
+    OstStatus status;
+    char *failure; /* why there is no answer; NULL if there is one */
+    int is_known;  /* are the numbers below there? */
+    double largest_displacement, strain_energy;
+    double relative_error; /* that the mesh makes; NAN if not known */
+    int iterations, newton_iterations;
+    double nonzeros;
+    OstWatchedValue *watched; /* c->watch_count */
+    char *file;               /* its fields; NULL: not written */
+    struct json_t *json;      /* as of a single run, on rank 0 */
+} OstLoadCaseReport;
+
+/* Local. Takes the numbers of a result, its quantities of interest, and the file that it was written to, or NULL. */
+OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched, const char *file,
+                             OstLoadCaseReport *report);
+void ost_load_case_report_release(OstLoadCaseReport *report);
+
+/* Local. The names of files, by that of the case's output file, which ends with .vtkhdf. */
+void ost_load_case_fields_name(const char *output, const char *name, size_t size, char *path);
+void ost_load_case_table_name(const char *output, size_t size, char *path);
+
+/* Local; rank 0 writes: the list of files for ParaView, and the table. */
+OstStatus ost_load_cases_write(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output);
+
+/* Local; rank 0 prints the table and where everything is. */
+void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output);
+
+/* Local; rank 0 writes: everything as JSON. Takes the reports' objects. */
+OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCaseReport *reports,
+                                    const OstLedgerSummary *summary, const char *output, const char *to);
+
+#endif

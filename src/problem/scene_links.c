@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "problem/scene_links.h"
+
+#include "assembly/links/face_search.h"
+#include "assembly/spread.h"
+#include "case/select.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/gather.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
+/* Of the body's diagonal: how far a tied vertex may be from its faces, and how far a periodic one from its place. */
+static const double tied_within = 1e-3, periodic_within = 1e-6;
+
+/* A weight below this is rounding. */
+static const double no_weight = 1e-12;
+
+static OstStatus raise_at(const OstScene *scene, const OstConstraint *constraint, OstStatus status)
+{
+    const OstCase *c = scene->c;
+    char text[OST_ERROR_TEXT_SIZE];
+    if (status == OST_SUCCESS || strncmp(ost_error_text(c->ctx), c->path, strlen(c->path)) == 0)
+        return status;
+    snprintf(text, sizeof text, "%s", ost_error_text(c->ctx));
+    return OST_RAISE(c->ctx, status, "%s:%d: %s", c->path, constraint->line, text);
+}
+
+static OstStatus find_diagonal(const OstMesh *mesh, double *diagonal)
+{
+    double low[3], high[3];
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    const double side[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    *diagonal = ost_norm3(side);
+    return OST_SUCCESS;
+}
+
+/* --- rigid faces --- */
+
+/* The two lowest of the selected nodes, over all ranks, and a length of the size of their arms. */
+static OstStatus find_carriers(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const double point[3],
+                               OstGlobal lowest[2], double *length)
+{
+    OstContext *ctx = mesh->ctx;
+    double sums[2] = {0.0};
+    for (int k = 0; k < 2; k++) {
+        lowest[k] = INT64_MAX;
+        for (OstLocal i = 0; i < count; i++)
+            if (nodes[i] < mesh->owned_nodes && mesh->node_number[nodes[i]] < lowest[k] &&
+                (k == 0 || mesh->node_number[nodes[i]] > lowest[0]))
+                lowest[k] = mesh->node_number[nodes[i]];
+        OST_TRY(ost_min_numbers(ctx, 1, &lowest[k]));
+    }
+    for (OstLocal i = 0; i < count; i++)
+        for (size_t c = 0; c < 3 && nodes[i] < mesh->owned_nodes; c++) {
+            const double arm = mesh->coordinates[3 * (size_t)nodes[i] + c] - point[c];
+            sums[0] += arm * arm;
+            sums[1] += 1.0 / 3.0;
+        }
+    OST_TRY(ost_sum(ctx, 2, sums));
+    *length = sums[0] > 0.0 ? sqrt(sums[0] / sums[1]) : 1.0;
+    return OST_SUCCESS;
+}
+
+/* A selection on one line can turn about it without moving: there would be nothing to resist that. */
+static OstStatus check_extent(const OstMesh *mesh, OstLocal count, const OstLocal *nodes)
+{
+    for (int k = 0; k < 3; k++) {
+        OstResultant unit = {.moment = {k == 0, k == 1, k == 2}};
+        OstSpread spread;
+        if (ost_spread_over_vertices(mesh, count, nodes, &unit, &spread) != OST_SUCCESS)
+            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                             "a rigid face needs three vertices that are not on one line; select more");
+    }
+    return OST_SUCCESS;
+}
+
+/* W of one node for the point's displacement, and for its rotation times `length`; what is prescribed goes to the
+ * offset. */
+static void make_weights(const OstConstraint *constraint, const double arm[3], double length, double factor,
+                         double weights[2][9], double offset[3])
+{
+    const double turned[3] = {factor * constraint->rotation[0], factor * constraint->rotation[1],
+                              factor * constraint->rotation[2]};
+    ost_cross3(turned, arm, offset);
+    memset(weights, 0, 2 * sizeof *weights);
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {k == 0, k == 1, k == 2};
+        double moved[3];
+        ost_cross3(axis, arm, moved);
+        offset[k] += factor * constraint->displacement[k];
+        weights[0][4 * k] = constraint->constrained[k] ? 0.0 : 1.0;
+        for (int i = 0; i < 3; i++)
+            weights[1][3 * i + k] = constraint->turn_constrained[k] ? 0.0 : moved[i] / length;
+    }
+}
+
+static OstStatus link_face(const OstConstraint *constraint, const OstRigidFace *face, double factor, OstLocal count,
+                           const OstLocal *nodes, OstLinks *links)
+{
+    const OstMesh *mesh = links->mesh;
+    for (OstLocal i = 0; i < count; i++) {
+        const double *x = mesh->coordinates + 3 * (size_t)nodes[i];
+        const double arm[3] = {x[0] - face->point[0], x[1] - face->point[1], x[2] - face->point[2]};
+        double weights[2][9], offset[3];
+        OstLeader leader[2];
+        int leaders = 0;
+        if (nodes[i] >= mesh->owned_nodes)
+            continue;
+        make_weights(constraint, arm, face->length, factor, weights, offset);
+        for (int k = 0; k < 2; k++) {
+            if (face->carrier[k] < 0)
+                continue;
+            leader[leaders].number = face->carrier[k];
+            memcpy(leader[leaders++].weight, weights[k], sizeof weights[k]);
+        }
+        OST_TRY(ost_links_add(links, nodes[i], leaders, leader, x, offset));
+    }
+    return OST_SUCCESS;
+}
+
+static int all_of(const int constrained[3])
+{
+    return constrained[0] && constrained[1] && constrained[2];
+}
+
+static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)
+{
+    OstRigidFace face = {.carrier = {-1, -1}};
+    OstGlobal lowest[2];
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    memcpy(face.point, constraint->point, sizeof face.point);
+    memcpy(face.constrained, constraint->constrained, sizeof constraint->constrained);
+    memcpy(face.constrained + 3, constraint->turn_constrained, sizeof constraint->turn_constrained);
+    OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
+    OstStatus status = check_extent(scene->mesh, count, nodes);
+    OST_THEN(find_carriers(scene->mesh, count, nodes, face.point, lowest, &face.length));
+    if (status == OST_SUCCESS) {
+        face.first = lowest[0];
+        face.carrier[0] = all_of(constraint->constrained) ? -1 : lowest[0];
+        face.carrier[1] = all_of(constraint->turn_constrained) ? -1 : lowest[1];
+        status = link_face(constraint, &face, factor, count, nodes, links);
+        OST_THEN(ost_links_add_face(links, &face));
+        status = ost_agree(scene->ctx, status);
+    }
+    OST_FREE(nodes);
+    return status;
+}
+
+/* --- tied faces --- */
+
+static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, double within, OstLocal node,
+                          OstLinks *links)
+{
+    static const double nothing[3] = {0.0};
+    const double *x = scene->mesh->coordinates + 3 * (size_t)node;
+    OstFacePoint found;
+    OstLeader leader[OST_MOST_LEADERS];
+    int leaders = 0;
+    ost_face_search_nearest(search, x, &found);
+    if (!(found.distance <= within))
+        return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                         "vertex %lld at (%g, %g, %g) is %.3g away from the faces that it is tied to; allow for that, "
+                         "as in tolerance: %.2g, or select fewer vertices",
+                         (long long)scene->mesh->node_label[node], x[0], x[1], x[2], found.distance,
+                         1.1 * found.distance);
+    for (int k = 0; k < found.count; k++) {
+        if (found.number[k] == scene->mesh->node_number[node]) /* on both sides already */
+            return OST_SUCCESS;
+        if (fabs(found.weight[k]) < no_weight)
+            continue;
+        leader[leaders].number = found.number[k];
+        for (int i = 0; i < 9; i++)
+            leader[leaders].weight[i] = found.weight[k] * identity[i];
+        leaders++;
+    }
+    return ost_links_add(links, node, leaders, leader, found.place, nothing);
+}
+
+static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint, OstLinks *links)
+{
+    OstFaceSearch *search = NULL;
+    OstLocal count = 0, face_count = 0;
+    OstLocal *nodes = NULL, *faces = NULL;
+    int nodes_per_face = 3;
+    double within = constraint->tolerance, diagonal = 0.0;
+    OstStatus status = find_diagonal(scene->mesh, &diagonal);
+    within = within < 0.0 ? tied_within * diagonal : within;
+    OST_THEN(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
+    OST_THEN(ost_select_faces(scene->c, scene->mesh, &constraint->to, &face_count, &nodes_per_face, &faces));
+    OST_THEN(ost_face_search_create(scene->mesh, face_count, faces, nodes_per_face, &search));
+    for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
+        if (nodes[i] < scene->mesh->owned_nodes)
+            status = tie_node(scene, search, within, nodes[i], links);
+    status = ost_agree(scene->ctx, status);
+    ost_face_search_destroy(&search);
+    OST_FREE(nodes);
+    OST_FREE(faces);
+    return status;
+}
+
+/* --- periodic pairs --- */
+
+typedef struct Corner {
+    OstGlobal number;
+    double x[3];
+} Corner;
+
+/* The cell: its periods, and which boundaries' followers each node is on. */
+typedef struct Cell {
+    const OstScene *scene;
+    const OstConstraint *constraint;
+    double period[3][3];
+    unsigned char *leads, *follows; /* node_count: bits of the pairs */
+    Corner *corner;                 /* leaders that follow nobody, of all ranks, by x */
+    OstLocal corners;
+    double within;
+} Cell;
+
+/* Marks the nodes of a boundary, and finds their mean. */
+static OstStatus mark_side(const Cell *cell, int pair, int side, unsigned char *marks, double mean[3])
+{
+    const OstMesh *mesh = cell->scene->mesh;
+    OstSelection on = {.kind = OST_SELECT_BOUNDARY,
+                       .boundaries = {1, (char **)&cell->constraint->pair[pair][side]},
+                       .place = {cell->constraint->line, 1}};
+    double sums[4] = {0.0};
+    OstLocal count = 0;
+    OstLocal *nodes = NULL;
+    OST_TRY(ost_select_nodes(cell->scene->c, mesh, &on, &count, &nodes));
+    for (OstLocal i = 0; i < count; i++) {
+        marks[nodes[i]] |= (unsigned char)(1U << pair);
+        if (nodes[i] >= mesh->owned_nodes)
+            continue;
+        sums[3] += 1.0;
+        for (size_t k = 0; k < 3; k++)
+            sums[k] += mesh->coordinates[3 * (size_t)nodes[i] + k];
+    }
+    OST_FREE(nodes);
+    OST_TRY(ost_sum(mesh->ctx, 4, sums));
+    for (int k = 0; k < 3; k++)
+        mean[k] = sums[k] / sums[3];
+    return OST_SUCCESS;
+}
+
+static OstStatus mark_sides(Cell *cell)
+{
+    for (int p = 0; p < cell->constraint->pair_count; p++) {
+        double from[3], to[3];
+        OST_TRY(mark_side(cell, p, 0, cell->leads, from));
+        OST_TRY(mark_side(cell, p, 1, cell->follows, to));
+        for (int i = 0; i < 3; i++)
+            cell->period[p][i] = to[i] - from[i];
+        if (!(ost_norm3(cell->period[p]) > cell->within))
+            return OST_RAISE(cell->scene->ctx, OST_INVALID_INPUT,
+                             "boundaries '%.60s' and '%.60s' lie in the same place; name opposite ones",
+                             cell->constraint->pair[p][0], cell->constraint->pair[p][1]);
+    }
+    return OST_SUCCESS;
+}
+
+static int compare_corners(const void *a, const void *b)
+{
+    const double x = ((const Corner *)a)->x[0];
+    const double y = ((const Corner *)b)->x[0];
+    return (x > y) - (x < y);
+}
+
+static OstStatus gather_corners(Cell *cell)
+{
+    const OstMesh *mesh = cell->scene->mesh;
+    Corner *mine = NULL;
+    OstLocal count = 0;
+    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &mine, mesh->owned_nodes)));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        if (!cell->leads[n] || cell->follows[n])
+            continue;
+        mine[count].number = mesh->node_number[n];
+        memcpy(mine[count++].x, mesh->coordinates + 3 * (size_t)n, sizeof mine->x);
+    }
+    const OstStatus status =
+        ost_gather_items(mesh->ctx, sizeof *mine, mine, count, "a periodic pair has too many vertices",
+                         (void **)&cell->corner, &cell->corners);
+    OST_FREE(mine);
+    if (status == OST_SUCCESS && cell->corners > 0)
+        qsort(cell->corner, (size_t)cell->corners, sizeof *cell->corner, compare_corners);
+    return status;
+}
+
+static const Corner *find_corner(const Cell *cell, const double x[3])
+{
+    OstLocal low = 0, high = cell->corners;
+    while (low < high) {
+        const OstLocal middle = low + (high - low) / 2;
+        if (cell->corner[middle].x[0] < x[0] - cell->within)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < cell->corners && cell->corner[low].x[0] <= x[0] + cell->within; low++) {
+        const double *at = cell->corner[low].x;
+        if (fabs(at[1] - x[1]) <= cell->within && fabs(at[2] - x[2]) <= cell->within)
+            return &cell->corner[low];
+    }
+    return NULL;
+}
+
+/* A follower of several pairs, on an edge or a corner of the cell, is as many periods away from its leader. */
+static OstStatus link_periodic(const Cell *cell, OstLocal node, double factor, OstLinks *links)
+{
+    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    const OstMesh *mesh = cell->scene->mesh;
+    const double *x = mesh->coordinates + 3 * (size_t)node;
+    double away[3] = {0.0}, strain[9], offset[3];
+    for (int p = 0; p < cell->constraint->pair_count; p++)
+        for (int i = 0; i < 3 && cell->follows[node] >> p & 1; i++)
+            away[i] += cell->period[p][i];
+    const double target[3] = {x[0] - away[0], x[1] - away[1], x[2] - away[2]};
+    const Corner *corner = find_corner(cell, target);
+    if (!corner)
+        return OST_RAISE(
+            cell->scene->ctx, OST_INVALID_INPUT,
+            "vertex %lld at (%g, %g, %g) has no counterpart at (%g, %g, %g): both boundaries of a periodic "
+            "pair need the same mesh",
+            (long long)mesh->node_label[node], x[0], x[1], x[2], target[0], target[1], target[2]);
+    for (int i = 0; i < 9; i++)
+        strain[i] = factor * cell->constraint->strain[place[i]];
+    ost_apply3(strain, away, offset);
+    OstLeader leader = {.number = corner->number};
+    memcpy(leader.weight, identity, sizeof identity);
+    return ost_links_add(links, node, 1, &leader, corner->x, offset);
+}
+
+static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)
+{
+    const OstMesh *mesh = scene->mesh;
+    Cell cell = {.scene = scene, .constraint = constraint};
+    double diagonal = 0.0;
+    links->periodic = 1;
+    OstStatus status = OST_NEW(scene->ctx, &cell.leads, mesh->node_count);
+    OST_THEN(OST_NEW(scene->ctx, &cell.follows, mesh->node_count));
+    status = ost_agree(scene->ctx, status);
+    OST_THEN(find_diagonal(mesh, &diagonal));
+    cell.within = periodic_within * diagonal;
+    OST_THEN(mark_sides(&cell));
+    OST_THEN(gather_corners(&cell));
+    for (OstLocal n = 0; n < mesh->owned_nodes && status == OST_SUCCESS; n++)
+        if (cell.follows[n])
+            status = link_periodic(&cell, n, factor, links);
+    status = ost_agree(scene->ctx, status);
+    OST_FREE(cell.leads);
+    OST_FREE(cell.follows);
+    OST_FREE(cell.corner);
+    return status;
+}
+
+/* --- all of them --- */
+
+static OstStatus add(const OstScene *scene, const OstConstraint *constraint, int table, OstLinks *links)
+{
+    const OstEffect effect = constraint->kind == OST_CONSTRAIN_RIGID  ? OST_EFFECT_RIGID_FACE
+                             : constraint->kind == OST_CONSTRAIN_TIED ? OST_EFFECT_TIE
+                                                                      : OST_EFFECT_PERIODIC;
+    const double factor = constraint->table == table ? 1.0 : 0.0;
+    OstStatus status;
+    ost_ledger_enter(scene->ctx, effect);
+    if (constraint->kind == OST_CONSTRAIN_RIGID)
+        status = add_rigid(scene, constraint, factor, links);
+    else if (constraint->kind == OST_CONSTRAIN_TIED)
+        status = add_tie(scene, constraint, links);
+    else
+        status = add_periodic(scene, constraint, factor, links);
+    ost_ledger_leave(scene->ctx);
+    return raise_at(scene, constraint, status);
+}
+
+OstStatus ost_scene_links(const OstScene *scene, int table, OstSupports *supports)
+{
+    const OstCase *c = scene->c;
+    int any = 0;
+    for (int i = 0; i < c->constraint_count; i++)
+        any |= ost_constraint_links(&c->constraints[i]);
+    if (!any)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(scene->ctx, ost_links_create(scene->mesh, &supports->links)));
+    for (int i = 0; i < c->constraint_count; i++)
+        if (ost_constraint_links(&c->constraints[i]))
+            OST_TRY(add(scene, &c->constraints[i], table, supports->links));
+    return OST_SUCCESS;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_RECOVERY_DERIVED_H
+#define ORTHOSTAT_RECOVERY_DERIVED_H
+
+#include "fields/output_field.h"
+#include "fields/stress_measure.h"
+#include "problem/result_data.h"
+
+/* Local. Can a derived field (OstOutputField.is_derived) be made of what the result has? Load factors need a material
+ * with strengths, material axes a body that has any, the others the stress or the strain that they are made of. */
+int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field);
+
+/* Local. A derived field on the owned tets: its components × owned_tets numbers. Where rotations are large, the
+ * material axes of a stress are those that have turned with the tet; those of a strain have not. */
+OstStatus ost_result_derive(const OstResult *result, OstOutputFieldBit field, double *values);
+
+/* Local. A stress of a tet, in world axes, along its material axes. */
+void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6]);
+
+/* Local. A number that is made of a stress of a tet, in world axes. */
+OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,
+                             double *value);
+
+/* Local. Of a symmetric tensor 11 22 33 12 23 31: components along axes (rows); von Mises' number; its eigenvalues, the
+ * largest first, and unit vectors along them (rows, unless NULL). */
+void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
+double ost_von_mises(const double stress[6]);
+OstStatus ost_principal(OstContext *ctx, const double tensor[6], double values[3], double *directions);
+
+/* Local. The mean of a tet's vertices. */
+void ost_tet_centre(const OstMesh *mesh, OstLocal tet, double place[3]);
+
+/* Collective. Finds the least load factors (result->failure), from the stress, of a body some of which has strengths.
+ */
+OstStatus ost_result_find_failure(OstResult *result);
+
+#endif

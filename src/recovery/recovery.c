@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "recovery/recovery.h"
+
+#include "assembly/batch.h"
+#include "case/case_data.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "element/large_rotation.h"
+#include "element/strain_batch.h"
+#include "fields/output_field.h"
+#include "recovery/derived.h"
+
+#include <string.h>
+
+/* Fields of stress along material axes, which turn with the body. */
+enum { ALONG_AXES = OST_LOAD_FACTORS | 1U << OST_FIELD_MATERIAL_STRESS };
+
+static int asks(unsigned fields, OstOutputFieldBit field)
+{
+    return (fields >> field & 1U) != 0;
+}
+
+static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                        const OstMeans *means)
+{
+    OstResult *result = data;
+    OstSimd stress[6], rotation[9];
+    memcpy(stress, means->stress, sizeof stress);
+    if (result->formulation != OST_FORMULATION_LINEAR && result->stress)
+        ost_large_rotation_mean_stress(element, result->formulation, batch->x, &batch->elasticity, u, stress);
+    if (result->rotation)
+        ost_large_rotation_mean_rotation(element, batch->x, &batch->elasticity, u, rotation);
+    for (int slot = 0; slot < batch->count; slot++) {
+        const size_t tet = (size_t)batch->tet[slot];
+        for (size_t n = 0; result->rotation && n < 9; n++)
+            result->rotation[9 * tet + n] = rotation[n][slot];
+        for (size_t p = 0; p < 6; p++) {
+            if (result->strain)
+                result->strain[6 * tet + p] = means->strain[p][slot];
+            if (result->stress)
+                result->stress[6 * tet + p] = stress[p][slot];
+        }
+        if (result->strain_energy_density)
+            result->strain_energy_density[tet] = means->energy[slot];
+    }
+}
+
+static OstStatus recover_means(OstResult *result, unsigned fields)
+{
+    OstContext *ctx = result->ctx;
+    const size_t tets = (size_t)result->mesh->owned_tets;
+    if (asks(fields, OST_FIELD_STRAIN))
+        OST_TRY(OST_NEW(ctx, &result->strain, 6 * tets));
+    if (asks(fields, OST_FIELD_STRESS))
+        OST_TRY(OST_NEW(ctx, &result->stress, 6 * tets));
+    if (asks(fields, OST_FIELD_ENERGY))
+        OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
+    if (result->formulation != OST_FORMULATION_LINEAR && fields & ALONG_AXES)
+        OST_TRY(OST_NEW(ctx, &result->rotation, 9 * tets));
+    if (result->strain || result->stress || result->strain_energy_density)
+        ost_visit_means_of(result->mesh, result->field, result->formulation, result->t, result->displacement,
+                           write_means, result);
+    return OST_SUCCESS;
+}
+
+/* Sums over the tets around each owned node. */
+typedef struct Sums {
+    int32_t *region; /* the lowest of the tets around the node */
+    double *volume;  /* of that region's tets */
+    double *stress;  /* times volume, 6 × node_count */
+} Sums;
+
+static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
+{
+    return mesh->tet_nodes + (size_t)mesh->nodes_per_tet * (size_t)tet;
+}
+
+static void find_regions(const OstMesh *mesh, int32_t *region)
+{
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        region[node] = INT32_MAX;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
+        for (int a = 0; a < mesh->nodes_per_tet; a++) {
+            const OstLocal node = nodes_of(mesh, tet)[a];
+            if (node < mesh->owned_nodes && mesh->tet_region[tet] < region[node])
+                region[node] = mesh->tet_region[tet];
+        }
+}
+
+/* Stress at the nodes of a batch's tets, 6 numbers a node. */
+static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
+                            OstElasticity *at_nodes, OstSimd *stress)
+{
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstSimd strain[6 * OST_MAX_TET_NODES];
+    OstMeans means;
+    ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
+    if (result->formulation != OST_FORMULATION_LINEAR) {
+        ost_large_rotation_nodal_stress(element, result->formulation, batch->x, &batch->elasticity, at_nodes, u,
+                                        stress);
+        return;
+    }
+    element->nodal_strain(batch->x, u, strain);
+    element->means(batch->x, &batch->elasticity, u, &means);
+    for (int a = 0; a < element->nodes; a++) {
+        const int at = ost_elasticity_at(at_nodes, a);
+        OstSimd elastic[6];
+        ost_elastic_strain(at_nodes, at, strain + 6 * a, elastic);
+        ost_simd_stress(at_nodes->c[at], elastic, stress + 6 * a);
+        for (int p = 0; p < 6 && at_nodes->by_mean; p++) /* where C is split, the stiff mode's part is its mean */
+            stress[6 * a + p] += means.stiff * at_nodes->m[at][p];
+    }
+}
+
+void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
+{
+    const OstElement *element = ost_element_of(result->mesh->nodes_per_tet);
+    OstSimd all[6 * OST_MAX_TET_NODES];
+    OstBatch batch;
+    OstElasticity at_nodes;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_elasticity_clear(&at_nodes);
+    batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
+    ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
+    stress_of_batch(result, element, &batch, &at_nodes, all);
+    for (int n = 0; n < 6 * element->nodes; n++)
+        stress[n] = all[n][0];
+}
+
+static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
+                      Sums *sums)
+{
+    for (int slot = 0; slot < batch->count; slot++) {
+        const OstLocal tet = batch->tet[slot];
+        const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes_of(mesh, tet)));
+        for (int a = 0; a < element->nodes; a++) {
+            const OstLocal node = batch->node[slot][a];
+            if (node >= mesh->owned_nodes || mesh->tet_region[tet] != sums->region[node])
+                continue;
+            sums->volume[node] += volume;
+            for (int p = 0; p < 6; p++)
+                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][slot];
+        }
+    }
+}
+
+static void average(const OstResult *result, Sums *sums)
+{
+    const OstMesh *mesh = result->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    OstElasticity at_nodes;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_elasticity_clear(&at_nodes);
+    batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
+    find_regions(mesh, sums->region);
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
+        OstSimd stress[6 * OST_MAX_TET_NODES];
+        ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
+        if (result->formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, result->field);
+        stress_of_batch(result, element, &batch, &at_nodes, stress);
+        add_batch(mesh, element, &batch, stress, sums);
+    }
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
+        for (size_t p = 0; p < 6; p++)
+            sums->stress[6 * (size_t)node + p] /= sums->volume[node];
+}
+
+/* Collective. Makes result->node_stress, ghosts included (see recovery.h). */
+static OstStatus recover_node_stress(OstResult *result)
+{
+    OstContext *ctx = result->ctx;
+    const OstMesh *mesh = result->mesh;
+    Sums sums = {0};
+    OstStatus status = OST_NEW(ctx, &sums.stress, 6 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &sums.volume, mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &sums.region, mesh->owned_nodes));
+    if (status == OST_SUCCESS)
+        average(result, &sums);
+    status = ost_agree(ctx, status);
+    OST_THEN(ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), sums.stress)));
+    OST_FREE(sums.volume);
+    OST_FREE(sums.region);
+    if (status != OST_SUCCESS)
+        OST_FREE(sums.stress);
+    result->node_stress = sums.stress;
+    return status;
+}
+
+/* Collective. */
+static OstStatus recover(OstResult *result, unsigned fields)
+{
+    OST_TRY(ost_agree(result->ctx, recover_means(result, fields)));
+    return asks(fields, OST_FIELD_NODE_STRESS) ? recover_node_stress(result) : OST_SUCCESS;
+}
+
+OstStatus ost_result_recover(OstResult *result, unsigned asked)
+{
+    const unsigned fields = ost_output_fields_needed(asked);
+    unsigned recovered = 0;
+    for (int f = 0; f < OST_FIELD_COUNT; f++)
+        recovered |= (unsigned)ost_output_field((OstOutputFieldBit)f).is_recovered << f;
+    if (!(fields & recovered))
+        return OST_SUCCESS;
+    ost_ledger_enter(result->ctx, OST_EFFECT_RECOVERY);
+    OstStatus status = recover(result, fields);
+    ost_ledger_leave(result->ctx);
+    if (status != OST_SUCCESS || !(asked & OST_LOAD_FACTORS) || !ost_field_has_strengths(result->field))
+        return status;
+    ost_ledger_enter(result->ctx, OST_EFFECT_STRENGTH);
+    status = ost_result_find_failure(result);
+    ost_ledger_leave(result->ctx);
+    return status;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_RECOVERY_RECOVERY_H
+#define ORTHOSTAT_RECOVERY_RECOVERY_H
+
+#include "problem/result_data.h"
+
+/* Collective. Computes what the bits of `fields` (OstOutputFieldBit) ask for, or what those are made of: strain, stress
+ * and strain energy density of the owned tets (means over each), and stress at the nodes. Stress at a node is that of
+ * the tets around it at this node, averaged by their volumes. Where regions meet, stress jumps: the node takes it from
+ * the tets of the region with the lowest number alone. Where rotations are large, strain is Biot's U - I, in world axes
+ * of the undeformed body, and stress is Cauchy's, in world axes of the deformed one. Where load factors are asked for
+ * and a material has strengths, finds the least ones. */
+OstStatus ost_result_recover(OstResult *result, unsigned fields);
+
+/* Local. Stress at the nodes of one tet, as it is in that tet: 6 numbers a node, world axes. */
+void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress);
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_STUDY_SWEEP_SWEEP_H
+#define ORTHOSTAT_STUDY_SWEEP_SWEEP_H
+
+#include "case/case_data.h"
+#include "problem/result_data.h"
+
+/* A case solved for several values of some of its numbers, each combined with each. */
+
+enum { OST_MOST_SWEEP_KEYS = 6, OST_MOST_SWEEP_RUNS = 10000 };
+
+typedef struct OstSweepRun {
+    const char *value[OST_MOST_SWEEP_KEYS]; /* of each key */
+    char *failure;                          /* why there is no answer; NULL if there is one */
+    OstGlobal unknowns;
+    double largest_displacement, strain_energy;
+    double relative_error; /* that the mesh makes; NAN if not known */
+    int iterations, newton_iterations;
+    double seconds;
+    double watched[OST_MOST_WATCHES];
+} OstSweepRun;
+
+typedef struct OstSweep {
+    OstContext *ctx;
+    const char *path;      /* of the case */
+    OstCaseText text;      /* of the case, with the settings that are common to all */
+    const char *load_case; /* the one to take, or NULL */
+    int key_count;
+    const OstSweepKey *key;
+    int watch_count; /* as in the first case that was read */
+    char *watch[OST_MOST_WATCHES];
+    int run_count, failures;
+    OstSweepRun *run; /* the last key varies first */
+} OstSweep;
+
+/* Collective. Solves for all values. `sweep` comes with all but watches and runs. Raises what is wrong with the case or
+ * its keys in the first run; a later run that fails says so. */
+OstStatus ost_sweep_run(OstSweep *sweep);
+void ost_sweep_clear(OstSweep *sweep);
+
+/* Local; rank 0 prints a table of the runs, or writes it as CSV, or everything as JSON; "-" is standard output. */
+void ost_sweep_print(const OstSweep *sweep);
+OstStatus ost_sweep_write_csv(const OstSweep *sweep, const char *to);
+OstStatus ost_sweep_write_json(const OstSweep *sweep, const char *to);
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "study/watch.h"
+
+#include "case/select.h"
+#include "core/error.h"
+#include "core/parallel/reduce.h"
+#include "probe/sample.h"
+#include "recovery/derived.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What is found of the tets of a region, on this rank and then on all. */
+typedef struct Over {
+    double sum, volume; /* value times volume */
+    double best;        /* the least value, or the largest one's negative */
+    OstGlobal tet;      /* the lowest label of those that have it, but for rounding */
+    double place[3];
+    double size; /* the largest von Mises stress */
+} Over;
+
+static int is_in(const OstWatch *watch, const OstMesh *mesh, OstLocal tet)
+{
+    return ost_is_every_region(watch->region) || strcmp(mesh->regions.name[mesh->tet_region[tet]], watch->region) == 0;
+}
+
+static OstStatus value_of(const OstResult *result, const OstWatch *watch, OstLocal tet, double *value)
+{
+    return ost_stress_measure(result, tet, result->stress + 6 * (size_t)tet, (OstStressMeasure)watch->component, value);
+}
+
+static OstStatus go_over(const OstResult *result, const OstWatch *watch, double sign, Over *over)
+{
+    const OstMesh *mesh = result->mesh;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
+        double value;
+        if (!is_in(watch, mesh, tet))
+            continue;
+        OST_TRY(value_of(result, watch, tet, &value));
+        const double volume = fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
+        over->sum += volume * value;
+        over->volume += volume;
+        over->best = fmin(over->best, sign * value);
+        over->size = fmax(over->size, ost_von_mises(result->stress + 6 * (size_t)tet));
+    }
+    return OST_SUCCESS;
+}
+
+/* The tet of the least value: of those that have it but for rounding, the one with the lowest label. */
+static OstStatus find_place(const OstResult *result, const OstWatch *watch, double sign, Over *over)
+{
+    static const double alike = 1e-9;
+    const OstMesh *mesh = result->mesh;
+    over->tet = INT64_MAX;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
+        double value;
+        if (!is_in(watch, mesh, tet) || mesh->tet_label[tet] > over->tet)
+            continue;
+        OST_TRY(value_of(result, watch, tet, &value));
+        if (sign * value > over->best + alike * over->size)
+            continue;
+        over->tet = mesh->tet_label[tet];
+        ost_tet_centre(mesh, tet, over->place);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus share_place(OstContext *ctx, Over *over)
+{
+    OstGlobal lowest = over->tet;
+    OST_TRY(ost_min_numbers(ctx, 1, &lowest));
+    int holder = over->tet == lowest ? ost_rank(ctx) : -1;
+    OST_TRY(ost_max_ints(ctx, 1, &holder));
+    return OST_MPI(ctx, MPI_Bcast(over->place, 3, MPI_DOUBLE, holder, ost_comm(ctx)));
+}
+
+static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWatched *watched)
+{
+    OstContext *ctx = result->ctx;
+    const double sign = watch->take == OST_TAKE_LARGEST ? -1.0 : 1.0;
+    Over over = {.best = INFINITY};
+    OST_TRY(ost_agree(ctx, go_over(result, watch, sign, &over)));
+    double sums[2] = {over.sum, over.volume};
+    OST_TRY(ost_sum(ctx, 2, sums));
+    OST_TRY(ost_min(ctx, 1, &over.best));
+    OST_TRY(ost_max(ctx, 1, &over.size));
+    watched->scale = over.size;
+    watched->value = watch->take == OST_TAKE_MEAN ? sums[0] / sums[1] : sign * over.best;
+    if (watch->take == OST_TAKE_MEAN)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(ctx, find_place(result, watch, sign, &over)));
+    OST_TRY(share_place(ctx, &over));
+    watched->placed = 1;
+    memcpy(watched->place, over.place, sizeof over.place);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_watch_stress(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+{
+    OstSample sample;
+    watched->error = NAN;
+    if (watch->region && !result->stress)
+        return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: the stress was not recovered", scene->c->path,
+                         watch->line);
+    if (watch->region)
+        return of_region(result, watch, watched);
+    OST_TRY(ost_sample_points(result, 1, watch->at, &sample));
+    watched->value = sample.stress[watch->component];
+    watched->scale = sample.stress[OST_STRESS_MEASURE_VON_MISES];
+    return OST_SUCCESS;
+}
+
+OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch)
+{
+    const OstNames *regions = &scene->mesh->regions;
+    OstLocated located;
+    if (watch->region)
+        return ost_is_every_region(watch->region) || ost_names_find(regions, watch->region) >= 0
+                   ? OST_SUCCESS
+                   : ost_raise_no_region(scene->c, watch->region_place, regions, watch->region);
+    OST_TRY(ost_locate(scene->mesh, 1, watch->at, &located));
+    return located.label > 0
+               ? OST_SUCCESS
+               : OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: '%s' is at (%g, %g, %g), which is outside the body",
+                           scene->c->path, watch->line, watch->name, watch->at[0], watch->at[1], watch->at[2]);
+}

@@ -1,0 +1,179 @@
+"""One direction is enough for a transversely isotropic body: `fibre`, axes of which one is stated, gradients between
+boundaries that touch; and moduli, fibres and axes from fields of the mesh file."""
+import json
+import os
+
+from program import SOURCE, check, fewer, new_folder, run
+
+folder = new_folder()
+STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
+BLOCK = "block: {size: [2, 1, 1], divisions: [4, 2, 2]}"
+HELD = """constraints: [{on: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}, displacement: [0, 0, 0]}]
+loads: [{on: {plane: {point: [2, 0, 0], normal: [1, 0, 0]}}, total_force: [1, 2, 3]}]
+"""
+MUSCLE = "youngs_modulus: {plane: 500, axis: 5000}, poissons_ratio: {plane: 0.3, plane_axis: 0.03}, shear_modulus: {axis: 200}"
+ABOUT_E1 = "youngs_modulus: [5000, 500, 500], poissons_ratio: 0.3"
+
+
+def text(material, mesh=BLOCK, order=1, held=HELD):
+    materials = material if isinstance(material, list) else ["region: all, " + material]
+    return (f"mesh: {{{mesh}}}\nelement: {{order: {order}}}\nmaterials:\n" + "".join(f"  - {{{m}}}\n" for m in materials) + held +
+            "large_rotation: off\naccuracy: {relative_residual: 1e-11}\noutput: {fields: [displacement]}\n"
+            "watch: {end: {displacement: {nearest: [2, 1, 1]}}, energy: strain_energy}\n")
+
+
+def call(case, command="solve", ranks=1):
+    with open(os.path.join(folder, "case.yaml"), "w") as stream:
+        stream.write(case)
+    arguments = ["--json", "-", "-q"] if command == "solve" else ["--json"]
+    return run(command, "case.yaml", *arguments, ranks=ranks, folder=folder)
+
+
+def answer(case, ranks=1):
+    done = call(case, ranks=ranks)
+    check(done.exit_code == 0, f"{done.errors}\n{case}")
+    watched = json.loads(done.output)["watched"]
+    return watched["end"]["value"], watched["energy"]["value"]
+
+
+def same(found, expected, what, tolerance=1e-8):
+    check(all(abs(a - b) <= tolerance * abs(b) for a, b in zip(found, expected)), f"{what}: {found}, expected {expected}")
+
+
+def refused(case, words):
+    done = call(case)
+    check(done.exit_code == 2 and words in done.errors, f"expected '{words}', found {done.errors}")
+
+
+# --- one direction ---
+
+along_x = answer(text(MUSCLE + ", axes: {fixed: [[0, 1, 0], [0, 0, 1], [1, 0, 0]]}"))
+same(answer(text(MUSCLE + ", fibre: [2, 0, 0]")), along_x, "a fibre along x")
+same(answer(text(MUSCLE + ", fibre: {curve: {points: [[-1, 0, 0], [9, 0, 0]]}}")), along_x, "a fibre along a straight curve")
+same(answer(text(MUSCLE + ", fibre: {gradient: {from: xmin, to: xmax}}")), along_x, "a fibre from end to end", 1e-6)
+for ranks in fewer([2, 4]):
+    same(answer(text(MUSCLE + ", fibre: {gradient: {from: xmin, to: xmax}}"), ranks), along_x, f"on {ranks} ranks", 1e-6)
+same(answer(text(MUSCLE + ", axes: {fixed: {e3: [1, 0, 0]}}")), along_x, "axes of which e3 is stated")
+about_x = answer(text(ABOUT_E1))
+same(answer(text(ABOUT_E1 + ", axes: {fixed: {e1: [3, 0, 0]}}")), about_x, "axes of which e1 is stated")
+same(answer(text(ABOUT_E1 + ", axes: {gradient: {e1: {from: xmin, to: xmax}}}")), about_x, "a gradient of e1 alone", 1e-6)
+
+THREE = "youngs_modulus: [5000, 500, 900], poissons_ratio: 0.3"
+turned = answer(text(THREE + ", axes: {euler: {degrees: [0, 0, 30], sequence: XYZ}}"))
+same(answer(text(THREE + ", axes: {rotation: {axis: [0, 0, 5], degrees: 30}}")), turned, "a rotation about z")
+same(answer(text(THREE + ", axes: {fixed: {e1: [0.8660254037844386, 0.5, 0], e3: [0, 0, 2]}}")), turned, "e1 and e3")
+same(answer(text(THREE + ", axes: {fixed: {e2: [-0.5, 0.8660254037844386, 0], e3: [0, 0, 2]}}")), turned, "e2 and e3")
+
+refused(text(THREE + ", axes: {fixed: {e1: [1, 0, 0]}}"), "e1 alone does not place a material that differs across it")
+refused(text(ABOUT_E1 + ", axes: {fixed: {e2: [1, 0, 0]}}"), "e2 alone does not place")
+refused(text(THREE + ", axes: {fixed: {e1: [1, 0, 0], e2: [1, 1, 0]}}"), "not orthogonal")
+refused(text(THREE + ", fibre: [1, 0, 0]"), "a fibre belongs to youngs_modulus: {plane: E, axis: E}")
+refused(text(MUSCLE + ", fibre: [0, 0, 0]"), "not all zero")
+refused(text(MUSCLE + ", fibre: [1, 0, 0], axes: {rotation: {axis: [0, 0, 1], degrees: 3}}"), "not both")
+refused(text(THREE + ", axes: {fixed: {e1: [1, 0, 0], e2: [0, 1, 0], e3: [0, 0, 1]}}"), "e3 follows from e1 and e2")
+said = json.loads(call(text(MUSCLE), "explain").output)
+check("lies along z" in said["warnings"][0], f"{said['warnings']}")
+said = json.loads(call(text(MUSCLE + ", fibre: [1, 0, 0]"), "explain").output)["materials"][0]
+check("5000 along e3 (the axis)" in said["moduli"] and "e3 = (1, 0, 0)" in said["axes"], f"{said}")
+
+# --- boundaries that touch ---
+
+# Between two planes through z the potential is the angle about z, and so the fibre is tangential.
+OCTANT = "octant: {radii: [3, 9], divisions: {around: 3, radial: 3}}"
+HANGING = """constraints: [{on: {boundary: zmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: outer}, total_force: [1, 2, 3]}]
+"""
+tangential = answer(text(MUSCLE + ", fibre: {cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], along: tangential}}", OCTANT,
+                         held=HANGING))
+for ranks in fewer([1, 3]):
+    same(answer(text(MUSCLE + ", fibre: {gradient: {from: ymin, to: xmin}}", OCTANT, held=HANGING), ranks), tangential,
+         "planes that touch", 0.02)
+
+
+def cubes(count, mark):
+    """A cube of count³ hexes as a .mesh file; `mark` gives three corners of a face on its surface their reference."""
+    def number(a, b, c):
+        return (a * (count + 1) + b) * (count + 1) + c + 1
+    points = [(a, b, c) for a in range(count + 1) for b in range(count + 1) for c in range(count + 1)]
+    tets = []
+    for a, b, c in ((a, b, c) for a in range(count) for b in range(count) for c in range(count)):
+        corner = [(a + (k & 1), b + (k >> 1 & 1), c + (k >> 2 & 1)) for k in range(8)]
+        tets += [[corner[v] for v in tet] for tet in ((0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3))]
+    faces = {}
+    for tet in tets:
+        for out in range(4):
+            face = tuple(sorted(tet[v] for v in range(4) if v != out))
+            faces[face] = faces.get(face, 0) + 1
+    marked = [(face, mark(face)) for face, times in faces.items() if times == 1]
+    marked = [(face, reference) for face, reference in marked if reference]
+    with open(os.path.join(folder, "cube.mesh"), "w") as out:
+        out.write(f"MeshVersionFormatted 2\nDimension 3\nVertices {len(points)}\n")
+        out.writelines(f"{x / count} {y / count} {z / count} 0\n" for x, y, z in points)
+        out.write(f"Tetrahedra {len(tets)}\n")
+        out.writelines(" ".join(str(number(*v)) for v in tet) + " 1\n" for tet in tets)
+        out.write(f"Triangles {len(marked)}\n")
+        out.writelines(" ".join(str(number(*v)) for v in face) + f" {reference}\n" for face, reference in marked)
+        out.write("End\n")
+
+
+CUBE_HELD = """constraints: [{on: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: surface-2}, total_force: [1, 2, 3]}]
+"""
+
+
+def top_halves(face):
+    """Two patches of the flat top that meet in its middle."""
+    return 0 if any(z < 4 for _, _, z in face) else 1 if sum(x for x, _, _ in face) < 6 else 2
+
+
+def around_an_edge(face):
+    """One boundary over two sides, so that some tets have all four vertices on it; the other opposite."""
+    if all(x == 0 for x, _, _ in face) or all(y == 4 for _, y, _ in face):
+        return 1
+    return 2 if all(x == 4 for x, _, _ in face) else 0
+
+
+for mark in (top_halves, around_an_edge):
+    cubes(4, mark)
+    one = answer(text(MUSCLE + ", fibre: {gradient: {from: surface-1, to: surface-2}}", "file: cube.mesh", held=CUBE_HELD))
+    for ranks in fewer([3]):
+        same(answer(text(MUSCLE + ", fibre: {gradient: {from: surface-1, to: surface-2}}", "file: cube.mesh", held=CUBE_HELD),
+                    ranks), one, f"{mark.__name__} on {ranks} ranks", 1e-6)
+
+# --- fields of the mesh file ---
+
+TWO_CUBES = "file: " + os.path.join(STORED, "meshio-linear-zlib.vtu")
+REGIONS = ("region: volume-11, youngs_modulus: 1100, poissons_ratio: 0.3", "region: volume-12, youngs_modulus: 1200, poissons_ratio: 0.3")
+for order in fewer([1, 2]):
+    expected = answer(text(list(REGIONS), TWO_CUBES, order))
+    for ranks in fewer([1, 2, 4]):
+        same(answer(text('youngs_modulus: {field: "gmsh:physical", factor: 100}, poissons_ratio: 0.3', TWO_CUBES, order), ranks),
+             expected, f"a modulus by tet, order {order}, {ranks} ranks")
+ORTHOTROPIC = "poissons_ratio: 0.3, axes: {rotation: {axis: [1, 2, 3], degrees: 40}}"
+expected = answer(text([f"region: volume-11, youngs_modulus: [1100, 550, 220], {ORTHOTROPIC}",
+                        f"region: volume-12, youngs_modulus: [1200, 600, 240], {ORTHOTROPIC}"], TWO_CUBES, 2))
+same(answer(text(f'youngs_modulus: {{field: "gmsh:physical", factor: 100, ratios: [1, 0.5, 0.2]}}, {ORTHOTROPIC}', TWO_CUBES, 2)),
+     expected, "an orthotropic one")
+nearly = [region.replace("0.3", "0.49") for region in REGIONS]
+same(answer(text('youngs_modulus: {field: "gmsh:physical", factor: 100}, poissons_ratio: 0.49', TWO_CUBES, 2)),
+     answer(text(nearly, TWO_CUBES, 2)), "a nearly incompressible one", 1e-7)
+CYLINDER = "poissons_ratio: 0.3, axes: {cylindrical: {origin: [0, 9, 9], axis: [1, 0, 0], order: [axial, radial, tangential]}}"
+same(answer(text(f'youngs_modulus: {{field: "gmsh:physical", factor: 100, ratios: [1, 0.5, 0.2]}}, {CYLINDER}', TWO_CUBES)),
+     answer(text([f"region: volume-11, youngs_modulus: [1100, 550, 220], {CYLINDER}",
+                  f"region: volume-12, youngs_modulus: [1200, 600, 240], {CYLINDER}"], TWO_CUBES)), "axes about a line")
+by_tet = answer(text("youngs_modulus: {field: modulus}, poissons_ratio: 0.3", TWO_CUBES))
+same(answer(text("youngs_modulus: {field: density, factor: 1000}, poissons_ratio: 0.3", TWO_CUBES)), by_tet, "a density by vertex")
+same(answer(text("youngs_modulus: {field: modulus, power: 2, factor: 1e-3, least: 1e9}, poissons_ratio: 0.3", TWO_CUBES)),
+     answer(text("youngs_modulus: 1e9, poissons_ratio: 0.3", TWO_CUBES)), "the least")
+same(answer(text(MUSCLE + ", fibre: {field: direction}", TWO_CUBES)), answer(text(MUSCLE + ", fibre: [0.6, 0.8, 0]", TWO_CUBES)),
+     "directions by vertex, of either sense")
+same(answer(text(ABOUT_E1 + ", axes: {field: {e1: direction}}", TWO_CUBES)),
+     answer(text(ABOUT_E1 + ", axes: {fixed: {e1: [0.6, 0.8, 0]}}", TWO_CUBES)), "axes of which e1 is a field")
+turning = answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES))
+for ranks in fewer([3]):
+    same(answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES), ranks), turning, f"a field of fibres on {ranks} ranks")
+refused(text(MUSCLE + ", fibre: {field: modulus}", TWO_CUBES), "it has 1 numbers a tet, expected 3")
+refused(text("youngs_modulus: {field: fibre}, poissons_ratio: 0.3", TWO_CUBES), "it has 3 numbers a tet, expected 1")
+refused(text("youngs_modulus: {field: modulos}, poissons_ratio: 0.3", TWO_CUBES), "there is no field 'modulos'")
+refused(text("youngs_modulus: {field: modulus, factor: 1, power: -400}, poissons_ratio: 0.3", TWO_CUBES), "expected one above 0")
+refused(text("youngs_modulus: {field: modulus}, poissons_ratio: 0.3"), "this mesh comes from none")

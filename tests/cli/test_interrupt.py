@@ -1,0 +1,84 @@
+"""Long work shows itself on a terminal, and can be interrupted: it says so, ends with 130, and leaves no half of a file."""
+import os
+import pty
+import signal
+import subprocess
+import time
+
+from program import MPIEXEC, PROGRAM, check, new_folder
+
+CASE = """mesh: {block: {size: [4, 1, 1], divisions: [120, 30, 30]}}
+materials: [{region: all, youngs_modulus: [1000, 2000, 4000], poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [2, 0, 0]}]
+output: {file: bar.vtkhdf}
+"""
+folder = new_folder()
+with open(os.path.join(folder, "bar.yaml"), "w") as stream:
+    stream.write(CASE)
+
+
+def ranks_of(process):
+    """The processes of the program that mpirun has started."""
+    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True).stdout.split()
+    return [int(pid) for pid in found]
+
+
+def interrupt(command, number, of_rank):
+    process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True)
+    time.sleep(1.5)
+    check(process.poll() is None, "the run ended before it could be interrupted")
+    os.kill(ranks_of(process)[0] if of_rank else process.pid, number)
+    output, errors = process.communicate(timeout=60)
+    check("orthostat: interrupted, nothing written" in errors and not output, errors + output)
+    check(os.listdir(folder) == ["bar.yaml"], os.listdir(folder))
+    return process.returncode
+
+
+for number in signal.SIGINT, signal.SIGTERM:
+    code = interrupt([PROGRAM, "solve", "bar.yaml"], number, False)
+    check(code == 130, f"signal {number}: exit {code}")
+for ranks in 2, 4:
+    interrupt([MPIEXEC, "--quiet", "-n", str(ranks), PROGRAM, "solve", "bar.yaml"], signal.SIGINT, False)
+code = interrupt([MPIEXEC, "--quiet", "-n", "2", PROGRAM, "solve", "bar.yaml"], signal.SIGTERM, True)
+check(code == 130, f"a rank ended with 130, mpirun with {code}")
+
+# --- a file that is half written goes, one that is complete stays ---
+with open(os.path.join(folder, "many.yaml"), "w") as stream:
+    stream.write(CASE.replace("[120, 30, 30]", "[60, 16, 16]") + "path: {steps: 200}\nlarge_rotation: off\n")
+process = subprocess.Popen([PROGRAM, "solve", "many.yaml", "-q"], cwd=folder, stderr=subprocess.PIPE, text=True)
+first = os.path.join(folder, "bar_0002.vtkhdf")
+for _ in range(600):
+    if os.path.exists(first):
+        break
+    time.sleep(0.05)
+process.send_signal(signal.SIGINT)
+errors = process.communicate(timeout=60)[1]
+check(process.returncode == 130 and "the files that were complete stay" in errors, errors)
+check(os.path.exists(first) and not [name for name in os.listdir(folder) if name.startswith(".orthostat")], os.listdir(folder))
+
+# --- the line on a terminal ---
+def on_terminal(*words):
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen([PROGRAM, "solve", "bar.yaml", "-o", "seen.vtkhdf", *words], cwd=folder, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=theirs)
+    os.close(theirs)
+    seen = b""
+    while True:
+        try:
+            more = os.read(ours, 4096)
+        except OSError:
+            break
+        if not more:
+            break
+        seen += more
+    check(process.wait() == 0, seen)
+    return seen.decode()
+
+
+seen = on_terminal()
+for words in ("% of the whole", "solve ", "multigrid setup", "error estimate"):
+    check(words in seen, f"the terminal shows nothing of '{words}': {seen[-2000:]}")
+check(seen.count("\n") <= 2 and seen.rstrip("\n").endswith("\x1b[K"), "the line is not erased at the end: " + repr(seen[-200:]))
+check(on_terminal("-q") == "", "-q shows something")

@@ -1,0 +1,203 @@
+"""Rigid, tied and periodic faces, against formulas, on one rank and on several."""
+import itertools
+import os
+
+from program import check, fewer, new_folder, solve
+
+RANKS = (1, 2, 4)
+
+
+def brick_mesh(path, bricks):
+    """Bricks (name, origin, size, divisions, regions of the layers along z) in one Gmsh file, each with the boundaries name_xmin ..."""
+    nodes, tets, faces, groups = [], [], [], {}
+    for name, origin, size, (nx, ny, nz), regions in bricks:
+        first = len(nodes)
+        nodes += [[origin[k] + size[k] * place[k] / (nx, ny, nz)[k] for k in range(3)]
+                  for place in itertools.product(range(nx + 1), range(ny + 1), range(nz + 1))]
+        sides = {}
+        for cell in itertools.product(range(nx), range(ny), range(nz)):
+            region = groups.setdefault((3, regions[cell[2] * len(regions) // nz]), len(groups) + 1)
+            for order in itertools.permutations(range(3)):
+                corner, tet = list(cell), []
+                for k in (None, *order):
+                    if k is not None:
+                        corner[k] += 1
+                    tet.append(first + (corner[0] * (ny + 1) + corner[1]) * (nz + 1) + corner[2] + 1)
+                if sum(order[i] > order[j] for i in range(3) for j in range(i, 3)) % 2:
+                    tet[2], tet[3] = tet[3], tet[2]
+                tets.append((region, tet))
+                for face in itertools.combinations(sorted(tet), 3):
+                    sides[face] = sides.get(face, 0) + 1
+        for face in (f for f, count in sides.items() if count == 1):
+            for k, end in itertools.product(range(3), (0, 1)):
+                if all(abs(nodes[v - 1][k] - origin[k] - end * size[k]) < 1e-9 for v in face):
+                    faces.append((groups.setdefault((2, f"{name}_{'xyz'[k]}{('min', 'max')[end]}"), len(groups) + 1), face))
+    items = [(2, *f) for f in faces] + [(4, *t) for t in tets]
+    with open(path, "w") as stream:
+        stream.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(groups)}\n")
+        stream.writelines(f'{dimension} {number} "{name}"\n' for (dimension, name), number in groups.items())
+        stream.write(f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n")
+        stream.writelines(f"{n + 1} {x!r} {y!r} {z!r}\n" for n, (x, y, z) in enumerate(nodes))
+        stream.write(f"$EndNodes\n$Elements\n{len(items)}\n")
+        stream.writelines(f"{n + 1} {kind} 2 {group} {group} {' '.join(map(str, item))}\n"
+                          for n, (kind, group, item) in enumerate(items))
+        stream.write("$EndElements\n")
+
+
+def watched(text, folder=None, ranks=RANKS):
+    """The watched values of a case, on several numbers of ranks: they agree."""
+    first = None
+    for n in fewer(ranks):
+        finished, report, _ = solve(text, ranks=n, folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        values = {name: of["value"] for name, of in report["watched"].items()}
+        first = first or values
+        for name, value in values.items():
+            check(abs(value - first[name]) <= 1e-8 * max(map(abs, first.values())), f"{n} ranks: {name} is {value}, on one {first[name]}")
+    return first
+
+
+def near(value, expected, share, what):
+    check(abs(value - expected) <= share * abs(expected), f"{what} is {value}, expected {expected}")
+
+
+BAR = """
+mesh: {block: {size: [4, 1, 1], divisions: [8, 2, 2]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1200, poissons_ratio: NU}]
+constraints:
+  - {on: {boundary: xmin}, displacement: [0, 0, 0]}
+  - {on: {boundary: xmax}, rigid: RIGID}
+LOADS
+watch:
+  tip: {displacement: {nearest: [4, 0.5, 0.5]}, component: y}
+  force: {reaction: {boundary: xmax}, component: y}
+  moment: {reaction: {boundary: xmax}, about: [4, 0.5, 0.5], component: z}
+  energy: strain_energy
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def bar(rigid, loads="", nu="0", method="auto"):
+    text = BAR.replace("RIGID", rigid).replace("NU", nu).replace("LOADS", f"loads: [{loads}]" if loads else "")
+    return text + f"solver: {{method: {method}}}\n"
+
+
+def a_rigid_face_bends_a_bar():
+    """Without Poisson's ratio a bar's section stays plane: beam theory is exact, E I = 100."""
+    for method in ("direct", "metric"):
+        free = watched(bar("[7, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}", method=method))
+        near(free["tip"], 0.4, 1e-8, f"{method}: the tip under a moment")
+        check(abs(free["moment"]) < 1e-6, f"a free face has the reaction {free['moment']}")
+    turned = watched(bar("{at: [4, 0.5, 0.5], rotation: [0, 0, 0.2]}"))
+    near(turned["moment"], 5, 1e-8, "the moment for a rotation")
+    near(turned["tip"], 0.4, 1e-8, "the tip of a turned bar")
+    check(abs(turned["force"]) < 1e-6, f"a face that may move has the force {turned['force']}")
+    held = watched(bar("{at: [4, 0.5, 0.5], displacement: [0, 0, 0], rotation: [0, 0, 0.2]}"))
+    clamped = watched(bar("{at: [4, 0.5, 0.5], displacement: [free, 0, free], rotation: [free, free, 0.2]}"))
+    near(clamped["moment"], held["moment"], 1e-5, "the moment of a face held in part") # the mesh is not symmetric
+    shear = 12 * 100 / (5 / 6 * 600 * 4**2)
+    near(held["moment"], (4 + shear) / (1 + shear) * 100 * 0.2 / 4, 0.01, "the moment of a Timoshenko beam held at the end")
+    near(held["energy"], 0.5 * 0.2 * held["moment"], 1e-8, "the energy")
+
+
+def what_lies_elsewhere_does_not_matter():
+    """The point of a free face is a name for its motion; a force at another point has a moment."""
+    force = "{on: {boundary: xmax}, total_force: [0, 2, 0], at: [9, 0, 0]}"
+    values = [watched(bar(at, force, nu="0.3"), ranks=(1, 3)) for at in ("[4, 0.5, 0.5]", "[100, 20, -30]")]
+    near(values[1]["tip"], values[0]["tip"], 1e-7, "the tip")
+
+
+TIED = """
+mesh: {file: two.msh}
+element: {order: ORDER}
+materials: [{region: all, youngs_modulus: 1200, poissons_ratio: NU}]
+constraints:
+  - {on: {boundary: a_xmin}, slide: [1, 0, 0]}
+  - {on: {boundary: a_ymin}, slide: [0, 1, 0]}
+  - {on: {boundary: a_zmin}, slide: [0, 0, 1]}
+  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}
+loads: [{on: {boundary: b_xmax}, LOAD}]
+watch:
+  tip: {displacement: {nearest: [4, 1, 1]}, component: x}
+  energy: strain_energy
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def tied_parts_pull_as_one():
+    folder = new_folder()
+    for order, fine, limit in ((1, 4, 2e-2), (1, 8, 1e-2), (2, 4, 3e-3)):
+        brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (fine, fine - 1, fine - 1), "a"),
+                                                     ("b", (2, 0, 0), (2, 1, 1), (fine, fine, fine), "b")])
+        text = TIED.replace("ORDER", str(order)).replace("LOAD", "traction: [12, 0, 0]")
+        values = watched(text.replace("NU", "0.3"), folder)
+        near(values["tip"], 0.04, limit, f"order {order}: the end of two tied bars")
+        near(values["energy"], 0.24, limit, f"order {order}: their energy")
+
+
+CELL = """
+mesh: {file: layers.msh}
+element: {order: ORDER}
+materials:
+  - {region: soft, youngs_modulus: 100, poissons_ratio: 0.2}
+  - {region: stiff, youngs_modulus: 1000, poissons_ratio: 0.3}
+constraints: [{periodic: [[_xmin, _xmax], [_ymin, _ymax], [_zmin, _zmax]], strain: {STRAIN}}, {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}]
+watch:
+  across: {reaction: {boundary: _zmax}, component: z}
+  along: {reaction: {boundary: _xmax}, component: x}
+  shear: {reaction: {boundary: _zmax}, component: x}
+  energy: strain_energy
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def a_layered_cell_has_the_stiffness_of_a_laminate():
+    """Layers in series across (uniform stress), in parallel along (uniform strain)."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "layers.msh"), [("", (0, 0, 0), (1, 1, 1), (2, 3, 4), ("soft", "stiff"))])
+    layers = [(e * (1 - n) / ((1 + n) * (1 - 2 * n)), e / (2 * (1 + n)), e * n / ((1 + n) * (1 - 2 * n))) for e, n in ((100, 0.2), (1000, 0.3))]
+    across = 2 / sum(1 / m for m, _, _ in layers)
+    shear = 2 / sum(1 / g for _, g, _ in layers)
+    # strain xx alone: sigma_z is uniform, and the strain across has the mean 0
+    sigma = sum(l / m for m, _, l in layers) / sum(1 / m for m, _, _ in layers)
+    along = sum(m + l * (sigma - l) / m for m, _, l in layers) / 2
+    for order in (1, 2):
+        text = CELL.replace("ORDER", str(order))
+        values = watched(text.replace("STRAIN", "zz: 0.01"), folder)
+        near(values["across"], 0.01 * across, 1e-8, "the modulus across")
+        near(values["energy"], 0.5 * 1e-4 * across, 1e-8, "the energy across")
+        near(watched(text.replace("STRAIN", "xx: 0.01"), folder, (1,))["along"], 0.01 * along, 1e-8, "the modulus along")
+        near(watched(text.replace("STRAIN", "zx: 0.005"), folder, (1,))["shear"], 0.01 * shear, 1e-8, "the shear modulus")
+
+
+def what_cannot_be_is_refused():
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "layers.msh"), [("", (0, 0, 0), (1, 1, 1), (2, 3, 4), ("soft", "stiff"))])
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 2, 2), "a"), ("b", (2.1, 0, 0), (2, 1, 1), (2, 3, 3), "b")])
+    cell = CELL.replace("ORDER", "1").replace("STRAIN", "zz: 0.01")
+    held = "{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}"
+    tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
+    for text, words in (
+            (cell.replace(f", {held}", ""), "can move"),
+            (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "is constrained, and follows"),
+            (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
+            (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
+            (cell + "large_rotation: on\n", "linear theory alone"),
+            (tied, "away from the faces that it is tied to"),
+            (tied.replace("b_xmin}, tied", "b_xmax}, tied"), "tolerance:"),
+            (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
+            (bar("[4, 0.5, 0.5]").replace("boundary: xmax}, rigid", "vertices: [1, 2, 3]}, rigid"), "not on one line"),
+            (bar("[4, 0.5, 0.5]").replace("{boundary: xmin}, disp", "{boundary: ymin}, disp"), "is constrained, and follows"),
+            (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}") + "path: {steps: 2}\n", "no path"),
+            (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}").replace("  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), "turn")):
+        for ranks in (2,):
+            finished, _, _ = solve(text, ranks=ranks, folder=folder)
+            check(finished.exit_code not in (0, 139, 134) and words in finished.errors, f"expected '{words}' in:\n{finished.errors}")
+
+
+a_rigid_face_bends_a_bar()
+what_lies_elsewhere_does_not_matter()
+tied_parts_pull_as_one()
+a_layered_cell_has_the_stiffness_of_a_laminate()
+what_cannot_be_is_refused()

@@ -1,0 +1,111 @@
+"""Meshes of other programs give the answer of the .msh file that they were made from; `orthostat mesh` inspects, converts,
+refines, merges and orients."""
+import json
+import os
+
+from program import SOURCE, check, fewer, new_folder, run
+
+STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
+folder = new_folder()
+
+# --- the same answer ---
+
+CASE = """mesh: {{file: {mesh}}}
+materials: [{{region: all, youngs_modulus: [1e3, 2e3, 5e2], poissons_ratio: 0.3}}]
+constraints: [{{on: {{boundary: {clamp}}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{plane: {{point: [2, 0, 0], normal: [1, 0, 0]}}}}, total_force: [1, 2, 3]}}]
+large_rotation: off
+accuracy: {{relative_residual: 1e-11}}
+watch: {{end: {{displacement: {{nearest: [2, 1, 1]}}}}, energy: strain_energy}}
+"""
+
+
+def answer(mesh, clamp, ranks=1):
+    path = os.path.join(folder, "case.yaml")
+    with open(path, "w") as stream:
+        stream.write(CASE.format(mesh=mesh, clamp=clamp))
+    done = run("solve", path, "-q", "--json", "-", "--output", os.path.join(folder, "out.vtkhdf"), ranks=ranks)
+    check(done.exit_code == 0, f"{mesh}: {done.errors}")
+    watched = json.loads(done.output)["watched"]
+    return [watched["end"]["value"], watched["energy"]["value"]]
+
+
+for order, source in (("linear", "gmsh2-binary"), ("quadratic", "gmsh41-quadratic-binary")):
+    expected = answer(os.path.join(SOURCE, "tests", "formats", "msh", source + ".msh"), "clamp")
+    names = {"linear": [("cae-linear.inp", "Clamp"), ("meshio-linear-zlib.vtu", "surface-7")],
+             "quadratic": [("cae-quadratic.inp", "Clamp"), ("gmsh-quadratic.mesh", "surface-1"),
+                           ("gmsh-quadratic.unv", "clamp"), ("gmsh-quadratic.bdf", "surface-1")]}[order]
+    for name, clamp in fewer(names):
+        for ranks in (1, 3) if name.startswith("cae-linear") else (1,):
+            found = answer(os.path.join(STORED, name), clamp, ranks)
+            # Nastran's small fields and Abaqus's file have eight digits
+            check(all(abs(a - b) < 1e-7 * abs(b) for a, b in zip(found, expected)), f"{name}: {found}, expected {expected}")
+
+# --- inspect ---
+
+
+def inspect(*arguments, ranks=1):
+    done = run("mesh", *arguments, "--json", "-", ranks=ranks, folder=folder)
+    check(done.exit_code == 0, f"mesh {arguments}: {done.errors}")
+    return json.loads(done.output)
+
+
+def stored(name):
+    return os.path.join(STORED, name)
+
+
+for ranks in fewer([1, 2, 4]):
+    counts = inspect(stored("cae-quadratic.inp"), ranks=ranks)
+    check((counts["tets"], counts["nodes"], counts["order"], counts["surface_faces"]) == (48, 113, 2, 40), f"{counts}")
+    check([r["name"] for r in counts["regions"]] == ["Left", "Right"], f"{counts['regions']}")
+    check(all(r["tets"] == 24 and abs(r["volume"] - 1) < 1e-9 for r in counts["regions"]), f"{counts['regions']}")
+    check([(b["name"], b["of"], b["count"]) for b in counts["boundaries"]] ==
+          [("Clamp", "faces", 4), ("Everything", "points", 113), ("End", "points", 13)], f"{counts['boundaries']}")
+    check(abs(counts["boundaries"][0]["area"] - 1) < 1e-9, "the clamp's area")
+    check(sum(counts["quality"]["histogram"]) == 48 and 0 < counts["quality"]["least"] < counts["quality"]["mean"] < 1,
+          f"{counts['quality']}")
+    check(len(counts["components"]) == 1 and counts["coincident_vertices"] == 0, "one component")
+said = run("mesh", stored("cae-linear.inp"), folder=folder).output
+check("48 linear tets" in said and "Clamp" in said and "least" in said, said)
+
+# --- convert, there and back ---
+
+for ranks in fewer([1, 3]):
+    for ending in ("msh", "inp", "vtkhdf"):
+        new = f"new-{ranks}.{ending}"
+        inspect(stored("cae-quadratic.inp"), new, ranks=ranks)
+        again = inspect(new)
+        for key in ("tets", "nodes", "order", "surface_faces"):
+            check(again[key] == counts[key], f"{new}: {key} {again[key]}")
+        for region, as_before in zip(again["regions"], counts["regions"]):
+            check((region["name"], region["tets"]) == (as_before["name"], as_before["tets"]) and
+                  abs(region["volume"] - 1) < 1e-9, f"{new}: {again['regions']}")
+        check({b["name"]: b["count"] for b in again["boundaries"]} == {b["name"]: b["count"] for b in counts["boundaries"]},
+              f"{new}: {again['boundaries']}")
+for ending in ("msh", "inp"):
+    if len(fewer([1, 3])) == 2:
+        texts = [open(os.path.join(folder, f"new-{ranks}.{ending}")).read() for ranks in (1, 3)]
+        check(texts[0] == texts[1], f"{ending}: what is written depends on the number of ranks")
+bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
+check(bad.exit_code == 2 and ".msh" in bad.errors, bad.errors)
+
+# --- refine, raise, merge, orient ---
+
+fine = inspect(stored("tetgen-linear.ele"), "fine.msh", "--refine", "1")
+check(fine["tets"] == 8 * 136 and abs(fine["volume"] - 2) < 1e-9, f"{fine['tets']} tets")
+check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2, "raised")
+check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
+
+POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+with open(os.path.join(folder, "two.mesh"), "w") as stream:
+    stream.write("MeshVersionFormatted 2\nDimension 3\nVertices 8\n" + "".join("%g %g %g 0\n" % p for p in POINTS) +
+                 "Tetrahedra 2\n1 2 3 4 1\n6 7 8 5 2\nEnd\n")
+apart = inspect("two.mesh")
+check(len(apart["components"]) == 2 and apart["coincident_vertices"] == 3, f"{apart}")
+joined = inspect("two.mesh", "--merge", "1e-6")
+check(len(joined["components"]) == 1 and joined["nodes"] == 5, f"{joined}")
+with open(os.path.join(folder, "turned.mesh"), "w") as stream:
+    stream.write(open(os.path.join(folder, "two.mesh")).read().replace("6 7 8 5 2", "6 8 7 5 2"))
+check(run("mesh", "turned.mesh", folder=folder).exit_code == 2, "an inverted tet is refused")
+check(inspect("turned.mesh", "--orient", "--merge", "1e-6")["tets"] == 2, "and turned where that is asked for")
+check(run("mesh", "turned.mesh", "--refine", "9", folder=folder).exit_code == 2, "nine refinements are refused")

@@ -1,0 +1,82 @@
+"""A sweep as a user meets it: the table on the screen, as CSV, JSON and picture; the same numbers as single runs; refusals."""
+import csv
+import io
+import json
+import os
+import subprocess
+
+from program import PROGRAM, check, fewer, new_folder, run
+
+CASE = """title: a bar
+mesh: {block: {size: [4, 1, 1], divisions: [6, 2, 2]}}
+materials: [{region: wood, youngs_modulus: [1000, 2000, 4000], poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [2, 0, 0]}]
+watch: {end: {displacement: {nearest: [4, 1, 1]}, component: x}}
+sweep:
+  loads.0.value.x: {from: 1, to: 3, count: 3}
+  materials.all.E1: [500, 1000]
+""".replace("region: wood", "region: all")
+
+folder = new_folder()
+with open(os.path.join(folder, "bar.yaml"), "w") as stream:
+    stream.write(CASE)
+
+
+def end_of(*settings):
+    report = json.loads(run("solve", "bar.yaml", "--json", "-", "-o", "one.vtkhdf",
+                            *(word for setting in settings for word in ("--set", setting)), folder=folder).output)
+    return report["watched"]["end"]["value"]
+
+
+for ranks in fewer((1, 2)):
+    swept = run("sweep", "bar.yaml", "--csv", "bar.csv", "--json", "bar.json", ranks=ranks, folder=folder)
+    check(swept.exit_code == 0 and "6 runs" in swept.output and "end" in swept.output, swept.output + swept.errors)
+    with open(os.path.join(folder, "bar.csv")) as stream:
+        rows = list(csv.DictReader(stream))
+    with open(os.path.join(folder, "bar.json")) as stream:
+        report = json.load(stream)
+    check([(row["loads.0.value.x"], row["materials.all.E1"]) for row in rows]
+          == [(x, e) for x in ("1", "2", "3") for e in ("500", "1000")], rows)
+    check(report["keys"] == ["loads.0.value.x", "materials.all.E1"] and report["watched"] == ["end"], report)
+    for row, one in zip(rows, report["runs"]):
+        check(float(row["end"]) == one["watched"]["end"] and one["answered"] and row["answered"] == "1", (row, one))
+        check(one["values"] == {key: float(row[key]) for key in report["keys"]}, one)
+    alone = end_of("loads.0.total_force.0=3", "materials.0.youngs_modulus.0=500")
+    check(abs(rows[4]["end"] and float(rows[4]["end"]) - alone) < 1e-6 * abs(alone), (rows[4], alone))
+
+# --over goes before the case's own; settings hold for all; the case may come from standard input
+piped = subprocess.run([PROGRAM, "sweep", "-", "--over", "element.order=1,2", "--set", "loads.0.value.x=4", "--csv", "-"],
+                       cwd=folder, input=CASE, capture_output=True, text=True, timeout=240)
+rows = list(csv.DictReader(io.StringIO(piped.stdout)))
+check(piped.returncode == 0 and [row["element.order"] for row in rows] == ["1", "2"], piped.stderr)
+check(int(rows[1]["unknowns"]) > 5 * int(rows[0]["unknowns"]), rows)
+alone = end_of("element.order=2", "loads.0.value.x=4")
+check(abs(float(rows[1]["end"]) - alone) < 1e-5 * abs(alone), (rows, alone))
+
+drawn = run("sweep", "bar.yaml", "-q", "--picture", "bar.png", folder=folder)
+check(drawn.exit_code == 0, drawn.errors)
+with open(os.path.join(folder, "bar.png"), "rb") as stream:
+    check(stream.read(8) == b"\x89PNG\r\n\x1a\n", "no picture")
+
+# --- what fails, and what is refused ---
+failed = run("sweep", "bar.yaml", "--over", "materials.0.poissons_ratio=0.3,0.6", "--json", "bar.json", folder=folder)
+check(failed.exit_code == 1 and "1 of 2 runs have no answer" in failed.errors and "no answer" in failed.output, failed.errors)
+with open(os.path.join(folder, "bar.json")) as stream:
+    runs = json.load(stream)["runs"]
+check([one["answered"] for one in runs] == [True, False] and "0.6" in runs[1]["failure"], runs)
+for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
+                         (("--over", "materials.wod.E1=1,2"), "materials has no entry 'wod'"),
+                         (("--over", "loads.0.value.x"), "--over takes KEY=a,b,c or KEY=from:to:count"),
+                         (("--over", "loads.0.value.x=1,,2"), "--over takes KEY=a,b,c"),
+                         (("--over", "loads.0.value.x=1:2:9999", "--over", "loads.0.value.y=1:2:9999"), "at most 10000"),
+                         (("--picture", "-"), "a picture cannot go to standard output"),
+                         (("--csv", "bar.yaml"), "would be written over the case itself")):
+    refused = run("sweep", "bar.yaml", *arguments, folder=folder)
+    check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")
+with open(os.path.join(folder, "plain.yaml"), "w") as stream:
+    stream.write(CASE.split("sweep:")[0] + "cases: [{name: one}]\n")
+check("over what?" in run("sweep", "plain.yaml", folder=folder).errors, "a sweep over nothing")
+named = run("sweep", "plain.yaml", "--over", "loads.0.value.x=1,2", folder=folder)
+check(named.exit_code == 2 and "name it, as in --case one" in named.errors, named.errors)
+check(run("sweep", "plain.yaml", "--case", "one", "--over", "loads.0.value.x=1,2", folder=folder).exit_code == 0, "--case")

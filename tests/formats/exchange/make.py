@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the meshes of this folder again, from those of ../msh: two cubes, [0, 2] × [0, 1]², the left one and the right
+one a region each, the face at x = 0 a boundary. Needs Debian's python3-gmsh 4.8, python3-meshio 5.0, python3-netcdf4 and
+tetgen 1.5."""
+import os
+import subprocess
+import tempfile
+
+import gmsh
+import meshio
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCES = {"linear": "gmsh2-binary", "quadratic": "gmsh41-quadratic-binary"}
+FACES = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]  # Abaqus's S1 to S4
+
+
+def source(kind):
+    return os.path.join(HERE, "..", "msh", SOURCES[kind] + ".msh")
+
+
+def by_gmsh():
+    for kind in SOURCES:
+        gmsh.initialize([])
+        gmsh.option.setNumber("General.Verbosity", 1)
+        gmsh.open(source(kind))
+        for ending in ("mesh", "inp", "unv", "bdf", "vtk"):
+            gmsh.write(os.path.join(HERE, f"gmsh-{kind}.{ending}"))
+        gmsh.finalize()
+
+
+def by_meshio():
+    for kind in SOURCES:
+        mesh = meshio.read(source(kind))
+        groups = mesh.cell_data["gmsh:physical"]
+        mesh.point_data, mesh.cell_sets = {}, {}
+        mesh.cell_data = {"gmsh:physical": groups}
+        # a number that tells where each tet is, and a direction that turns about z, without a sense
+        centre = [mesh.points[block.data].mean(axis=1) for block in mesh.cells]
+        mesh.cell_data["modulus"] = [1000.0 + 1000.0 * c[:, 0] for c in centre]
+        mesh.cell_data["fibre"] = [np.column_stack([np.cos(c[:, 0]), np.sin(c[:, 0]), 0 * c[:, 0]]) for c in centre]
+        mesh.point_data["density"] = 1.0 + mesh.points[:, 0]
+        sense = np.where(np.arange(len(mesh.points)) % 2, 1.0, -1.0)[:, None]
+        mesh.point_data["direction"] = sense * np.tile([0.6, 0.8, 0.0], (len(mesh.points), 1))
+        for name, how in (("ascii.vtk", {"binary": False}), ("binary.vtk", {}), ("zlib.vtu", {}), ("ascii.vtu", {"binary": False}),
+                          ("plain.vtu", {"compression": None})):
+            meshio.write(os.path.join(HERE, f"meshio-{kind}-{name}"), mesh, **how)
+        meshio.write(os.path.join(HERE, f"meshio-{kind}-old.vtk"), mesh, file_format="vtk42")
+        if kind == "linear":
+            mesh.cell_data = {"medit:ref": groups}
+            meshio.write(os.path.join(HERE, "meshio-linear.meshb"), mesh)
+
+
+def appended_by_vtk():
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+    for name, raw, packed in (("raw", 0, 0), ("base64-zlib", 1, 1)):
+        reader, writer = vtkXMLUnstructuredGridReader(), vtkXMLUnstructuredGridWriter()
+        reader.SetFileName(os.path.join(HERE, "meshio-linear-ascii.vtu"))
+        writer.SetInputConnection(reader.GetOutputPort())
+        writer.SetFileName(os.path.join(HERE, f"vtk-appended-{name}.vtu"))
+        writer.SetDataModeToAppended()
+        writer.SetEncodeAppendedData(raw)
+        if not packed:
+            writer.SetCompressorTypeToNone()
+        writer.Write()
+
+
+def by_tetgen():
+    corners = [(x, y, z) for z in (0, 1) for x in (0, 1, 2) for y in (0, 1)]
+    number = {corner: n for n, corner in enumerate(corners, 1)}
+    faces = [([(x, 0, 0), (x, 1, 0), (x, 1, 1), (x, 0, 1)], mark) for x, mark in ((0, 7), (1, 9), (2, 8))]
+    for x in (0, 1):
+        faces += [([(x, y, 0), (x + 1, y, 0), (x + 1, y, 1), (x, y, 1)], 3) for y in (0, 1)]
+        faces += [([(x, 0, z), (x + 1, 0, z), (x + 1, 1, z), (x, 1, z)], 3) for z in (0, 1)]
+    for name, options in (("tetgen-linear", "-pqAa0.1Q"), ("tetgen-quadratic", "-pqAo2Q")):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, name + ".poly")
+            with open(path, "w") as out:
+                print(len(corners), 3, 0, 0, file=out)
+                for corner in corners:
+                    print(number[corner], *corner, file=out)
+                print(len(faces), 1, file=out)
+                for face, mark in faces:
+                    print(1, 0, mark, file=out)
+                    print(4, *(number[corner] for corner in face), file=out)
+                print("0\n2\n1 0.5 0.5 0.5 11\n2 1.5 0.5 0.5 12", file=out)
+            subprocess.run(["tetgen", options, path], check=True, stdout=subprocess.DEVNULL)
+            for ending in ("node", "ele", "face"):
+                with open(os.path.join(folder, f"{name}.1.{ending}")) as made, \
+                        open(os.path.join(HERE, f"{name}.{ending}"), "w") as kept:
+                    kept.writelines(line for line in made if not line.startswith("# Generated"))
+
+
+def as_from_cae(kind):
+    """As Abaqus/CAE writes a model with one part: an assembly, internal sets, sections and surfaces by faces of tets."""
+    mesh = meshio.read(source(kind))
+    tets = np.vstack([block.data for block in mesh.cells if block.type.startswith("tetra")])
+    left = mesh.points[tets[:, :4]].mean(axis=1)[:, 0] < 1
+    tets = np.vstack([tets[left], tets[~left]])
+    half = int(left.sum())
+    clamp = [(t + 1, side + 1) for t, tet in enumerate(tets) for side, face in enumerate(FACES)
+             if (mesh.points[tet[list(face)], 0] == 0).all()]
+    at_end = np.flatnonzero(mesh.points[:, 0] == 2) + 1
+    with open(os.path.join(HERE, f"cae-{kind}.inp"), "w") as out:
+        print("*Heading\n** two cubes\n*Preprint, echo=NO\n**\n** PARTS\n**\n*Part, name=BODY\n*Node", file=out)
+        for n, point in enumerate(mesh.points, 1):
+            print(f"{n:7d}, {point[0] - 5:12.8g}, {point[1]:12.8g}, {point[2]:12.8g}", file=out)
+        print(f"*Element, type=C3D{tets.shape[1]}", file=out)
+        for t, tet in enumerate(tets, 1):
+            numbers = [f"{v + 1}" for v in tet]
+            print(f"{t:4d}, " + ", ".join(numbers[:8]) + ("," if len(numbers) > 8 else ""), file=out)
+            if len(numbers) > 8:
+                print("      " + ", ".join(numbers[8:]), file=out)
+        print(f"*Nset, nset=Everything, generate\n 1, {len(mesh.points)}, 1", file=out)
+        print(f"*Elset, elset=Left, generate\n 1, {half}, 1\n*Elset, elset=Right, generate\n {half + 1}, {len(tets)}, 1", file=out)
+        print("*Elset, elset=All\n Left, Right", file=out)
+        for side in sorted({side for _, side in clamp}):
+            print(f"*Elset, elset=_Clamp_S{side}, internal\n " + ", ".join(str(t) for t, s in clamp if s == side), file=out)
+        print("*Surface, type=ELEMENT, name=Clamp", file=out)
+        for side in sorted({side for _, side in clamp}):
+            print(f"_Clamp_S{side}, S{side}", file=out)
+        print("** Section: wood\n*Solid Section, elset=Left, material=Wood\n,\n*Solid Section, elset=Right, material=Wood\n,", file=out)
+        print("*End Part\n**\n** ASSEMBLY\n**\n*Assembly, name=Assembly\n*Instance, name=BODY-1, part=BODY\n 5., 0., 0.\n*End Instance", file=out)
+        print("*Nset, nset=End, instance=BODY-1\n " + ",\n ".join(map(str, at_end)), file=out)
+        print("*End Assembly\n*Material, name=Wood\n*Elastic\n 1000., 0.3\n*Step\n*Static\n1., 1.\n*Boundary\nEnd, 1, 1, 0.1\n*End Step", file=out)
+
+
+if __name__ == "__main__":
+    by_gmsh()
+    by_meshio()
+    appended_by_vtk()
+    by_tetgen()
+    for order in SOURCES:
+        as_from_cae(order)

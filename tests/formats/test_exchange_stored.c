@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "formats/serial/formats.h"
+
+#include <string.h>
+#include <unistd.h>
+
+/* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh, meshio, VTK, TetGen and Abaqus/CAE write it (exchange/README.md).
+ * The left cube is one region and the right one another; four faces, or those of TetGen, lie at x = 0. */
+static const struct {
+    const char *name;
+    int nodes, tets, boundaries, warnings;
+    const char *left, *right, *clamp;
+    int faces;
+} files[] = {
+    {"gmsh-linear.mesh", 23, 48, 1, 0, "volume-1", "volume-2", "surface-1", 4},
+    {"gmsh-quadratic.mesh", 113, 48, 1, 0, "volume-1", "volume-2", "surface-1", 4},
+    {"meshio-linear.meshb", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"gmsh-linear.inp", 23, 48, 2, 3, "left", "right", "clamp", 4},
+    {"gmsh-quadratic.inp", 113, 48, 2, 3, "left", "right", "clamp", 4},
+    {"cae-linear.inp", 23, 48, 3, 0, "Left", "Right", "Clamp", 4},
+    {"cae-quadratic.inp", 113, 48, 3, 0, "Left", "Right", "Clamp", 4},
+    {"gmsh-linear.unv", 23, 48, 1, 0, "left", "right", "clamp", 4},
+    {"gmsh-quadratic.unv", 113, 48, 1, 0, "left", "right", "clamp", 4},
+    {"gmsh-linear.bdf", 23, 48, 1, 0, "volume-1", "volume-2", "surface-1", 4},
+    {"gmsh-quadratic.bdf", 113, 48, 1, 0, "volume-1", "volume-2", "surface-1", 4},
+    {"gmsh-linear.vtk", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"gmsh-quadratic.vtk", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-ascii.vtk", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-binary.vtk", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-old.vtk", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-quadratic-binary.vtk", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-quadratic-old.vtk", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-ascii.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-plain.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-linear-zlib.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-quadratic-ascii.vtu", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-quadratic-zlib.vtu", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"vtk-appended-raw.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"vtk-appended-base64-zlib.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"tetgen-linear.ele", 83, 136, 4, 0, "volume-11", "volume-12", "surface-7", 16},
+    {"tetgen-quadratic.node", 45, 12, 4, 0, "volume-11", "volume-12", "surface-7", 2},
+};
+enum { FILES = sizeof files / sizeof *files };
+
+static void count(void *listener, const char *text)
+{
+    (void)text;
+    ++*(int *)listener;
+}
+
+static void path_of(const char *name, char path[512])
+{
+    snprintf(path, 512, "%s/tests/formats/exchange/%s", getenv("ORTHOSTAT_SOURCE"), name);
+}
+
+static double volume_of(const OstMeshChunk *chunk, const OstGlobal *nodes)
+{
+    double e[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int d = 0; d < 3; d++)
+            e[i][d] = chunk->coordinates[3 * nodes[i + 1] + d] - chunk->coordinates[3 * nodes[0] + d];
+    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+           6.0;
+}
+
+static const OstGlobal *nodes_of(const OstMeshChunk *chunk, OstLocal tet)
+{
+    return chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
+}
+
+/* Each cube is filled by its region; mid-edge nodes lie in the middle of their edges. */
+static void check_tets(const OstMeshChunk *chunk, int f)
+{
+    double volume[2] = {0.0, 0.0};
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const OstGlobal *nodes = nodes_of(chunk, t);
+        double x = 0.0;
+        for (int v = 0; v < 4; v++)
+            x += chunk->coordinates[3 * nodes[v]] / 4.0;
+        volume[x > 1.0] += volume_of(chunk, nodes);
+        assert_string_equal(chunk->regions.name[chunk->tet_region[t]], x > 1.0 ? files[f].right : files[f].left);
+        for (int e = 0; e < 6 && chunk->nodes_per_tet == 10; e++)
+            for (int d = 0; d < 3; d++)
+                assert_close(chunk->coordinates[3 * nodes[4 + e] + d],
+                             0.5 * (chunk->coordinates[3 * nodes[ost_tet_edge[e][0]] + d] +
+                                    chunk->coordinates[3 * nodes[ost_tet_edge[e][1]] + d]),
+                             1e-12);
+    }
+    assert_int_equal(chunk->regions.count, 2);
+    assert_close(volume[0], 1.0, 1e-12);
+    assert_close(volume[1], 1.0, 1e-12);
+}
+
+static void check_clamp(const OstMeshChunk *chunk, int f)
+{
+    const OstBoundary *clamp = NULL;
+    for (int b = 0; b < chunk->boundary_count; b++)
+        if (strcmp(chunk->boundaries[b].name, files[f].clamp) == 0)
+            clamp = &chunk->boundaries[b];
+    assert_non_null(clamp);
+    assert_int_equal(clamp->dimension, 2);
+    assert_int_equal(clamp->nodes_per_item, chunk->nodes_per_tet == 10 ? 6 : 3);
+    assert_int_equal(clamp->count, files[f].faces);
+    for (int i = 0; i < clamp->count * clamp->nodes_per_item; i++)
+        assert_true(chunk->coordinates[3 * clamp->nodes[i]] == 0.0);
+}
+
+static void stored_files_hold_two_cubes(void **state)
+{
+    (void)state;
+    ost_log_set_level(ctx, OST_LOG_QUIET);
+    for (int f = 0; f < FILES; f++) {
+        char path[512];
+        int warnings = 0;
+        OstMeshChunk *chunk = NULL;
+        path_of(files[f].name, path);
+        ost_warn_listen(ctx, count, &warnings);
+        if (ost_chunk_read(ctx, path, &chunk) != OST_SUCCESS)
+            fail_msg("%s", ost_error_text(ctx));
+        ost_warn_listen(ctx, NULL, NULL);
+        assert_int_equal(warnings, files[f].warnings);
+        assert_int_equal(chunk->global_nodes, files[f].nodes);
+        assert_int_equal(chunk->global_tets, files[f].tets);
+        assert_int_equal(chunk->boundary_count, files[f].boundaries);
+        check_tets(chunk, f);
+        check_clamp(chunk, f);
+        ost_chunk_destroy(&chunk);
+    }
+}
+
+/* Curved faces have their mid-edge nodes where the tets behind have them. */
+static void quadratic_meshes_pass_the_checks_of_the_body(void **state)
+{
+    (void)state;
+    for (int f = 0; f < FILES; f++) {
+        char path[512];
+        OstMeshChunk *chunk = NULL;
+        OstMesh *mesh = NULL;
+        path_of(files[f].name, path);
+        assert_success(ost_chunk_read(ctx, path, &chunk));
+        if (ost_mesh_distribute(ctx, &chunk, &mesh) != OST_SUCCESS)
+            fail_msg("%s: %s", files[f].name, ost_error_text(ctx));
+        ost_mesh_destroy(&mesh);
+    }
+}
+
+static double centre_x(const OstMeshChunk *chunk, OstLocal tet)
+{
+    double x = 0.0;
+    for (int v = 0; v < 4; v++)
+        x += chunk->coordinates[3 * nodes_of(chunk, tet)[v]] / 4.0;
+    return x;
+}
+
+/* A modulus by tet and a density by point, and directions by point, of which every second one is turned. */
+static void fields_are_read_tet_by_tet(void **state)
+{
+    static const char *const with_fields[] = {"meshio-linear-ascii.vtk", "meshio-linear-binary.vtk",
+                                              "meshio-linear-ascii.vtu", "meshio-linear-zlib.vtu",
+                                              "vtk-appended-raw.vtu",    "vtk-appended-base64-zlib.vtu"};
+    (void)state;
+    for (size_t f = 0; f < sizeof with_fields / sizeof *with_fields; f++) {
+        char path[512];
+        OstMeshChunk *chunk = NULL;
+        path_of(with_fields[f], path);
+        assert_success(ost_chunk_read(ctx, path, &chunk));
+        assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));
+        assert_success(ost_mesh_file_read_field(ctx, path, "density", OST_FIELD_OF_NUMBERS, chunk));
+        assert_success(ost_mesh_file_read_field(ctx, path, "direction", OST_FIELD_OF_DIRECTIONS, chunk));
+        assert_int_equal(ost_mesh_file_read_field(ctx, path, "modulos", OST_FIELD_OF_NUMBERS, chunk),
+                         OST_INVALID_INPUT);
+        assert_int_equal(chunk->fields.count, 3);
+        assert_int_equal(ost_tet_fields_width(&chunk->fields), 5);
+        for (OstLocal t = 0; t < chunk->tet_count; t++) {
+            const double *field = chunk->tet_field + 5 * (size_t)t;
+            assert_close(field[0], 1000.0 + 1000.0 * centre_x(chunk, t), 1e-6);
+            assert_close(field[1], 1.0 + centre_x(chunk, t), 1e-12);
+            assert_close(fabs(field[2]), 0.6, 1e-12);
+            assert_close(field[3] / field[2], 4.0 / 3.0, 1e-12);
+        }
+        ost_chunk_destroy(&chunk);
+    }
+}
+
+/* --- what is refused --- */
+
+static void expect_refusal(const char *name, const char *content, size_t length, const char *words)
+{
+    char path[512];
+    OstMeshChunk *chunk = NULL;
+    snprintf(path, sizeof path, "/tmp/orthostat-exchange-%d-%s", (int)getpid(), name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(content, 1, length, file), length);
+    fclose(file);
+    const OstStatus status = ost_chunk_read(ctx, path, &chunk);
+    remove(path);
+    ost_chunk_destroy(&chunk);
+    assert_int_not_equal(status, OST_SUCCESS);
+    if (!strstr(ost_error_text(ctx), words))
+        fail_msg("'%s' has no '%s'", ost_error_text(ctx), words);
+}
+
+static void mistakes_are_named_with_file_and_line(void **state)
+{
+    static const struct {
+        const char *name, *content, *words;
+    } wrong[] = {
+        {"a.inp", "*NODE\n1, 0, 0\n2, x, 0, 0\n", "a.inp:3: a coordinate is 'x', expected a number"},
+        {"a.inp", "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n", "1 solid elements that are no tets"},
+        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3\n*NSET, NSET=A\n",
+         "element 7 has 3 nodes, expected 4"},
+        {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n",
+         "element 7 uses node 2, which the file does not"},
+        {"a.inp", "*ELEMENT\n1, 2\n", "*ELEMENT without TYPE"},
+        {"a.inp", "*NSET, NSET=A\nB\n", "'B' found, expected a number or the name of a set before"},
+        {"a.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: cannot be read"},
+        {"a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "a.mesh:2: dimension 2 found, expected 3"},
+        {"a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 1\n", "a.mesh:5: the file ends"},
+        {"a.mesh", "solid\n", "expected MeshVersionFormatted"},
+        {"a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n", "'POLYDATA', expected UNSTRUCTURED_GRID"},
+        {"a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 z\n",
+         "a.vtk:6: 'z' found"},
+        {"a.vtu", "<VTKFile type=\"PolyData\">", "'PolyData', expected UnstructuredGrid"},
+        {"a.vtu", "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">", "expected by zlib"},
+        {"a.bdf", "GRID,1,,0.,0.,zero\n", "field 5 of GRID is 'zero'"},
+        {"a.bdf", "GRID,1,3,0.,0.,0.\n", "node 1 is in coordinate system 3"},
+        {"a.bdf", "CTETRA,1,1,1,2,3,4,5,6\n,7\n", "element 1 has 3 of 6 mid-edge nodes"},
+        {"a.unv", "    -1\n  2411\n 1 1 1 1\n 0.D0 0.D0 zero\n    -1\n", "a.unv:4: 'zero' found"},
+        {"a.stl", "solid\n", "tetgen -pq"},
+        {"a.med", "", "gmsh -save"},
+        {"a.xdmf", "", "meshio convert"},
+        {"a.qqq", "", "the ending '.qqq' is not that of a mesh file"},
+    };
+    (void)state;
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
+        expect_refusal(wrong[w].name, wrong[w].content, strlen(wrong[w].content), wrong[w].words);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(stored_files_hold_two_cubes), cmocka_unit_test(quadratic_meshes_pass_the_checks_of_the_body),
+    cmocka_unit_test(fields_are_read_tet_by_tet), cmocka_unit_test(mistakes_are_named_with_file_and_line)};
+OST_TEST_MAIN(tests)

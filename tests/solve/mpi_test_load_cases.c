@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "orthostat/analysis.h"
+#include "problem/result_data.h"
+#include "solve/cases/load_cases.h"
+#include "support.h"
+
+#include <string.h>
+
+/* Load cases are what each would be alone, on one stiffness for all that share supports. */
+
+static const char beam[] =
+    "mesh: {block: {size: [6, 1, 1], divisions: [8, 2, 2]}}\n"
+    "materials:\n"
+    "  - {region: all, youngs_modulus: [100, 8, 5], poissons_ratio: 0.3, density: 1, axes: {euler: {degrees: [20, 30, "
+    "0]}}}\n"
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+    "loads: [{gravity: [0, 0, -1e-4]}]\n"
+    "cases:\n"
+    "  - {name: own-weight}\n"
+    "  - {name: end, loads: [{on: {boundary: xmax}, total_force: [0, 0.002, -0.001]}]}\n"
+    "  - {name: propped, constraints: [{on: {boundary: xmax}, displacement: [free, free, 0]}]}\n"
+    "  - {name: far, loads: [{on: {boundary: xmax}, total_force: [0, 0, 0.2]}]}\n"
+    "  - {name: blown, loads: [{on: {boundary: ymax}, pressure: 1e-3, follows: true}]}\n"
+    "  - {name: moved, constraints: [{on: {boundary: xmax}, displacement: [free, free, 0.05]}]}\n"
+    "  - {name: sunk, constraints: [{on: {boundary: xmin}, displacement: [0, 0, -0.1]}]}\n";
+
+static OstCase *read_case(const char *body, const char *settings)
+{
+    char text[4096];
+    OstCase *c = NULL;
+    snprintf(text, sizeof text, "%s%s", body, settings);
+    assert_success(ost_case_parse(ctx, "beam", text, &c));
+    return c;
+}
+
+static double distance(const OstMesh *mesh, const double *u, const double *v)
+{
+    double sums[2] = {0.0};
+    for (OstLocal i = 0; i < 3 * mesh->owned_nodes; i++) {
+        sums[0] += (u[i] - v[i]) * (u[i] - v[i]);
+        sums[1] += v[i] * v[i];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, ost_comm(ctx));
+    return sqrt(sums[0] / sums[1]);
+}
+
+static void compare_with_single_runs(const char *body, const char *settings, unsigned fields, double tolerance,
+                                     int newtons)
+{
+    OstCase *c = read_case(body, settings);
+    OstScene *scene = NULL;
+    OstLoadCases *cases = NULL;
+    int solved_by_newton = 0;
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_load_cases_create(scene, &cases));
+    assert_int_equal(ost_load_cases_stiffnesses(cases), body == beam ? 2 : 1);
+    while (ost_load_cases_left(cases) > 0) {
+        const int number = ost_load_cases_next(cases);
+        OstScene *alone = NULL;
+        OstResult *together = NULL, *single = NULL;
+        assert_success(ost_load_cases_solve(cases, fields, &together));
+        assert_success(ost_scene_create(ost_case_load_case(c, number), &alone));
+        assert_success(ost_scene_solve(alone, &single));
+        assert_true(distance(scene->mesh, together->displacement, single->displacement) <= tolerance);
+        assert_true(distance(scene->mesh, together->reaction, single->reaction) <= 10.0 * tolerance);
+        assert_close(together->checks.strain_energy, single->checks.strain_energy,
+                     10.0 * tolerance * single->checks.strain_energy);
+        assert_int_equal(together->newton.used, single->newton.used);
+        assert_int_equal(together->answer.known, single->answer.known);
+        assert_close(together->answer.relative, single->answer.relative, 0.05 * single->answer.relative);
+        assert_true(together->checks.force_imbalance <= 10.0 * tolerance);
+        solved_by_newton += together->newton.used;
+        ost_result_destroy(&together);
+        ost_result_destroy(&single);
+        ost_scene_destroy(&alone);
+    }
+    assert_int_equal(solved_by_newton, newtons);
+    ost_load_cases_destroy(&cases);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
+static void linear_cases_are_their_single_runs(void **state)
+{
+    (void)state;
+    compare_with_single_runs(beam,
+                             "large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: metric}\n",
+                             1U << OST_FIELD_ERROR, 1e-7, 0);
+    compare_with_single_runs(beam,
+                             "large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: direct}\n",
+                             1U << OST_FIELD_ERROR, 1e-7, 0);
+}
+
+static void cases_stop_where_the_mesh_is_worse(void **state)
+{
+    (void)state;
+    compare_with_single_runs(beam, "large_rotation: off\nelement: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-2, 0);
+}
+
+static void large_rotations_are_solved_for_where_they_are(void **state)
+{
+    (void)state;
+    compare_with_single_runs(beam, "accuracy: {relative_residual: 1e-11}\n", 1U << OST_FIELD_ERROR, 1e-6, 1);
+}
+
+static const char handle[] =
+    "mesh: {block: {size: [6, 1, 1], divisions: [6, 2, 2]}}\n"
+    "materials: [{region: all, youngs_modulus: [100, 8, 5], poissons_ratio: 0.3}]\n"
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+    "cases:\n"
+    "  - {name: pulled, constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0.01, 0, "
+    "0]}}]}\n"
+    "  - {name: held, loads: [{on: {boundary: ymax}, pressure: 1e-3}],\n"
+    "     constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0, 0, 0]}}]}\n"
+    "  - {name: aside, constraints: [{on: {boundary: xmax}, rigid: {at: [6, 0.5, 0.5], displacement: [0, 0.02, "
+    "0.01]}}]}\n";
+
+static void a_rigid_face_is_moved_in_each_case_on_one_stiffness(void **state)
+{
+    (void)state;
+    compare_with_single_runs(handle, "large_rotation: off\naccuracy: {relative_residual: 1e-11}\n",
+                             1U << OST_FIELD_ERROR, 1e-7, 0);
+}
+
+/* One pattern and one hierarchy for each way the body is held. */
+static void stiffness_is_made_once_for_all_that_share_supports(void **state)
+{
+    (void)state;
+    OstCase *c = read_case(beam, "large_rotation: off\n");
+    OstScene *scene = NULL;
+    OstLoadCases *cases = NULL;
+    const int order[] = {0, 1, 3, 4, 6, 2, 5};
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_load_cases_create(scene, &cases));
+    const long before = ost_ledger_entry(ctx, OST_LEDGER_PATTERN).entries;
+    for (int k = 0; k < 7; k++) {
+        OstResult *result = NULL;
+        assert_int_equal(ost_load_cases_next(cases), order[k]);
+        assert_success(ost_load_cases_solve(cases, 0, &result));
+        ost_result_destroy(&result);
+        if (k == 0 || k == 4 || k == 5 || k == 6)
+            assert_int_equal(ost_ledger_entry(ctx, OST_LEDGER_PATTERN).entries - before, k < 5 ? 1 : 2);
+    }
+    ost_load_cases_destroy(&cases);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
+static void a_case_that_fails_keeps_no_other_from_being_solved(void **state)
+{
+    (void)state;
+    static const char text[] = "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"
+                               "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]\n"
+                               "constraints: free_body\n"
+                               "cases:\n"
+                               "  - {name: pulled, loads: [{on: {boundary: xmax}, total_force: [1e-3, 0, 0]}, "
+                               "{on: {boundary: xmin}, total_force: [-1e-3, 0, 0]}]}\n"
+                               "  - {name: pushed-away, loads: [{on: {boundary: xmax}, total_force: [1e-3, 0, 0]}]}\n"
+                               "  - {name: pressed, loads: [{on: {boundary: [ymin, ymax]}, pressure: 1e-3}]}\n";
+    const OstStatus expected[] = {OST_SUCCESS, OST_INVALID_INPUT, OST_SUCCESS};
+    OstCase *c = NULL;
+    OstScene *scene = NULL;
+    OstLoadCases *cases = NULL;
+    assert_success(ost_case_parse(ctx, "bar", text, &c));
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_load_cases_create(scene, &cases));
+    for (int k = 0; k < 3; k++) {
+        OstResult *result = NULL;
+        assert_int_equal(ost_load_cases_solve(cases, 0, &result), expected[k]);
+        if (expected[k] == OST_SUCCESS)
+            assert_true(result->checks.relative_residual < 0.1 && result->largest_displacement > 0.0);
+        ost_result_destroy(&result);
+    }
+    ost_load_cases_destroy(&cases);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(linear_cases_are_their_single_runs),
+    cmocka_unit_test(cases_stop_where_the_mesh_is_worse),
+    cmocka_unit_test(large_rotations_are_solved_for_where_they_are),
+    cmocka_unit_test(a_rigid_face_is_moved_in_each_case_on_one_stiffness),
+    cmocka_unit_test(stiffness_is_made_once_for_all_that_share_supports),
+    cmocka_unit_test(a_case_that_fails_keeps_no_other_from_being_solved),
+};
+
+OST_TEST_MAIN(tests)
