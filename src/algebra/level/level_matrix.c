@@ -122,12 +122,8 @@ OstStatus ost_level_vector_create(OstContext *ctx, int size, size_t columns, dou
 }
 
 /* 3 × 3 blocks. Each block right of the diagonal acts on its row and, transposed, on the row of its column. */
-<<<<<<< HEAD
-static void add3(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
-                 const double *restrict x, double *restrict y)
-=======
-OST_KERNEL static void add3(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
->>>>>>> int
+OST_KERNEL static void add3(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
+                            const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 3 * (size_t)i;
@@ -160,12 +156,8 @@ OST_KERNEL static void add3(const OstLevelMatrix *matrix, double scale, const do
 }
 
 /* The same with 6 × 6 blocks. */
-<<<<<<< HEAD
-static void add6(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
-                 const double *restrict x, double *restrict y)
-=======
-OST_KERNEL static void add6(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
->>>>>>> int
+OST_KERNEL static void add6(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
+                            const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 6 * (size_t)i;

@@ -3,11 +3,8 @@
 
 #include "algebra/aggregation/aggregates.h"
 #include "algebra/level/galerkin.h"
-<<<<<<< HEAD
 #include "algebra/matrix/vector.h"
-=======
 #include "algebra/multigrid/gathered_level.h"
->>>>>>> int
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -95,7 +92,6 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     return ost_sum_numbers(work->ctx, 1, unknowns);
 }
 
-<<<<<<< HEAD
 /* The cycle's matrix of level l, which is the coarsest so far. */
 static OstStatus create_matrix(OstLevels *levels, int l)
 {
@@ -103,7 +99,8 @@ static OstStatus create_matrix(OstLevels *levels, int l)
     if (!ost_metric_graph_is_uneven(levels->graph[l]))
         return OST_SUCCESS;
     return ost_agree(levels->coarsest->ctx, ost_level_matrix_keep_rest(levels->coarsest, levels->matrix[l]));
-=======
+}
+
 /* A level that is solved by dense factors goes to one rank, another one to as many as have enough to do. One that is
  * factored by MUMPS stays where it is. */
 static OstStatus gather(Coarsening *work, OstGlobal first, OstGlobal unknowns, OstDoubleMatrix **coarse)
@@ -120,7 +117,6 @@ static OstStatus gather(Coarsening *work, OstGlobal first, OstGlobal unknowns, O
                            .first = first};
     work->stride = stride;
     return ost_level_gather(&level, stride);
->>>>>>> int
 }
 
 /* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
@@ -147,13 +143,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     ost_double_matrix_mend_diagonal(coarse);
     ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
-<<<<<<< HEAD
-    OST_TRY_DONE(create_matrix(levels, l + 1));
-=======
     OST_TRY_DONE(gather(work, first, unknowns, &levels->coarsest));
-    coarse = levels->coarsest;
-    OST_TRY_DONE(ost_level_matrix_create(coarse, &levels->matrix[l + 1]));
->>>>>>> int
+    OST_TRY_DONE(create_matrix(levels, l + 1));
     levels->count++;
 done:
     ost_tentative_destroy(&tentative);
