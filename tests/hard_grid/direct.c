@@ -79,10 +79,15 @@ static OstStatus factor(HardDirect *direct)
     return ost_mumps_create_of_rows(matrix, direct->scaling, 0.0, &shift, &direct->factors);
 }
 
-OstStatus hard_direct_create(const OstScene *scene, HardDirect *direct)
+OstStatus hard_direct_assemble(const OstScene *scene, HardDirect *direct)
 {
     *direct = (HardDirect){.ctx = scene->ctx};
-    OST_TRY(assemble(scene, direct));
+    return assemble(scene, direct);
+}
+
+OstStatus hard_direct_create(const OstScene *scene, HardDirect *direct)
+{
+    OST_TRY(hard_direct_assemble(scene, direct));
     return factor(direct);
 }
 
@@ -135,6 +140,16 @@ static OstStatus subtract_product(const HardDirect *direct, const double *base, 
             }
             difference[3 * (size_t)i + (size_t)c] = sum.high + sum.low;
         }
+    return OST_SUCCESS;
+}
+
+OstStatus hard_direct_residual(HardDirect *direct, double *relative)
+{
+    double f_norm, norm;
+    OST_TRY(subtract_product(direct, direct->f, direct->u, direct->r));
+    OST_TRY(hard_direct_norm(direct, direct->r, &norm));
+    OST_TRY(hard_direct_norm(direct, direct->f, &f_norm));
+    *relative = norm / f_norm;
     return OST_SUCCESS;
 }
 

@@ -33,6 +33,7 @@ typedef struct HardPoint {
     int poisson;            /* 0 to HARD_POISSONS - 1 */
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
     HardFlaw flaw;
+    OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
 } HardPoint;
 
 typedef enum {
@@ -65,6 +66,7 @@ typedef struct HardTruth {
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
     double plain;         /* error of the factorisation's solution before any refinement */
+    double residual;      /* relative, of the answer in the assembled equations, in twice the precision */
     double rounded; /* root mean square change of u*, relative, when every entry of K changes by 2^-53 of itself with
                        random sign; NAN where `plain` is small enough not to ask */
 } HardTruth;
@@ -90,6 +92,7 @@ typedef struct HardReading {
 typedef struct HardReport {
     OstContext *ctx;
     int quick;
+    OstGlobal size;
     int count;
     HardReading *reading;
     double seconds;
@@ -111,7 +114,8 @@ int hard_column(const HardPoint *point);
 
 /* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
  * occurs. The caller frees them. */
-OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points);
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, int *count,
+                      HardPoint **points);
 
 /* A point's case, made in memory. It holds pointers into itself: it must not move. */
 typedef struct HardCase {
@@ -141,6 +145,9 @@ void hard_cylinder(int shape, double origin[3], double axis[3]);
  * (NULL: there is none) with it. */
 OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
+/* Collective. The same of a body that is too large to be factored: the residual alone. */
+OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
+
 /* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
 OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
 
@@ -148,14 +155,16 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
  * third of the true ones and at most a thousand times them? True also where no true ones are known. */
 int hard_states_its_error(const HardReading *reading);
 
-/* Collective. Solves a scene, and compares and judges the answer as that of a sound body. */
-OstStatus hard_solve_scene(OstScene *scene, HardReading *reading);
+/* Collective. Solves a scene, and compares and judges the answer as that of a sound body; `factored`: with a direct
+ * solution, else by its residual in twice the precision. */
+OstStatus hard_solve_scene(OstScene *scene, int factored, HardReading *reading);
 
 /* Collective. The same for a case file, printed; *passed: was the case refused, or are its errors stated rightly? */
 OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed);
 
-/* Collective. All points, with a progress line. */
-OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **report);
+/* Collective. All points, with a progress line; with a `size`, the sound ones with about so many unknowns, solved
+ * without any factorisation. */
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, HardReport **report);
 void hard_report_destroy(HardReport **report);
 int hard_passed(const HardReport *report);
 

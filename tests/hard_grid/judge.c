@@ -11,6 +11,9 @@
  * more. An error below the last is no error: displacements are rounded. */
 static const double least_stated = 1.0 / 3.0, most_stated = 1e3, no_error = 1e-15;
 
+/* Of residuals in double and in twice the precision. */
+static const double wanted_residual = 1e-8, same_residual = 3.0;
+
 const double hard_hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
@@ -105,12 +108,33 @@ static void judge(HardReading *reading)
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
 
-OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
+/* Without a direct solution: is the residual as small as it is said to be? Rounding of u alone may add its floor. */
+static void judge_residual(HardReading *reading)
+{
+    const double residual = reading->truth.residual;
+    reading->digits = fmin(-log10(reading->stated_error), 16.0);
+    if (reading->status != OST_SUCCESS)
+        reading->outcome = HARD_GIVEN_UP;
+    else if (!(residual <= same_residual * fmax(reading->residual, wanted_residual)))
+        fail(reading, HARD_FALSE, "its residual is not as stated");
+    else
+        reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
+}
+
+OstStatus hard_solve_scene(OstScene *scene, int factored, HardReading *reading)
 {
     OstResult *result = NULL;
+    OstStatus status = OST_SUCCESS;
     solve(scene, &result, reading);
-    OstStatus status = hard_find_truth(scene, result, &reading->truth);
+    if (factored)
+        status = hard_find_truth(scene, result, &reading->truth);
+    else if (result)
+        status = hard_find_residual(scene, result, &reading->truth);
     ost_result_destroy(&result);
+    if (!factored) {
+        judge_residual(reading);
+        return status;
+    }
     if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
         status = OST_SUCCESS;
     if (status == OST_SUCCESS)
@@ -141,7 +165,7 @@ static OstStatus read_point(OstContext *ctx, const HardPoint *point, HardReading
             status = solve(scene, &result, reading);
         judge_flawed(reading);
     } else if (status == OST_SUCCESS)
-        status = hard_solve_scene(scene, reading);
+        status = hard_solve_scene(scene, point->size == 0, reading);
     else
         reading->outcome = HARD_GIVEN_UP;
     ost_result_destroy(&result);
@@ -153,14 +177,14 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);
     return status;
 }
 
-OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, HardReport **out)
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, HardReport **out)
 {
     HardReport *report = NULL;
     HardPoint *points = NULL;
@@ -169,7 +193,8 @@ OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, Ha
     if (status == OST_SUCCESS) {
         report->ctx = ctx;
         report->quick = quick;
-        status = hard_points(ctx, wanted, quick, &report->count, &points);
+        report->size = size;
+        status = hard_points(ctx, wanted, quick, size, &report->count, &points);
     }
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &report->reading, report->count);

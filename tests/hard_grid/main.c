@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The program behind scripts/hard-grid. */
@@ -15,6 +16,7 @@ enum { MOST_REPORTS = 2, MOST_CASES = 100 };
 
 typedef struct Arguments {
     int quick;
+    OstGlobal size;
     int report_count;
     const char *report[MOST_REPORTS];
     int case_count;
@@ -26,6 +28,8 @@ typedef struct Arguments {
 
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "A sample of the points in which every value of every parameter occurs", 0},
+    {"size", 'S', "N", 0,
+     "Bodies of about N unknowns (1000 to 1e8), solved without a factorisation, judged by the residual", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
     {0},
 };
@@ -53,9 +57,15 @@ static error_t want_shape(struct argp_state *state, const char *name, Arguments 
 static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
+    char *end = NULL;
     switch (key) {
     case 'Q':
         arguments->quick = 1;
+        return 0;
+    case 'S':
+        arguments->size = (OstGlobal)strtod(value, &end);
+        if (*end || arguments->size < 1000 || arguments->size > 100000000)
+            argp_error(state, "--size wants a number of unknowns, 1000 to 1e8, and got '%s'", value);
         return 0;
     case 'j':
         if (arguments->report_count == MOST_REPORTS) {
@@ -113,7 +123,7 @@ static OstStatus run(OstContext *ctx, void *input)
     }
     if (arguments->case_count > 0 && arguments->shape_count == 0)
         return OST_SUCCESS;
-    OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, &report));
+    OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, arguments->size, &report));
     arguments->passed &= hard_passed(report);
     const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
     hard_report_destroy(&report);

@@ -59,14 +59,16 @@ typedef struct PointList {
     const int *wanted;
     int stride;
     int seen;
+    OstGlobal size;
 } PointList;
 
-/* Flawed points cost almost nothing: --quick takes them all. */
+/* Flawed points cost almost nothing: --quick takes them all. They are refused whatever their size. */
 static void add(PointList *list, HardPoint point)
 {
-    const int taken = point.flaw != HARD_SOUND || list->seen++ % list->stride == 0;
+    const int taken = point.flaw != HARD_SOUND ? list->size == 0 : list->seen++ % list->stride == 0;
     if (!taken || !list->wanted[point.shape])
         return;
+    point.size = list->size;
     if (list->point)
         list->point[list->count] = point;
     list->count++;
@@ -109,13 +111,15 @@ static void add_all(PointList *list)
         }
 }
 
-OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int *count, HardPoint **points)
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, int *count,
+                      HardPoint **points)
 {
-    PointList list = {.wanted = wanted, .stride = quick ? QUICK_STRIDE : 1};
+    PointList list = {.wanted = wanted, .stride = quick ? QUICK_STRIDE : 1, .size = size};
     add_all(&list);
     *count = list.count;
     OST_TRY(OST_NEW(ctx, points, list.count));
-    list = (PointList){.point = *points, .wanted = wanted, .stride = quick ? QUICK_STRIDE : 1};
+    list.point = *points;
+    list.count = list.seen = 0;
     add_all(&list);
     return OST_SUCCESS;
 }

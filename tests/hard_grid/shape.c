@@ -55,6 +55,20 @@ void hard_cylinder(int shape, double origin[3], double axis[3])
     axis[shapes[shape].cylinder_axis] = 1.0;
 }
 
+/* The divisions for about point->size unknowns, in the proportions of the small body. */
+static void divide(const HardPoint *point, OstLocal divisions[3])
+{
+    const OstLocal *small = shapes[point->shape].divisions[point->order - 1];
+    const int tube = point->shape == 0;
+    double nodes = 1.0, factor = 1.0;
+    for (int d = 0; d < 3; d++) /* a tube closes around */
+        nodes *= point->order * small[d] + (tube && d == 1 ? 0 : 1);
+    if (point->size > 0)
+        factor = cbrt((double)point->size / (3.0 * nodes));
+    for (int d = 0; d < 3; d++)
+        divisions[d] = (OstLocal)fmax(1.0, round(factor * small[d]));
+}
+
 /* The tube of Li and Barbič's Fig. 6, coarser, pulled as theirs. */
 static void place_tube(const OstLocal *n, HardCase *hard)
 {
@@ -81,7 +95,8 @@ static void place_block(const HardShape *shape, const OstLocal *n, HardCase *har
 void hard_place(const HardPoint *point, HardCase *hard)
 {
     const HardShape *shape = &shapes[point->shape];
-    const OstLocal *n = shape->divisions[point->order - 1];
+    OstLocal n[3];
+    divide(point, n);
     hard->load.kind = OST_LOAD_TOTAL_FORCE;
     if (point->shape == 0)
         place_tube(n, hard);
@@ -105,6 +120,8 @@ OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard
     *hard = (HardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
     hard->c.solver = ost_solver_default_options();
     hard->c.solver.accept_attainable = 1;
+    if (point->size > 0)
+        hard->c.solver.factor_memory = 1.0; /* a byte: nothing is factored but multigrid's coarsest level */
     hard->c.constraint_count = hard->c.load_count = 1;
     hard->c.constraints = &hard->constraint;
     hard->c.loads = &hard->load;

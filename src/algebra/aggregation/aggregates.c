@@ -16,6 +16,8 @@ enum {
     BELOW = 4 /* children of a heap's entry: half as many steps as with two, on the same cache lines */
 };
 
+static const double whole = 2.0; /* a part of the graph of so many targets stays one aggregate */
+
 typedef struct PathEnd {
     float distance;
     OstLocal node;
@@ -194,6 +196,24 @@ static OstStatus guess_radius(Grouping *g, double *radius)
     return OST_SUCCESS;
 }
 
+/* Covers a node's whole component from that node, if it is small enough for one aggregate. Where nothing is apart, it
+ * never is: only nodes with an edge of infinite length are asked. */
+static OstStatus cover_component(Grouping *g, OstLocal node)
+{
+    const OstMetricGraph *graph = g->graph;
+    const OstLocal most = (OstLocal)(whole * g->shape->target) + 1;
+    int is_apart = 0;
+    Ball ball;
+    for (OstLocal k = graph->edge_start[node]; k < graph->edge_start[node + 1]; k++)
+        is_apart |= isinf(graph->length[k]) != 0;
+    if (!is_apart)
+        return OST_SUCCESS;
+    OST_TRY(settle_ball(g, node, graph->nodes + 2 * g->count, FLT_MAX, most, NULL, &ball));
+    if (ball.nodes < most)
+        OST_TRY(settle_ball(g, node, graph->nodes + 2 * g->count + 1, FLT_MAX, most, g->covered, &ball));
+    return OST_SUCCESS;
+}
+
 /* Each node becomes a seed unless the ball of an earlier seed covers it. */
 static OstStatus cover(Grouping *g, double radius)
 {
@@ -206,6 +226,8 @@ static OstStatus cover(Grouping *g, double radius)
         if (g->covered[i])
             continue;
         g->seed[g->count] = i;
+        if (ost_metric_graph_is_uneven(g->graph))
+            OST_TRY(cover_component(g, i));
         OST_TRY(settle_ball(g, i, g->count, radius, n, g->covered, &ball));
         g->count++;
     }

@@ -8,6 +8,10 @@
 #include <float.h>
 #include <string.h>
 
+/* Contrasts up to `uneven` leave everything as it is: meshes of uneven size, slivers, and what conjugate gradients and
+ * the smoother manage by themselves. Beyond it, neighbours are apart at a ratio of `apart`. */
+static const double uneven = 1e4, apart = 100.0;
+
 void ost_metric_graph_destroy(OstMetricGraph **graph)
 {
     if (!*graph)
@@ -96,6 +100,38 @@ static void measure_edges(OstMetricGraph *graph)
         }
 }
 
+static double trace(const OstBlockMatrix *matrix, OstLocal row)
+{
+    const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
+    return block[0] + block[4] + block[8];
+}
+
+/* A stiff inclusion in soft surroundings moves as a rigid body, at an energy far below that of its own parts. Its six
+ * modes must lie in the coarse space whole: an aggregate that holds some of it and some of what is around cannot move
+ * without straining it. */
+static OstStatus part_at_jumps(const OstBlockMatrix *matrix, OstMetricGraph *graph)
+{
+    OstContext *ctx = graph->ctx;
+    double jump = 1.0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (OstLocal i = 0; i < graph->nodes; i++)
+            for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+                const double here = trace(matrix, i), there = trace(matrix, graph->neighbour[k]);
+                const double ratio = here > there ? here / there : there / here;
+                if (pass == 0)
+                    jump = fmax(jump, ratio);
+                else if (ratio > apart)
+                    graph->length[k] = INFINITY;
+            }
+        if (pass == 0)
+            OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &jump, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
+        graph->jump = jump > uneven && isfinite(jump) ? jump : 1.0;
+        if (!ost_metric_graph_is_uneven(graph))
+            return OST_SUCCESS;
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus fill_from_matrix(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry,
                                   OstMetricGraph *graph)
 {
@@ -127,6 +163,8 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     if (status == OST_SUCCESS)
         status = fill_from_matrix(matrix, geometry, *graph);
     status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS)
+        status = part_at_jumps(matrix, *graph);
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(graph);
     return status;
@@ -221,6 +259,7 @@ OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregat
     OST_TRY_DONE(OST_RESIZE(ctx, &(*coarse)->neighbour, edges));
     OST_TRY_DONE(OST_RESIZE(ctx, &(*coarse)->length, edges));
     measure_edges(*coarse);
+    (*coarse)->jump = fine->jump;
 done:
     OST_FREE(start);
     OST_FREE(member);

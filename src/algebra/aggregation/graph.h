@@ -14,7 +14,15 @@ typedef struct OstMetricGraph {
     float *length;        /* edge_start[nodes] */
     double *position;     /* nodes × 3 */
     double *metric;       /* nodes × 6 (11 22 33 12 23 31) */
+    double jump;          /* largest ratio of two neighbours' stiffness, over all ranks; 1 where none is uneven */
 } OstMetricGraph;
+
+/* Neighbours are apart where one is more than a hundred times as stiff as the other: the length of their edge is
+ * INFINITY, and no aggregate crosses it. */
+static inline int ost_metric_graph_is_uneven(const OstMetricGraph *graph)
+{
+    return graph->jump > 1.0;
+}
 
 /* A grouping of a graph's nodes. */
 typedef struct OstAggregates {

@@ -41,18 +41,23 @@ OstStatus ost_double_matrix_numbers(const OstDoubleMatrix *matrix, OstGlobal fir
     return ost_agree(matrix->ctx, ost_halo_import(matrix->halo, sizeof **number, *number));
 }
 
-double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row)
+double *ost_double_matrix_find(const OstDoubleMatrix *matrix, OstLocal row, OstLocal column)
 {
     OstLocal low = matrix->row_start[row];
     OstLocal high = matrix->row_start[row + 1] - 1;
     while (low < high) {
         const OstLocal middle = low + (high - low) / 2;
-        if (matrix->column[middle] < row)
+        if (matrix->column[middle] < column)
             low = middle + 1;
         else
             high = middle;
     }
     return matrix->value + (size_t)(matrix->size * matrix->size) * (size_t)low;
+}
+
+double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row)
+{
+    return ost_double_matrix_find(matrix, row, row);
 }
 
 void ost_double_matrix_mend_diagonal(OstDoubleMatrix *matrix)

@@ -39,6 +39,9 @@ OST_UNROLLED const double *ost_double_matrix_block(const OstDoubleMatrix *matrix
     return room;
 }
 
+/* Local. The block of a row and a column that it has; not for a scaled view. */
+double *ost_double_matrix_find(const OstDoubleMatrix *matrix, OstLocal row, OstLocal column);
+
 /* Local. The diagonal block of a row; not for a scaled view. */
 double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row);
 

@@ -15,6 +15,8 @@ void ost_level_matrix_destroy(OstLevelMatrix **matrix)
     OST_FREE((*matrix)->column);
     OST_FREE((*matrix)->diagonal);
     OST_FREE((*matrix)->value);
+    OST_FREE((*matrix)->diagonal_rest);
+    OST_FREE((*matrix)->value_rest);
     ost_exchange_destroy(&(*matrix)->exchange);
     OST_FREE(*matrix);
 }
@@ -89,22 +91,48 @@ OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix 
     return status;
 }
 
+static void round_rest(size_t count, const double *source, float *rest)
+{
+    for (size_t k = 0; k < count; k++)
+        rest[k] = (float)(source[k] - (double)(float)source[k]);
+}
+
+OstStatus ost_level_matrix_keep_rest(const OstDoubleMatrix *source, OstLevelMatrix *matrix)
+{
+    const int size = source->size;
+    const size_t square = (size_t)(size * size);
+    OstLocal upper = 0;
+    double room[9];
+    OST_TRY(OST_NEW(source->ctx, &matrix->diagonal_rest, square * (size_t)source->rows + OST_PADDING));
+    OST_TRY(OST_NEW(source->ctx, &matrix->value_rest, square * (size_t)matrix->row_start[source->rows] + OST_PADDING));
+    for (OstLocal i = 0; i < source->rows; i++)
+        for (OstLocal k = source->row_start[i]; k < source->row_start[i + 1]; k++) {
+            const double *block = source->column[k] < i ? NULL : ost_double_matrix_block(source, size, i, k, room);
+            if (block && source->column[k] == i)
+                round_rest(square, block, matrix->diagonal_rest + square * (size_t)i);
+            else if (block)
+                round_rest(square, block, matrix->value_rest + square * (size_t)upper++);
+        }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_level_vector_create(OstContext *ctx, int size, size_t columns, double **vector)
 {
     return OST_NEW(ctx, vector, (size_t)size * columns + OST_PADDING);
 }
 
 /* 3 × 3 blocks. Each block right of the diagonal acts on its row and, transposed, on the row of its column. */
-OST_KERNEL static void add3(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+OST_KERNEL static void add3(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
+                            const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 3 * (size_t)i;
-        const float *a = matrix->diagonal + 9 * (size_t)i;
+        const float *a = diagonal + 9 * (size_t)i;
         const double x0 = scale * own[0], x1 = scale * own[1], x2 = scale * own[2];
         OstDouble4 v = OST_LOAD4(own);
         OstDouble4 s0 = OST_LOAD_FLOAT4(a) * v, s1 = OST_LOAD_FLOAT4(a + 3) * v, s2 = OST_LOAD_FLOAT4(a + 6) * v;
         OstLocal k = matrix->row_start[i];
-        a = matrix->value + 9 * (size_t)k;
+        a = value + 9 * (size_t)k;
         for (; k < matrix->own_end[i]; k++, a += 9) {
             const size_t j = 3 * (size_t)matrix->column[k];
             const OstDouble4 a0 = OST_LOAD_FLOAT4(a), a1 = OST_LOAD_FLOAT4(a + 3), a2 = OST_LOAD_FLOAT4(a + 6);
@@ -128,16 +156,17 @@ OST_KERNEL static void add3(const OstLevelMatrix *matrix, double scale, const do
 }
 
 /* The same with 6 × 6 blocks. */
-OST_KERNEL static void add6(const OstLevelMatrix *matrix, double scale, const double *restrict x, double *restrict y)
+OST_KERNEL static void add6(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
+                            const double *restrict x, double *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 6 * (size_t)i;
-        const float *a = matrix->diagonal + 36 * (size_t)i;
+        const float *a = diagonal + 36 * (size_t)i;
         OstDouble8 sum[6], v = OST_LOAD8(own);
         OstLocal k = matrix->row_start[i];
         for (int r = 0; r < 6; r++)
             sum[r] = OST_LOAD_FLOAT8(a + 6 * r) * v;
-        a = matrix->value + 36 * (size_t)k;
+        a = value + 36 * (size_t)k;
         for (; k < matrix->own_end[i]; k++, a += 36) {
             const size_t j = 6 * (size_t)matrix->column[k];
             OstDouble8 mirrored = {0};
@@ -159,12 +188,20 @@ OST_KERNEL static void add6(const OstLevelMatrix *matrix, double scale, const do
     }
 }
 
+static void add_part(const OstLevelMatrix *matrix, const float *diagonal, const float *value, double scale,
+                     const double *x, double *y)
+{
+    ost_ledger_multiplied(matrix->ctx, (double)matrix->nonzeros);
+    if (matrix->size == 3)
+        add3(matrix, diagonal, value, scale, x, y);
+    else
+        add6(matrix, diagonal, value, scale, x, y);
+}
+
 void ost_level_matrix_add(const OstLevelMatrix *matrix, double scale, double *x, double *y)
 {
     ost_exchange_import(matrix->exchange, x);
-    ost_ledger_multiplied(matrix->ctx, (double)matrix->nonzeros);
-    if (matrix->size == 3)
-        add3(matrix, scale, x, y);
-    else
-        add6(matrix, scale, x, y);
+    add_part(matrix, matrix->diagonal, matrix->value, scale, x, y);
+    if (matrix->value_rest)
+        add_part(matrix, matrix->diagonal_rest, matrix->value_rest, scale, x, y);
 }

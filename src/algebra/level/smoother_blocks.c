@@ -12,6 +12,8 @@
 
 enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK, MOST_STRIPS = 3 };
 
+static const double softening = 1e-6; /* relative, of the diagonal */
+
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
 {
     if (!*blocks)
@@ -125,7 +127,14 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
     }
 }
 
-static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *blocks)
+/* A block that holds a whole stiff inclusion is nearly singular, and its inverse too large for single precision. */
+static void soften(int side, double *dense)
+{
+    for (int i = 0; i < side; i++)
+        dense[(side + 1) * i] *= 1.0 + softening;
+}
+
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, int uneven, OstSmootherBlocks *blocks)
 {
     OstLocal *of_node = NULL;
     double *dense = NULL;
@@ -142,6 +151,8 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *bl
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
         gather_block(matrix, blocks, b, of_node, place, dense);
+        if (uneven)
+            soften(side, dense);
         if (invert_dense(side, dense, inverse) != 0) {
             gather_block(matrix, blocks, b, of_node, place, dense);
             invert_nodes(blocks->size, side, dense, inverse);
@@ -169,7 +180,7 @@ OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetr
     (*blocks)->ctx = matrix->ctx;
     (*blocks)->size = matrix->size;
     OST_TRY_DONE(list_blocks(aggregates, matrix->rows, *blocks));
-    OST_TRY_DONE(fill_blocks(matrix, *blocks));
+    OST_TRY_DONE(fill_blocks(matrix, ost_metric_graph_is_uneven(graph), *blocks));
 done:
     ost_aggregates_destroy(&aggregates);
     if (status != OST_SUCCESS)

@@ -236,6 +236,7 @@ static OstStatus replace_graph_and_modes(OstLooseLevel *level, Group *g)
     OST_FREE(*level->modes);
     *level->modes = modes;
     modes = NULL;
+    graph->jump = (*level->graph)->jump; /* of all ranks */
     ost_metric_graph_destroy(level->graph);
     *level->graph = graph;
     graph = NULL;

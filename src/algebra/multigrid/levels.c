@@ -3,6 +3,7 @@
 
 #include "algebra/aggregation/aggregates.h"
 #include "algebra/level/galerkin.h"
+#include "algebra/matrix/vector.h"
 #include "algebra/multigrid/gathered_level.h"
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "core/error.h"
@@ -14,6 +15,10 @@
 
 /* A level is dropped if it has more than this fraction of the unknowns of the finer one. */
 static const double least_gain = 0.8;
+
+/* Coarse nodes are apart where the strength of their connection is below the first, or this over the root of the
+ * largest jump of stiffness. */
+static const double weakest = 0.03, weak_jump = 10.0;
 
 /* Up to a ratio of 1000 between Young's moduli (shortening, its root, up to 32) the options are used as they are.
  * Beyond it the stiff direction is nearly inextensible: the six modes of an aggregate represent that over few nodes
@@ -47,12 +52,34 @@ static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *op
     return OST_SUCCESS;
 }
 
+/* A coarse node's strength of connection is |A_ij| / sqrt(|A_ii| |A_jj|), Frobenius norms of blocks. Of two aggregates
+ * with a jump of stiffness between them it is about one over its root; once a whole inclusion is one aggregate, its
+ * block has the softness of what is around it, and the connection is strong. */
+static void part_weak(const OstDoubleMatrix *matrix, OstMetricGraph *graph)
+{
+    const double least = fmin(weakest, weak_jump / sqrt(graph->jump));
+    const int entries = matrix->size * matrix->size;
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+            const OstLocal j = graph->neighbour[k];
+            const double *between = ost_double_matrix_find(matrix, i, j);
+            const double *own = ost_double_matrix_diagonal(matrix, i), *other = ost_double_matrix_diagonal(matrix, j);
+            const double square = ost_dot((size_t)entries, between, between);
+            const double own_square = ost_dot((size_t)entries, own, own);
+            const double other_square = ost_dot((size_t)entries, other, other);
+            if (square < least * least * sqrt(own_square * other_square))
+                graph->length[k] = INFINITY;
+        }
+}
+
 /* Aggregates the coarsest level so far; also the graph of the next level and its unknowns over all ranks. */
 static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlobal *unknowns)
 {
     const int l = work->levels->count - 1;
     const OstSolverOptions *options = &work->options;
-    const OstMetricGraph *graph = work->levels->graph[l];
+    OstMetricGraph *graph = work->levels->graph[l];
+    if (l > 0 && ost_metric_graph_is_uneven(graph))
+        part_weak(work->levels->coarsest, graph);
     /* Two nodes of 3 unknowns cannot represent the six rigid modes; a coarse node has all six. */
     const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
                                      .minimum = l == 0 ? 3 : 1,
@@ -63,6 +90,15 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
     return ost_sum_numbers(work->ctx, 1, unknowns);
+}
+
+/* The cycle's matrix of level l, which is the coarsest so far. */
+static OstStatus create_matrix(OstLevels *levels, int l)
+{
+    OST_TRY(ost_level_matrix_create(levels->coarsest, &levels->matrix[l]));
+    if (!ost_metric_graph_is_uneven(levels->graph[l]))
+        return OST_SUCCESS;
+    return ost_agree(levels->coarsest->ctx, ost_level_matrix_keep_rest(levels->coarsest, levels->matrix[l]));
 }
 
 /* A level that is solved by dense factors goes to one rank, another one to as many as have enough to do. One that is
@@ -108,8 +144,7 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
     OST_TRY_DONE(gather(work, first, unknowns, &levels->coarsest));
-    coarse = levels->coarsest;
-    OST_TRY_DONE(ost_level_matrix_create(coarse, &levels->matrix[l + 1]));
+    OST_TRY_DONE(create_matrix(levels, l + 1));
     levels->count++;
 done:
     ost_tentative_destroy(&tentative);
@@ -153,7 +188,7 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
     *finest_graph = NULL;
     OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &levels->coarsest));
     if (status == OST_SUCCESS)
-        status = ost_level_matrix_create(levels->coarsest, &levels->matrix[0]);
+        status = create_matrix(levels, 0);
     if (status == OST_SUCCESS)
         status = adapt_options(levels->graph[0], &work.options);
     if (status == OST_SUCCESS)
