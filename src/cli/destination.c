@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/destination.h"
 
-#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
@@ -9,6 +8,7 @@
 #include "formats/vtu/vtu.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
+#include "output/probe_files.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -191,6 +191,16 @@ OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *path
     return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_files(c, count, paths) : OST_SUCCESS);
 }
 
+OstStatus ost_check_probe_outputs(const OstCase *c, const char *fields, const char *json)
+{
+    char name[OST_LONGEST_PATH];
+    for (int p = 0; p < c->probe_count; p++) {
+        ost_probe_file_name(fields, &c->probes[p], sizeof name, name);
+        OST_TRY(ost_check_outputs(c, 2, (const char *const[]){name, json}));
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_check_case_outputs(const OstCase *c, const char *output)
 {
     char path[OST_LONGEST_PATH], table[OST_LONGEST_PATH];
@@ -200,7 +210,7 @@ OstStatus ost_check_case_outputs(const OstCase *c, const char *output)
     for (int k = 0; k < c->load_case_count; k++) {
         ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
         OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
-        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
+        OST_TRY(ost_check_probe_outputs(c, path, NULL));
     }
     return OST_SUCCESS;
 }

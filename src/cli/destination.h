@@ -16,6 +16,10 @@ OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_L
  * another. Raises naming what is in the way. */
 OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *paths);
 
+/* Collective. Can the tables of the case's probes be written beside the file `fields`, and the JSON (NULL: none)
+ * elsewhere? Raises as ost_check_outputs does. */
+OstStatus ost_check_probe_outputs(const OstCase *c, const char *fields, const char *json);
+
 /* Collective. Can the files of all load cases of the case be written beside `output`? Raises likewise. */
 OstStatus ost_check_case_outputs(const OstCase *c, const char *output);
 

@@ -178,7 +178,7 @@ static OstStatus check_files(const Run *run)
         return ost_check_outputs(run->c, 1, &json);
     }
     OST_TRY(ost_check_outputs(run->c, 2, (const char *const[]){run->output, json}));
-    return ost_cli_check_probe_outputs(run->c, run->output, json);
+    return ost_check_probe_outputs(run->c, run->output, json);
 }
 
 /* For those who wait. */

@@ -11,16 +11,6 @@
 
 #include <stdio.h>
 
-OstStatus ost_cli_check_probe_outputs(const OstCase *c, const char *fields, const char *json)
-{
-    char name[OST_LONGEST_PATH];
-    for (int p = 0; p < c->probe_count; p++) {
-        ost_probe_file_name(fields, &c->probes[p], sizeof name, name);
-        OST_TRY(ost_check_outputs(c, 2, (const char *const[]){name, json}));
-    }
-    return OST_SUCCESS;
-}
-
 OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output)
 {
     char names[OST_PATH_FILES][OST_LONGEST_PATH], step[OST_LONGEST_PATH];
@@ -33,7 +23,7 @@ OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output)
     for (int i = 1; i <= c->path_steps; i++) {
         ost_path_step_name(output, i, sizeof step, step);
         OST_TRY(ost_check_outputs(c, 1, (const char *const[]){step}));
-        OST_TRY(ost_cli_check_probe_outputs(c, step, NULL));
+        OST_TRY(ost_check_probe_outputs(c, step, NULL));
     }
     return OST_SUCCESS;
 }

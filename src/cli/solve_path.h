@@ -5,10 +5,6 @@
 #include "orthostat/path.h"
 #include "problem/scene_data.h"
 
-/* Collective. Can the tables of the case's probes be written beside the file `fields`, and the JSON (NULL: none)
- * elsewhere? Raises as ost_check_outputs does. */
-OstStatus ost_cli_check_probe_outputs(const OstCase *c, const char *fields, const char *json);
-
 /* Collective. Can all files of the case's path be written beside `output`? Raises as ost_check_outputs does. */
 OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output);
 
