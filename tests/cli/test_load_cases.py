@@ -105,6 +105,16 @@ for arguments, words in ((("effects", "beam.yaml"), "there are 4 load cases, and
     refused = run(*arguments, folder=folder)
     check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")
 
+# --- files of another form ---
+other = run("solve", "beam.yaml", "-q", "-o", "xml.pvtu", folder=folder)
+check(other.exit_code == 0, other.errors)
+with open(os.path.join(folder, "xml.pvd")) as stream:
+    listed = stream.read()
+for number, name in enumerate(NAMES, 1):
+    check(f'timestep="{number}" file="xml_{name}.pvtu"' in listed and os.path.exists(os.path.join(folder, f"xml_{name}.pvtu")),
+          listed)
+check(os.path.exists(os.path.join(folder, "xml_cases.csv")), os.listdir(folder))
+
 # --- settings, and standard input ---
 changed = run("solve", "beam.yaml", "--set", "cases.weight.loads.0.value.z=-0.02", "--set", "large_rotation=off",
               "--case", "weight", "--json", "-", folder=folder)
