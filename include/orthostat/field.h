@@ -35,6 +35,16 @@ void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
  * OST_EFFECT_MEAN_DILATATION. */
 OstStatus ost_field_mean_dilatation(OstMaterialField *field, double nu_limit, int *regions);
 
+/* Local. The mixed form, which holds for any compressibility, nu = 1/2 of the family and of isotropy included: C = rest
+ * + m m' / looseness, with m = E^(1/2) w the stress of the stiff mode (see above), rest the stiffness of a material
+ * whose nu is 0.3 in that mode, and looseness = e / (1 - 2.5 e). The stress is rest strain + m p, with an unknown of
+ * its own, p, continuous in each region and linear in each tet: m'strain = looseness p. (Taylor and Hood's pair: stable
+ * whatever the mesh, where one pressure a tet is not.) Regions are taken as by ost_field_mean_dilatation, and of
+ * quadratic tets alone; linear tets see the rest, as the coarse space of quadratic ones. Returns in `regions` how many
+ * were taken. Unless a region is
+ * incompressible, the field keeps what the mean dilatation needs beside it, for Newton's method. OST_EFFECT_MIXED. */
+OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions);
+
 /* Local. Eigenstrains: what the material would strain by if nothing held it, as by swelling, heat or the contraction of
  * a muscle. Stress is C (strain - t e0), t the load factor (orthostat/problem.h). Six numbers, 11 22 33 12 23 31 with
  * engineering shear, along the material axes: of each region (6 × regions, or NULL), and of each of `tet_count` tets,

@@ -36,8 +36,10 @@ typedef struct OstMaterial {
     double density; /* mass per volume; 0 if the scene has no use for it */
     int isotropic;  /* all nine constants those of an isotropic body: axes do not matter. Set it to 0 to keep the axes
                        for  an eigenstrain (ost_field_set_eigenstrain) */
+    int incompressible; /* nu = 1/2 of the family or of isotropy: there is no C, and only a mixed form (ost_field_mixed)
+                           can use the material */
     OstOrthotropic constants;
-    double stiffness[36];  /* C in material axes: 3×3 normal block, diagonal shear block */
+    double stiffness[36];  /* C in material axes: 3×3 normal block (NAN if incompressible), diagonal shear block */
     double compliance[36]; /* S = C^-1, eq. 4 */
     double condition;      /* largest over smallest eigenvalue of the normalised normal block */
     OstStrength strength;  /* 0 where nobody sets it */

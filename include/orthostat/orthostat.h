@@ -25,6 +25,7 @@
 #include "orthostat/field.h"
 #include "orthostat/formulation.h"
 #include "orthostat/ledger.h"
+#include "orthostat/load_cases.h"
 #include "orthostat/material.h"
 #include "orthostat/mesh.h"
 #include "orthostat/mesh_file.h"

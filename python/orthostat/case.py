@@ -3,12 +3,13 @@
 import json
 import math
 import os
+from functools import partial
 
 import numpy
 
 from ._library import ffi, lib, struct, text_of
 from .context import context_of
-from .errors import NotConverged
+from .errors import NotConverged, OrthostatError
 from .mesh import Mesh
 from .problem import Analysis, Path, Problem, axes_of, take_result
 from .result import Result
@@ -35,19 +36,30 @@ class Case:
 
     source: a path; a text (a str with a line break or ": "); or a dict, in which arrays of numpy may stand for lists,
     and None for the case's word `free`.
+    settings: of a file, {key: value}, changed as by the program's --set KEY=VALUE.
     name: what messages call a text or a dict; files that it names are relative to the folder of this name.
     """
 
-    def __init__(self, source, name="case", comm=None):
+    def __init__(self, source, name="case", comm=None, settings=None):
         self.context = context_of(comm)
         box = self.context.box("OstCase")
         source = _text_of(source) if isinstance(source, dict) else source
         if isinstance(source, str) and ("\n" in source or ": " in source):
+            if settings:
+                raise ValueError("settings are for files; a text or a dict is changed before it is handed over")
             status = lib.ost_case_parse(self.context.pointer, os.fspath(name).encode(), source.encode(), box)
         else:
-            status = lib.ost_case_read(self.context.pointer, os.fspath(source).encode(), box)
+            texts = [ffi.new("char[]", f"{key}={value}".encode()) for key, value in (settings or {}).items()]
+            status = lib.ost_case_read_with(self.context.pointer, os.fspath(source).encode(), len(texts), texts, box)
         self.context.check(status)
         self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_case_destroy)
+
+    @classmethod
+    def borrowed(cls, context, pointer, owner):
+        """A load case, which `owner` keeps."""
+        case = cls.__new__(cls)
+        case.context, case.pointer, case.owner = context, pointer, owner
+        return case
 
     title = property(lambda self: text_of(lib.ost_case_title(self.pointer)))
     output_file = property(lambda self: text_of(lib.ost_case_output_file(self.pointer)), doc="None: the case names none")
@@ -57,13 +69,29 @@ class Case:
     def __repr__(self):
         return f"<orthostat.Case: {self.title}>"
 
+    @property
+    def load_cases(self):
+        """{name: Case}: the load cases (`cases`), each with what is stated for all."""
+        return {text_of(lib.ost_case_load_case_name(self.pointer, i)):
+                Case.borrowed(self.context, lib.ost_case_load_case(self.pointer, i), self.owner)
+                for i in range(lib.ost_case_load_case_count(self.pointer))}
+
     def scene(self, mesh=None):
         """Collective. Mesh, materials and axes made; `mesh`: MeshArrays in place of the case's own."""
         return Scene(self, mesh)
 
     def solve(self, mesh=None, max_seconds=math.inf, max_bytes=math.inf):
         """Collective. Solves as `orthostat solve` does: where the case asks for an accuracy the mesh is refined until it
-        is met or a limit is in the way (NotConverged, with the result); a path is gone to its end."""
+        is met or a limit is in the way (NotConverged, with the result); a path is gone to its end. Where there are load
+        cases the answer is {name: Result}; one that fails keeps no other from being solved, and is raised at the end,
+        with those of the others as `error.result`."""
+        load_cases = self.load_cases
+        if load_cases and self.asks_error and mesh is None:
+            return _solve_all((name, partial(case.solve, None, max_seconds, max_bytes)) for name, case in load_cases.items())
+        if load_cases:
+            cases = self.scene(mesh).load_cases()
+            found = _solve_all((cases.next_name, partial(next, cases)) for _ in load_cases)
+            return {name: found[name] for name in load_cases}
         if self.asks_error and not self.has_path and mesh is None:
             return _adapt(self, max_seconds, max_bytes)
         return self.scene(mesh).solve()
@@ -117,11 +145,71 @@ class Scene:
         """Collective. For many loads: what does not depend on the load is made once."""
         return Analysis(self.problem())
 
+    def load_cases(self):
+        """Collective. The case's load cases, to be solved one after another."""
+        return LoadCases(self)
+
     def path(self):
         """Collective. The case's path, step by step."""
         box = self.context.box("OstPath")
         self.context.check(lib.ost_scene_path(self.pointer, box))
         return Path(box[0], self.mesh, self)
+
+
+class LoadCases:
+    """The load cases of a scene: `for result in cases` solves one after another; next_name names the next. Those
+    with the same supports share stiffness and hierarchy, and follow each other."""
+
+    def __init__(self, scene):
+        self.scene, self.context = scene, scene.context
+        box = self.context.box("OstLoadCases")
+        self.context.check(lib.ost_load_cases_create(scene.pointer, box))
+        self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_load_cases_destroy, scene)
+        self.cases = list(scene.case.load_cases.items())
+        for number in range(len(self)):
+            self.context.check(lib.ost_watch_check(lib.ost_load_cases_scene(self.pointer, number)))
+
+    def __len__(self):
+        return lib.ost_load_cases_count(self.pointer)
+
+    stiffnesses = property(lambda self: lib.ost_load_cases_stiffnesses(self.pointer), doc="how many are made in all")
+
+    @property
+    def next_name(self):
+        return self.cases[lib.ost_load_cases_next(self.pointer)][0]
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        """Collective. Solves the next one; after a failure one may go on."""
+        if lib.ost_load_cases_left(self.pointer) == 0:
+            raise StopIteration
+        number = lib.ost_load_cases_next(self.pointer)
+        case = self.cases[number][1]
+        scene = Scene.borrowed(case, ffi.cast("OstScene *", lib.ost_load_cases_scene(self.pointer, number)), self.owner)
+        box = self.context.box("OstResult")
+        status = lib.ost_load_cases_solve(self.pointer, lib.ost_case_output_fields(case.pointer), box)
+        try:
+            return take_result(self.context, status, box, scene.mesh, scene, self)
+        except OrthostatError as error:
+            error.args = (f"load case '{self.cases[number][0]}': {error.args[0]}",)
+            raise
+
+
+def _solve_all(solves):
+    """{name: answer} of pairs (name, function): all are tried, and the first failure is raised then, with the answers of
+    the others as its result."""
+    results, failure = {}, None
+    for name, solve in solves:
+        try:
+            results[name] = solve()
+        except OrthostatError as error:
+            failure = failure or error
+    if failure:
+        failure.result = results
+        raise failure
+    return results
 
 
 def _adapt(case, seconds, size):

@@ -11,13 +11,17 @@
  * edges of linear tets; cubic ones of the edges and faces of quadratic tets). A few conjugate gradient steps find e,
  * with the solver's preconditioner on V and 3×3 diagonal blocks on W. So the error is seen that the whole body makes
  * (a block of linear tets in bending is far too stiff everywhere), and material axes and jumps as they are (R. E. Bank
- * and R. K. Smith, A posteriori error estimates based on hierarchical bases, 1993). */
+ * and R. K. Smith, A posteriori error estimates based on hierarchical bases, 1993).
+ *
+ * Of a mixed form the problem's field has the pressure of u (ost_problem_at_pressure), A is the stiffness without the
+ * stiff mode, and e the displacement whose forces would balance what u and p leave: its energy is that of the error of
+ * both (R. E. Bank and B. D. Welfert, A posteriori error estimates for the Stokes problem, 1991). */
 typedef struct OstEstimate OstEstimate;
 
 /* Collective. What is kept between calls for one problem. */
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate);
 
-/* Collective. The problem has got another loading (problem/load_case.h). */
+/* Collective. The problem has got another loading (problem/cases/load_case.h). */
 OstStatus ost_estimate_take_loading(OstEstimate *estimate);
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's

@@ -20,6 +20,7 @@ typedef struct Cells {
     int nodes, functions;
     const OstQuadrature *rule;
     int points; /* at which C is needed */
+    int state;  /* forces of a state, which may have a pressure; else those of a small displacement */
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
     const double *turned_by; /* as the operator's; then its displacements */
@@ -35,6 +36,7 @@ static void clear_cells(const OstOperator *operator, int exactly, double eigen_s
     cells->functions = ost_complement_per_tet(operator->complement);
     cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
     cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
+    cells->state = exactly;
     ost_elasticity_clear(&cells->batch.elasticity);
     cells->batch.elasticity.eigen_share = eigen_share;
 }
@@ -149,6 +151,12 @@ static void find_stress(const Cells *cells, OstFormulation formulation, int q, c
     ost_simd_stress(elasticity->c[at], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
         stress[p] += *mean * elasticity->m[at][p];
+    if (elasticity->mixed && cells->state) {
+        OstSimd pressure;
+        ost_pressure_at(elasticity, cells->rule->point[q].at, &pressure);
+        for (int p = 0; p < 6; p++)
+            stress[p] += pressure * elasticity->m[at][p];
+    }
     for (int n = 0; n < 9 && formulation == OST_FORMULATION_LINEAR; n++)
         piola[n] = stress[place[n]];
     if (formulation != OST_FORMULATION_LINEAR)

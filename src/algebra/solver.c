@@ -24,7 +24,8 @@ struct OstSolver {
     OstSolverGeometry geometry;
     OstSolverOptions options; /* the user's */
     OstSolverAim aim;
-    int aged; /* have the matrix's values changed since the current strategy was built? */
+    const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
+    int aged;                /* have the matrix's values changed since the current strategy was built? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -96,9 +97,23 @@ static void current_system(const OstSolver *solver, OstCgSystem *system, OstPrec
         ost_direct_system(solver->direct, system, preconditioner);
 }
 
+static OstStatus improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    OstPreconditioner preconditioner;
+    OstCgSystem system;
+    current_system(solver, &system, &preconditioner);
+    if (solver->metric)
+        ost_metric_report(solver->metric, report);
+    snprintf(report->engine, sizeof report->engine, "Bramble-Pasciak CG, %s",
+             solver->direct ? "MUMPS factors" : "ML cycle");
+    return ost_saddle_solve(&system, &preconditioner, solver->saddle, f, u, goal, report);
+}
+
 /* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
 static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
+    if (solver->saddle)
+        return improve_mixed(solver, f, u, goal, report);
     if (solver->metric)
         return ost_metric_improve(solver->metric, f, u, goal, report);
     if (solver->direct)
@@ -406,6 +421,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
             solver->ctx, OST_NOT_CONVERGED,
             "no strategy of this solver is left: an earlier solve tried all; update or create the solver again");
     OST_TRY(ost_goal_set(solver->matrix, f, &solver->plan.options, &goal));
+    if (solver->saddle)
+        OST_TRY(ost_saddle_goal(solver->matrix, solver->saddle, f, solver->plan.options.relative_residual, &goal));
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;
@@ -420,7 +437,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
         status = ost_goal_verdict(&goal);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
-    if (goal.crude)
+    if (goal.crude || solver->saddle)
         return OST_SUCCESS;
     return measure_residual(solver, f, u, goal.compensated, &report->relative_residual);
 }
@@ -449,19 +466,67 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     return status;
 }
 
-OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+/* What is known before a solve. */
+static void open_report(const OstSolver *solver, OstSolveReport *report)
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
     report->nonzeros = solver->nonzeros;
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
+}
+
+OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    open_report(solver, report);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     const double start = ost_seconds();
     const double setup = solver->setup_seconds;
     const OstStatus status = solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+/* f and u have been divided by `size`: so are g and p. */
+static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                             OstSolveReport *report)
+{
+    const size_t n = 3 * (size_t)solver->matrix->rows, m = (size_t)saddle->coupling->rows;
+    double *scaled = NULL, size;
+    OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n + m)));
+    const ScaledStop none = {.size = size};
+    const OstSaddle within = {saddle->coupling, scaled + n, saddle->p};
+    for (size_t i = 0; i < n; i++) {
+        scaled[i] = f[i] / size;
+        u[i] = solver->aim.goes_on ? u[i] / size : 0.0;
+    }
+    for (size_t i = 0; i < m; i++) {
+        scaled[n + i] = saddle->g[i] / size;
+        saddle->p[i] = solver->aim.goes_on ? saddle->p[i] / size : 0.0;
+    }
+    solver->saddle = &within;
+    const OstStatus status = solve_scaled(solver, scaled, u, &none, report);
+    solver->saddle = NULL;
+    for (size_t i = 0; i < n; i++)
+        u[i] *= size;
+    for (size_t i = 0; i < m; i++)
+        saddle->p[i] *= size;
+    OST_FREE(scaled);
+    return status;
+}
+
+OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                                 OstSolveReport *report)
+{
+    open_report(solver, report);
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    const double start = ost_seconds(), setup = solver->setup_seconds;
+    const OstStatus status = solve_mixed(solver, saddle, f, u, report);
+    report->setup_seconds = solver->setup_seconds;
+    report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
 }

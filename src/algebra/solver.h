@@ -6,6 +6,7 @@
 #include "algebra/krylov/gmres.h"
 #include "algebra/krylov/goal.h"
 #include "algebra/matrix/geometry.h"
+#include "algebra/saddle/saddle.h"
 #include "orthostat/solver.h"
 
 typedef struct OstSolver OstSolver;
@@ -57,6 +58,12 @@ void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
  * smaller residual (report.attainable_residual), where another strategy cannot help. u and the report are filled either
  * way. */
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report);
+
+/* Collective. Solves a mixed form, of which A is the first block, from u = 0 and p = 0 (but see OstSolverAim.goes_on),
+ * as ost_solver_solve: the same strategies precondition A, and are left for the same reasons. Norms are those of
+ * ost_saddle_goal, in the report too. There is no stop by the discretisation error. */
+OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                                 OstSolveReport *report);
 
 /* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the
  * solver was last built with, of whatever matrix that was: A may be indefinite, S unsymmetric. The report has method,

@@ -228,6 +228,7 @@ struct OstCase {
     int refinement; /* uniform refinements; each splits a tet into eight */
     int order;      /* of the elements: 1 or 2; 0: as the mesh has it */
     int straighten; /* curved tets that fold over are made straight */
+    int unmixed;    /* no mixed form, also where it is useful */
     int material_count;
     OstCaseMaterial *materials;
     int free_body; /* the word free_body in place of constraints: loads balance each other */

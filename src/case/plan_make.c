@@ -4,6 +4,7 @@
 #include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "fields/output_field.h"
+#include "orthostat/field.h"
 
 #include <math.h>
 #include <string.h>
@@ -80,8 +81,6 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
     plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
-    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
-    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
     count_springs(c, &facts);
@@ -96,6 +95,11 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.watches = c->watch_count;
     facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
     count_recovered(c, &facts);
+    facts.mixed = !c->unmixed;
+    if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
+        plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);

@@ -11,13 +11,16 @@
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"false", "true"};
-    OstYamlKey keys[] = {{.name = "order"}, {.name = "straighten"}};
+    static const char *const forms[] = {"auto", "off"};
+    OstYamlKey keys[] = {{.name = "order"}, {.name = "straighten"}, {.name = "mixed"}};
     int64_t order = 0;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[0].value)
         OST_TRY(ost_yaml_integer(yaml, keys[0].value, 1, 2, &order));
     if (keys[1].value)
         OST_TRY(ost_yaml_word(yaml, keys[1].value, "value", words, 2, &c->straighten));
+    if (keys[2].value)
+        OST_TRY(ost_yaml_word(yaml, keys[2].value, "answer", forms, 2, &c->unmixed));
     c->order = (int)order;
     return OST_SUCCESS;
 }

@@ -122,7 +122,8 @@ static OstStatus read_energy(const OstYaml *yaml, const OstYamlNode *node, OstVe
 
 static OstStatus read_norm(const OstYaml *yaml, const OstYamlNode *node, OstVerifyQuantity *quantity)
 {
-    static const char *const words[] = {[OST_NORM_DISPLACEMENT] = "displacement", [OST_NORM_ENERGY] = "energy"};
+    static const char *const words[] = {
+        [OST_NORM_DISPLACEMENT] = "displacement", [OST_NORM_ENERGY] = "energy", [OST_NORM_PRESSURE] = "pressure"};
     int word;
     OST_TRY(ost_yaml_word(yaml, node, "norm", words, OST_COUNT_OF(words), &word));
     quantity->norm = (OstFieldNorm)word;

@@ -30,7 +30,12 @@ typedef enum {
     OST_STRESS_HOOP
 } OstStressComponent;
 
-typedef enum { OST_NORM_DISPLACEMENT, OST_NORM_ENERGY } OstFieldNorm; /* L2 of u; energy norm */
+typedef enum {
+    OST_NORM_DISPLACEMENT,
+    OST_NORM_ENERGY,
+    OST_NORM_PRESSURE
+} OstFieldNorm; /* L2 of u; energy norm; L2 of
+                   a mixed form's pressure */
 
 #define OST_RATE_LOCKED 0.0
 

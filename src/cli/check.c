@@ -2,14 +2,13 @@
 #include "case/select.h"
 #include "cli/command.h"
 #include "cli/destination.h"
-#include "cli/solve_cases.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "output/path_files.h"
-#include "problem/load_case.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <stdio.h>
@@ -135,7 +134,7 @@ static void check_output(const OstCase *c, const Findings *findings)
 {
     const OstStatus status = c->path_steps > 0 ? ost_cli_check_path_outputs(c, findings->output)
                              : c->load_case_count > 0
-                                 ? ost_cli_check_case_outputs(c, findings->output)
+                                 ? ost_check_case_outputs(c, findings->output)
                                  : ost_check_outputs(c, 1, (const char *const[]){findings->output});
     if (status != OST_SUCCESS)
         ost_warn(c->ctx, "%s: solve will refuse its output from here: %s", c->path, ost_error_text(c->ctx));

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/destination.h"
 
+#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
 #include "formats/serial/formats.h"
 #include "formats/vtu/vtu.h"
+#include "output/load_case_files.h"
+#include "output/path_files.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -186,4 +189,18 @@ static OstStatus check_files(const OstCase *c, int count, const char *const *pat
 OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *paths)
 {
     return ost_agree(c->ctx, ost_rank(c->ctx) == 0 ? check_files(c, count, paths) : OST_SUCCESS);
+}
+
+OstStatus ost_check_case_outputs(const OstCase *c, const char *output)
+{
+    char path[OST_LONGEST_PATH], table[OST_LONGEST_PATH];
+    ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
+    ost_load_case_table_name(output, sizeof table, table);
+    OST_TRY(ost_check_outputs(c, 2, (const char *const[]){path, table}));
+    for (int k = 0; k < c->load_case_count; k++) {
+        ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
+        OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
+        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
+    }
+    return OST_SUCCESS;
 }

@@ -16,6 +16,9 @@ OstStatus ost_choose_output(const OstCase *c, const char *asked, char path[OST_L
  * another. Raises naming what is in the way. */
 OstStatus ost_check_outputs(const OstCase *c, int count, const char *const *paths);
 
+/* Collective. Can the files of all load cases of the case be written beside `output`? Raises likewise. */
+OstStatus ost_check_case_outputs(const OstCase *c, const char *output);
+
 /* Local. Does "-", standard output, stand for the path? NULL does not. */
 int ost_cli_is_stdout(const char *path);
 

@@ -5,6 +5,7 @@
 #include "core/json_file.h"
 #include "core/small.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,7 +32,10 @@ static OstStatus fill(OstContext *ctx, const OstMaterial *material, const double
         report->reverse_ratio[i] =
             constants->poissons_ratio[i] * constants->youngs_modulus[(i + 1) % 3] / constants->youngs_modulus[i];
     OST_TRY(ost_orthotropic_eigenvalues(ctx, constants, report->block_eigenvalues));
-    OST_TRY(ost_symmetric_eigen(ctx, 6, material->stiffness, report->stiffness_eigenvalues, NULL));
+    for (int i = 0; i < 6; i++)
+        report->stiffness_eigenvalues[i] = NAN;
+    if (!material->incompressible)
+        OST_TRY(ost_symmetric_eigen(ctx, 6, material->stiffness, report->stiffness_eigenvalues, NULL));
     report->scale = ost_orthotropic_stable_scale(report->block_eigenvalues);
     ost_orthotropic_stable_range(constants, report->low, report->high);
     report->turned = axes != NULL;
@@ -88,10 +92,14 @@ static void print(const Report *report)
     print_numbers("nu12 nu23 nu31", 3, constants->poissons_ratio);
     print_numbers("nu21 nu32 nu13", 3, report->reverse_ratio);
     print_numbers("G12 G23 G31", 3, constants->shear_modulus);
-    print_matrix("\nstiffness C", report->material.stiffness);
+    if (report->material.incompressible)
+        printf("\nstiffness C: none, as nothing compresses the material (nu = 1/2)\n");
+    else
+        print_matrix("\nstiffness C", report->material.stiffness);
     print_matrix("\ncompliance S = C^-1", report->material.compliance);
     putchar('\n');
-    print_numbers("eigenvalues of C", 6, report->stiffness_eigenvalues);
+    if (!report->material.incompressible)
+        print_numbers("eigenvalues of C", 6, report->stiffness_eigenvalues);
     print_numbers("of the normalised normal block", 3, report->block_eigenvalues);
     print_numbers("condition of that block", 1, &report->material.condition);
     putchar('\n');
@@ -101,7 +109,8 @@ static void print(const Report *report)
     putchar('\n');
     for (int i = 0; i < 3; i++)
         print_numbers((const char *const[]){"axis e1", "axis e2", "axis e3"}[i], 3, report->axes + 3 * i);
-    print_matrix("\nstiffness in world axes", report->turned_stiffness);
+    if (!report->material.incompressible)
+        print_matrix("\nstiffness in world axes", report->turned_stiffness);
     puts("\nengineering constants along the world axes");
     print_numbers("Ex Ey Ez", 3, report->turned_constants.youngs_modulus);
     print_numbers("nuxy nuyz nuzx", 3, report->turned_constants.poissons_ratio);

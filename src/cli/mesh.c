@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
 #include "cli/installed.h"
+#include "cli/mesh_report.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "formats/export/export.h"
@@ -8,7 +9,6 @@
 #include "formats/serial/formats.h"
 #include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
-#include "cli/mesh_report.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "adapt/adapt.h"
 #include "cli/command.h"
 #include "cli/destination.h"
-#include "cli/solve_cases.h"
 #include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -12,6 +11,7 @@
 #include "output/probe_files.h"
 #include "output/summary.h"
 #include "problem/scene_data.h"
+#include "study/cases/solve_cases.h"
 #include "study/forecast/forecast.h"
 #include "study/watch.h"
 
@@ -174,7 +174,7 @@ static OstStatus check_files(const Run *run)
         return OST_RAISE(run->c->ctx, OST_INVALID_USAGE, "%s: --resume goes on with a path, and the case has none",
                          run->c->path);
     if (run->c->load_case_count > 0) {
-        OST_TRY(ost_cli_check_case_outputs(run->c, run->output));
+        OST_TRY(ost_check_case_outputs(run->c, run->output));
         return ost_check_outputs(run->c, 1, &json);
     }
     OST_TRY(ost_check_outputs(run->c, 2, (const char *const[]){run->output, json}));
@@ -208,7 +208,7 @@ static OstStatus solve_cases(const Run *run)
     OstAdaptLimits limits;
     OST_TRY(read_limits(run, &limits));
     const OstSolveCases how = {run->output, run->arguments->text['j'], run->arguments->text['k'] != NULL, &limits};
-    return ost_cli_solve_cases(run->c, &how);
+    return ost_solve_cases(run->c, &how);
 }
 
 static OstStatus solve(OstContext *ctx, void *input)

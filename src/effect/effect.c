@@ -71,19 +71,59 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
         off(state, "one material for the whole body");
 }
 
-static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
-{
-    if (f->quadratic && f->nearly_incompressible > 0)
-        on(state, 8.0 * (36.0 + 3.0) * f->regions, "quadratic tets, and %d of %d materials are nearly incompressible",
-           f->nearly_incompressible, f->materials);
-    else
-        off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
-}
-
 /* Does a constraint make nodes follow others? */
 static int has_links(const OstEffectFacts *f)
 {
     return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
+/* Why the mixed form is not used, or NULL. Newton's method has no mixed form. */
+static const char *why_not_mixed(const OstEffectFacts *f)
+{
+    if (f->nearly_incompressible == 0)
+        return "no material is nearly incompressible";
+    if (!f->quadratic)
+        return "linear tets cannot use it";
+    if (f->without >> (OST_EFFECT_MIXED - OST_EFFECT_FIRST) & 1U)
+        return "left out";
+    if (f->mixed == 0)
+        return "the case says so: element: {mixed: off}";
+    if (f->large_rotation == 2 && !f->free_body)
+        return "large rotations use the mean dilatation";
+    if (has_links(f))
+        return "rigid, tied or periodic faces use the mean dilatation";
+    if (f->path_steps > 0)
+        return "a path uses the mean dilatation";
+    return NULL;
+}
+
+int ost_effects_mixed(const OstEffectFacts *facts)
+{
+    return why_not_mixed(facts) == NULL;
+}
+
+/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; the
+ * pressures of each tet. */
+static void mixed(const OstEffectFacts *f, OstEffectState *state)
+{
+    const char *why = why_not_mixed(f);
+    if (why)
+        off(state, why);
+    else
+        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
+           "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
+           f->nearly_incompressible, f->materials);
+}
+
+static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (!why_not_mixed(f))
+        off(state, "the mixed form takes its place");
+    else if (f->quadratic && f->nearly_incompressible > 0)
+        on(state, 8.0 * (36.0 + 3.0) * f->regions, "quadratic tets, and %d of %d materials are nearly incompressible",
+           f->nearly_incompressible, f->materials);
+    else
+        off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */

@@ -14,6 +14,7 @@
     X(OST_EFFECT_VARYING_AXES, "varying axes", varying_axes)                                  \
     X(OST_EFFECT_GRADIENT_AXES, "gradient axes", gradient_axes)                               \
     X(OST_EFFECT_REGIONS, "several materials", several_materials)                             \
+    X(OST_EFFECT_MIXED, "mixed form", mixed)                                                  \
     X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
     X(OST_EFFECT_LARGE_ROTATION, "large rotation", large_rotation)                            \
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
@@ -56,6 +57,7 @@ typedef struct OstEffectFacts {
     const char *modulus_region;  /* a region whose Young's modulus is a field of the mesh file, or NULL */
     const char *gradient_region; /* a region whose axes follow potentials, or NULL */
     int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
+    int mixed;                   /* 0: the case says no mixed form; 1: where it is useful */
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides, rigid_faces, ties, periodic;
@@ -95,6 +97,9 @@ typedef struct OstEffects {
 
 /* Local. Applies every rule of the table; what is left out is off. */
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects);
+
+/* Local. Is the mixed form on? Told before the others, as the solver's plan depends on it, and they on the plan. */
+int ost_effects_mixed(const OstEffectFacts *facts);
 
 /* Local. Gives the effects' accounts their labels in the ledger. */
 void ost_effects_name_accounts(OstContext *ctx);

@@ -144,6 +144,13 @@ static void rotate_split(const OstMaterialField *field, int32_t region, const Os
     }
 }
 
+/* C of a region in material axes; linear tets of a mixed form see the rest alone. */
+static const double *stiffness_of(const OstMaterialField *field, int32_t region)
+{
+    const double *rest = ost_field_is_mixed(field) ? ost_field_rest(field, region) : NULL;
+    return rest ? rest : field->material[region].stiffness;
+}
+
 /* Is the region's material of the family, and are its axes cylindrical? Then A = t I + (a - t) axis axis' + (r - t) d
  * d' / d'd, with r, t and a the radial, tangential and axial stretches and d the offset from the axis. */
 static void examine_region(OstElasticity *elasticity, const OstMaterialField *field, int32_t region)
@@ -151,7 +158,7 @@ static void examine_region(OstElasticity *elasticity, const OstMaterialField *fi
     if (elasticity->examined == region)
         return;
     elasticity->examined = region;
-    elasticity->stretched = is_stretched(field->material[region].stiffness, elasticity->stretch, &elasticity->shear);
+    elasticity->stretched = is_stretched(stiffness_of(field, region), elasticity->stretch, &elasticity->shear);
     elasticity->cylindrical = elasticity->stretched && ost_field_has_formula(field, region) &&
                               field->region_formula[region]->spec.kind == OST_AXES_CYLINDRICAL;
     if (!elasticity->cylindrical)
@@ -193,8 +200,10 @@ static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *fi
     for (int i = 0; i < 9; i++)
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
             axes[i][slot] = of_region[i];
-    if (elasticity->by_mean)
+    if (elasticity->by_mean || elasticity->mixed)
         rotate_split(field, region, axes, elasticity->c[0], elasticity->m[0]);
+    else if (stiffness_of(field, region) != field->material[region].stiffness)
+        rotate(stiffness_of(field, region), axes, elasticity->c[0]);
     else
         fill_batch(field->region_stiffness + 36 * (size_t)region, elasticity->c[0]);
     if (elasticity->by_stretch)
@@ -211,10 +220,10 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
             evaluate_axes(field, tets, places + 3 * point, axes);
         else
             gather_axes(field, tets, axes);
-        if (elasticity->by_mean)
+        if (elasticity->by_mean || elasticity->mixed)
             rotate_split(field, region, axes, elasticity->c[point], elasticity->m[point]);
         else
-            rotate_or_stretch(elasticity, field->material[region].stiffness, axes, point);
+            rotate_or_stretch(elasticity, stiffness_of(field, region), axes, point);
     }
 }
 
@@ -224,7 +233,10 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
 {
     if (elasticity->region == region)
         return;
-    elasticity->by_mean = points > 0 && ost_field_stiff_mode(field, region) != NULL;
+    const int split = points > 0 && ost_field_stiff_mode(field, region) != NULL;
+    elasticity->by_mean = split && !ost_field_is_mixed(field);
+    elasticity->mixed = split && ost_field_is_mixed(field);
+    elasticity->looseness = (OstSimd){0} + (elasticity->mixed ? field->mixed.looseness[region] : 0.0);
     examine_region(elasticity, field, region);
     elasticity->by_stretch = elasticity->stretch_suffices && elasticity->stretched;
     elasticity->about_line =
@@ -246,8 +258,9 @@ static void copy_lane(const OstElasticity *from, int slot, OstElasticity *to)
         for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
             to->c[point][n][slot] = from->c[at][n][slot];
         for (int p = 0; p < 6; p++)
-            to->m[point][p][slot] = from->by_mean ? from->m[at][p][slot] : 0.0;
+            to->m[point][p][slot] = from->by_mean || from->mixed ? from->m[at][p][slot] : 0.0;
     }
+    to->looseness[slot] = from->looseness[slot];
 }
 
 /* The tets are of several regions: gathers each by itself and copies it to its slot. */
@@ -257,6 +270,7 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
     elasticity->region = -1;
     elasticity->points = points > 0 ? points : 1;
     elasticity->by_mean = 0;
+    elasticity->mixed = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
     elasticity->varying = 0;
@@ -266,11 +280,20 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
         ost_elasticity_clear(&one);
         gather_region(&one, field, field->tet_region[tets[slot]], same, points, places);
         elasticity->by_mean |= one.by_mean;
+        elasticity->mixed |= one.mixed;
         elasticity->varying |= one.varying & 1U << slot;
         copy_lane(&one, slot, elasticity);
     }
     if (!elasticity->varying)
         elasticity->points = 1;
+}
+
+static void gather_pressure(OstElasticity *elasticity, const OstMaterialField *field,
+                            const OstLocal tets[OST_SIMD_WIDTH])
+{
+    for (int v = 0; v < 4; v++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            elasticity->pressure[v][slot] = field->pressure ? field->pressure[4 * (size_t)tets[slot] + (size_t)v] : 0.0;
 }
 
 /* Multiplies C of each tet by its factor: m and A, which enter twice, by the root. */
@@ -286,7 +309,7 @@ static void scale(OstElasticity *elasticity, const OstMaterialField *field, cons
     for (int point = 0; point < elasticity->points && !elasticity->by_stretch; point++) {
         for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
             elasticity->c[point][n] *= factor;
-        for (int p = 0; p < 6 && elasticity->by_mean; p++)
+        for (int p = 0; p < 6 && (elasticity->by_mean || elasticity->mixed); p++)
             elasticity->m[point][p] *= root;
     }
     elasticity->region = -1;
@@ -303,6 +326,8 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
         gather_region(elasticity, field, region, tets, points, places);
     else
         gather_mixed(elasticity, field, tets, points, places);
+    if (elasticity->mixed)
+        gather_pressure(elasticity, field, tets);
     if (field->tet_scale)
         scale(elasticity, field, tets);
     elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);

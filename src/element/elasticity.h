@@ -13,7 +13,8 @@ enum { OST_MAX_POINTS = 14, OST_ELASTICITY_COUNT = 21 };
  * have the same C everywhere.
  *
  * In regions with the mean-dilatation element (ost_field_mean_dilatation) C is split: C = c + m m', with c the softer
- * rest. The energy density of a tet is then 1/2 strain'c strain + 1/2 (mean of m'strain)^2.
+ * rest. The energy density of a tet is then 1/2 strain'c strain + 1/2 (mean of m'strain)^2. In those of the mixed form
+ * (ost_field_mixed) C = c + m m' / looseness, and the energy density 1/2 strain'c strain + 1/2 looseness p^2.
  *
  * The stable family with geometric shear (eq. 18 and 22), which includes every isotropic material, is isotropic
  * elasticity in stretched coordinates. Its stretch tensor is A = sum of sqrt(C_aa) e_a e_a' over the axes; with
@@ -22,7 +23,8 @@ enum { OST_MAX_POINTS = 14, OST_ELASTICITY_COUNT = 21 };
 typedef struct OstElasticity {
     int points;       /* 1: C is uniform in each tet; otherwise the number of points that was asked for */
     unsigned varying; /* bit k: C varies within tet k */
-    int by_mean;      /* is C split? */
+    int by_mean;      /* is C split, and the stiff mode seen by its mean? */
+    int mixed;        /* is C split for the mixed form (ost_field_mixed)? The stress is c strain + m p */
     int32_t region;   /* the present values are valid for every tet of this region; -1: for this batch alone */
 
     int stretch_suffices;      /* set by the caller if A may stand for c and m (linear tets only) */
@@ -40,7 +42,10 @@ typedef struct OstElasticity {
     OstSimd about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the position's offset from the axis */
 
     OstSimd c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
-    OstSimd m[OST_MAX_POINTS][6]; /* 0 for the tets that are not split; not set if by_mean is 0 */
+    OstSimd m[OST_MAX_POINTS][6]; /* 0 for the tets that are not split; not set if by_mean and mixed are 0 */
+
+    /* If mixed: 1 / stiffness of the mode, m'(strain - e0) = looseness p; p at the vertices, linear in the tet. */
+    OstSimd looseness, pressure[4];
 
     double eigen_share;            /* set by the caller: the share of the field's eigenstrain that acts */
     int eigenstrained;             /* is e0 set? If not, it counts as 0 */
@@ -52,6 +57,7 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
 {
     elasticity->region = -1;
     elasticity->varying = 0;
+    elasticity->mixed = 0;
     elasticity->stretch_suffices = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
@@ -93,6 +99,14 @@ static inline void ost_stretch_about_line(const OstElasticity *elasticity, const
 static inline int ost_elasticity_at(const OstElasticity *elasticity, int point)
 {
     return elasticity->points == 1 ? 0 : point;
+}
+
+/* p of a mixed form, at barycentric coordinates. */
+static inline void ost_pressure_at(const OstElasticity *elasticity, const double at[4], OstSimd *pressure)
+{
+    *pressure = at[0] * elasticity->pressure[0];
+    for (int v = 1; v < 4; v++)
+        *pressure += at[v] * elasticity->pressure[v];
 }
 
 /* elastic = strain - e0, at index `at`. */

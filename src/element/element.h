@@ -18,7 +18,7 @@ typedef struct OstMeans {
     OstSimd stress[6];
     OstSimd energy; /* strain energy density */
     OstSimd volume; /* positive */
-    OstSimd stiff;  /* of m'(strain - e0) where C is split (elasticity.h), otherwise 0 */
+    OstSimd stiff;  /* of m'(strain - e0) where C is split and that mode seen by its mean (elasticity.h); otherwise 0 */
     OstSimd eigen;  /* of e0'stress: the work that is left out of the energy, times two */
 } OstMeans;
 
@@ -47,6 +47,13 @@ typedef struct OstElement {
 
     /* Stiffness: for each pair of nodes a <= b, row by row (00 01 .. 11 ..), the 3×3 block K_ab row-major. */
     void (*stiffness)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks);
+
+    /* The coupling of a mixed form's pressures (elasticity.h), by the same rule as `force`: for each vertex, with N its
+     * share of the pressure, the integral of N m'B (3 numbers a node), and of N m'e0; for each pair of vertices a <= b,
+     * the integral of N_a N_b. `columns` has 4 × 3 × nodes, `eigen` 4, `mass` 10. NULL: these tets have no mixed form.
+     */
+    void (*coupling)(const OstSimd *x, const OstElasticity *elasticity, OstSimd *columns, OstSimd *eigen,
+                     OstSimd *mass);
 
     /* Internal forces B'C (B u - e0), K u where there is no eigenstrain, computed without K: 3 numbers a node. */
     void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);

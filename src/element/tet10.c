@@ -165,6 +165,38 @@ static void add_mean_blocks(const OstSimd *x, const OstElasticity *elasticity, O
                 blocks[n] += mode.columns[3 * a + n / 3] * mode.columns[3 * b + n % 3] / mode.volume;
 }
 
+static void tet10_coupling(const OstSimd *x, const OstElasticity *elasticity, OstSimd *columns, OstSimd *eigen,
+                           OstSimd *mass)
+{
+    const OstQuadrature *rule = rule_for(x, elasticity);
+    memset(columns, 0, 4 * NUMBERS * sizeof *columns);
+    memset(eigen, 0, 4 * sizeof *eigen);
+    memset(mass, 0, 10 * sizeof *mass);
+    for (int q = 0; q < rule->count; q++) {
+        const double *share = rule->point[q].at;
+        const int at = ost_elasticity_at(elasticity, q);
+        OstPoint point;
+        OstSimd of_eigenstrain = {0};
+        evaluate_weighted(x, &rule->point[q], &point);
+        for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
+            of_eigenstrain += point.volume * elasticity->m[at][p] * elasticity->e0[at][p];
+        for (int a = 0; a < NODES; a++) {
+            OstSimd of_node[3];
+            ost_force_of_stress(point.gradient[a], elasticity->m[at], of_node);
+            for (int i = 0; i < 3; i++) {
+                of_node[i] *= point.volume;
+                for (int v = 0; v < 4; v++)
+                    columns[NUMBERS * v + 3 * a + i] += share[v] * of_node[i];
+            }
+        }
+        for (int v = 0, n = 0; v < 4; v++) {
+            eigen[v] += share[v] * of_eigenstrain;
+            for (int w = v; w < 4; w++)
+                mass[n++] += (share[v] * share[w]) * point.volume;
+        }
+    }
+}
+
 static inline void sum_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd *blocks)
 {
     memset(blocks, 0, 9 * PAIRS * sizeof *blocks);
@@ -211,6 +243,13 @@ static inline void strain_at(const OstPoint *point, const OstSimd *u, OstSimd st
     ost_strain_of_slope(slope, strain);
 }
 
+/* stress += m p, of a mixed form, at a point of the rule. */
+static inline void add_pressure(const OstElasticity *elasticity, int at, const OstSimd *pressure, OstSimd stress[6])
+{
+    for (int p = 0; p < 6; p++)
+        stress[p] += elasticity->m[at][p] * *pressure;
+}
+
 /* force += B' stress */
 static inline void add_force(const OstPoint *point, const OstSimd stress[6], OstSimd *force)
 {
@@ -245,6 +284,11 @@ OST_KERNEL static void tet10_force(const OstSimd *x, const OstElasticity *elasti
         strain_at(&point, u, strain);
         ost_elastic_strain(elasticity, at, strain, elastic);
         ost_simd_stress(elasticity->c[at], elastic, stress);
+        if (elasticity->mixed) {
+            OstSimd pressure;
+            ost_pressure_at(elasticity, rule->point[q].at, &pressure);
+            add_pressure(elasticity, at, &pressure, stress);
+        }
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
         add_force(&point, stress, force);
@@ -297,6 +341,13 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
         }
         absolute_elasticity(elasticity, at, c);
         ost_simd_stress_size(c, strain, stress);
+        for (int p = 0; p < 6 && elasticity->mixed; p++) {
+            OstSimd size;
+            ost_pressure_at(elasticity, rule->point[q].at, &size);
+            size *= elasticity->m[at][p];
+            ost_simd_absolute(&size);
+            stress[p] += size;
+        }
         for (int p = 0; p < 6; p++)
             stress[p] *= point.volume;
         add_force(&point, stress, magnitude);
@@ -304,18 +355,22 @@ static void tet10_magnitude(const OstSimd *x, const OstElasticity *elasticity, c
 }
 
 /* Adds a point to the integrals of strain, stress and energy; the stiff mode's energy comes once for the tet. */
-static inline void add_means(const OstPoint *point, const OstElasticity *elasticity, int at, const OstSimd strain[6],
-                             OstMeans *sums)
+static inline void add_means(const OstPoint *point, const OstElasticity *elasticity, int at, const OstSimd *pressure,
+                             const OstSimd strain[6], OstMeans *sums)
 {
     OstSimd elastic[6];
     OstSimd stress[6];
     ost_elastic_strain(elasticity, at, strain, elastic);
     ost_simd_stress(elasticity->c[at], elastic, stress);
+    if (elasticity->mixed)
+        sums->energy += 0.5 * point->volume * elasticity->looseness * *pressure * *pressure;
     for (int p = 0; p < 6; p++) {
         sums->strain[p] += point->volume * strain[p];
         sums->energy += 0.5 * point->volume * elastic[p] * stress[p];
         if (elasticity->by_mean)
             stress[p] += sums->stiff * elasticity->m[at][p];
+        if (elasticity->mixed)
+            stress[p] += *pressure * elasticity->m[at][p];
         sums->stress[p] += point->volume * stress[p];
         if (elasticity->eigenstrained)
             sums->eigen += point->volume * elasticity->e0[at][p] * stress[p];
@@ -338,7 +393,10 @@ static void tet10_means(const OstSimd *x, const OstElasticity *elasticity, const
         evaluate_weighted(x, &rule->point[q], &point);
         strain_at(&point, u, strain);
         volume += point.volume;
-        add_means(&point, elasticity, ost_elasticity_at(elasticity, q), strain, means);
+        OstSimd pressure = {0};
+        if (elasticity->mixed)
+            ost_pressure_at(elasticity, rule->point[q].at, &pressure);
+        add_means(&point, elasticity, ost_elasticity_at(elasticity, q), &pressure, strain, means);
     }
     for (int p = 0; p < 6; p++) {
         means->strain[p] /= volume;
@@ -461,6 +519,7 @@ const OstElement ost_tet10 = {
     .uniform = find_uniform,
     .evaluate = tet10_evaluate,
     .stiffness = tet10_stiffness,
+    .coupling = tet10_coupling,
     .force = tet10_force,
     .magnitude = tet10_magnitude,
     .means = tet10_means,

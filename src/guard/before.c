@@ -164,6 +164,52 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
+/* The forces of a uniform pressure on all incompressible material are none at any free node, if no surface of it is
+ * free to move: its changes of volume, summed, are then none either. */
+enum { VOLUME, VOLUME_SIZE, FORCE_SIZE, FORCE, VOLUME_SUMS };
+
+static OstStatus add_uniform_pressure(const OstCoupling *coupling, const double *g, double sums[VOLUME_SUMS])
+{
+    double *pressure = NULL, *force = NULL;
+    OstStatus status = OST_NEW(coupling->ctx, &pressure, coupling->columns);
+    OST_THEN(OST_NEW(coupling->ctx, &force, 3 * (size_t)coupling->unknowns));
+    OST_TRY_DONE(ost_agree(coupling->ctx, status));
+    for (OstLocal i = 0; i < coupling->rows; i++) {
+        if (coupling->looseness[i] > 0.0)
+            continue;
+        pressure[i] = 1.0;
+        sums[VOLUME] += g[i];
+        sums[VOLUME_SIZE] += fabs(g[i]);
+        for (OstLocal k = 3 * coupling->row_start[i]; k < 3 * coupling->row_start[i + 1]; k++)
+            sums[FORCE_SIZE] += fabs(coupling->value[k]);
+    }
+    OST_TRY_DONE(ost_coupling_transpose(coupling, pressure, force));
+    for (OstLocal k = 0; k < 3 * coupling->unknowns; k++)
+        sums[FORCE] += fabs(force[k]);
+done:
+    OST_FREE(pressure);
+    OST_FREE(force);
+    return status;
+}
+
+OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before)
+{
+    OstContext *ctx = problem->ctx;
+    double sums[VOLUME_SUMS] = {0.0};
+    OST_TRY(add_uniform_pressure(problem->coupling, g, sums));
+    OST_TRY(ost_sum(ctx, VOLUME_SUMS, sums));
+    *enclosed = sums[FORCE_SIZE] > 0.0 && sums[FORCE] <= 1e-10 * sums[FORCE_SIZE];
+    if (!*enclosed || fabs(sums[VOLUME]) <= 1e-10 * sums[VOLUME_SIZE])
+        return OST_SUCCESS;
+    return take_objection(
+        ctx,
+        OST_RAISE(ctx, OST_INVALID_INPUT,
+                  "%s: the body is incompressible (nu = 1/2) and held all around, and what is prescribed changes its "
+                  "volume: leave a part of its surface free, or set nu = 0.4999",
+                  ost_problem_name(problem)),
+        before);
+}
+
 OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;

@@ -11,6 +11,7 @@
 #include "core/small.h"
 #include "guard/guard.h"
 #include "guard/linearity.h"
+#include "guard/volume.h"
 #include "orthostat/case.h"
 
 #include <float.h>
@@ -36,7 +37,7 @@
 
 /* Sums over the body that the checks compare; the order is that of the reduction. */
 enum {
-    SUM_RESIDUAL, /* squares of P (f - K u) */
+    SUM_RESIDUAL, /* squares of P (f - K u), and of a mixed form's error of volume (volume.h) */
     SUM_ROUNDING, /* squares of the residual that rounding explains */
     SUM_LOAD,     /* 3 */
     SUM_REACTION = SUM_LOAD + 3,
@@ -266,15 +267,15 @@ static double explained_imbalance(double residual, double terms, double size)
     return balance_tolerance + (residual + rounding_steps * DBL_EPSILON * terms) / fmax(size, DBL_MIN);
 }
 
-static Explained explain(const OstResult *result, const double *sums, double rhs_norm)
+static Explained explain(const OstResult *result, const OstVolumeError *volume, const double *sums, double rhs_norm)
 {
     const double residual = sqrt(sums[SUM_RESIDUAL]) + result->checks.rounding * rhs_norm;
     const double of_balance = sqrt((double)result->unknowns) * residual;
     const double arm = sums[SUM_MOMENT_SIZE] / fmax(sums[SUM_FORCE_SIZE], DBL_MIN);
-    return (Explained){
-        explained_imbalance(of_balance, sums[SUM_FORCE_TERMS], sums[SUM_FORCE_SIZE]),
-        explained_imbalance(arm * of_balance, sums[SUM_MOMENT_TERMS], sums[SUM_MOMENT_SIZE]),
-        explained_imbalance(sqrt(sums[SUM_SQUARE]) * residual, sums[SUM_WORK_TERMS], sums[SUM_WORK_SIZE])};
+    return (Explained){explained_imbalance(of_balance, sums[SUM_FORCE_TERMS], sums[SUM_FORCE_SIZE]),
+                       explained_imbalance(arm * of_balance, sums[SUM_MOMENT_TERMS], sums[SUM_MOMENT_SIZE]),
+                       explained_imbalance(sqrt(sums[SUM_SQUARE]) * residual + volume->work, sums[SUM_WORK_TERMS],
+                                           sums[SUM_WORK_SIZE])};
 }
 
 /* The error that rounding causes: all of it where rounding, not the residual asked for, ended the solve. */
@@ -445,6 +446,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstChecks *checks = &result->checks;
     double *internal = NULL, *magnitude = NULL, *eigen = NULL;
     double sums[SUM_COUNT] = {0.0};
+    OstVolumeError volume;
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.formulation = problem->formulation};
     LinkForces links = {.links = problem->supports->links};
@@ -479,13 +481,15 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
         add_node(result, &body, &links, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
                  magnitude + 3 * (size_t)n, sums);
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
+    OST_TRY_DONE(ost_guard_volume_error(problem, result, &volume));
+    sums[SUM_RESIDUAL] += volume.force;
     OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
     fill_checks(checks, sums, solved_for->norm);
     if (solved_for->errors.known)
         state_errors(result, &solved_for->errors);
     else
         estimate_errors(result, &body, sums, solved_for->work);
-    judge(result, &solved_for->errors, requested, explain(result, sums, solved_for->norm));
+    judge(result, &solved_for->errors, requested, explain(result, &volume, sums, solved_for->norm));
     if (checks->finite && !result->unfinished)
         OST_TRY_DONE(judge_errors(result, &body, &solved_for->errors, sums, requested));
 done:

@@ -110,8 +110,8 @@ static OstStatus raise_outside_family(OstContext *ctx, const char *name, double 
 {
     return OST_RAISE(
         ctx, OST_INVALID_INPUT,
-        "material '%s': nu = %.9g is not stable; -1 < nu < 0.5 is expected, which is stable for all Young's "
-        "moduli (nearly incompressible: 0.49)",
+        "material '%s': nu = %.9g is not stable; -1 < nu <= 0.5 is expected, which is stable for all Young's "
+        "moduli (incompressible: 0.5)",
         name, nu);
 }
 
@@ -190,8 +190,12 @@ OstStatus ost_orthotropic_check(OstContext *ctx, const char *name, const OstOrth
     ost_orthotropic_normalised_ratios(constants, ratios);
     OST_TRY(ost_orthotropic_eigenvalues(ctx, constants, eigenvalues));
     const int definite = eigenvalues[0] > smallest_eigenvalue;
-    if (!definite && is_family(ratios))
-        return raise_outside_family(ctx, name, ratios[0]);
+    if (!definite && is_family(ratios)) {
+        if (!(fabs(eigenvalues[0]) <= smallest_eigenvalue && ratios[0] > 0.0))
+            return raise_outside_family(ctx, name, ratios[0]);
+        eigenvalues[0] = 0.0; /* incompressible */
+        return check_shear(ctx, name, constants);
+    }
     OST_TRY(check_shear(ctx, name, constants));
     return definite ? OST_SUCCESS : raise_indefinite(ctx, name, constants, ratios, eigenvalues);
 }

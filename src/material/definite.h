@@ -12,7 +12,8 @@ void ost_orthotropic_normalised_ratios(const OstOrthotropic *constants, double r
 void ost_normalised_block(const double ratios[3], double block[9]);
 
 /* Local. Raises OST_INVALID_INPUT, with the constant or inequality at fault, unless the numbers are finite, the moduli
- * positive and the normal block positive definite; returns the eigenvalues of the normalised block. */
+ * positive and the normal block positive definite; returns the eigenvalues of the normalised block. The family and
+ * isotropy may be incompressible (nu = 1/2): the least eigenvalue is then 0. */
 OstStatus ost_orthotropic_check(OstContext *ctx, const char *name, const OstOrthotropic *constants,
                                 double eigenvalues[3]);
 

@@ -5,6 +5,15 @@
 #include "effect/effect.h"
 #include "orthostat/field.h"
 
+typedef enum { OST_SPLIT_NOT, OST_SPLIT_MEAN, OST_SPLIT_MIXED } OstSplitForm;
+
+/* C = rest + m m' (ost_field_mean_dilatation), or rest + m m' / looseness (ost_field_mixed). NULL: no C is split. */
+typedef struct OstSplit {
+    double *stiff_mode; /* region_count × 3: m along the material axes, 0 for regions whose C is not split */
+    double *rest;       /* region_count × 36: the rest of C in material axes */
+    double *looseness;  /* region_count, of the mixed form: 0 if incompressible */
+} OstSplit;
+
 /* Elasticity and axes of every tet of a rank, stored only as far as needed: an isotropic body has no axes, a region
  * with uniform axes one rotated C, and only regions whose axes vary have axes by tet. */
 struct OstMaterialField {
@@ -20,16 +29,23 @@ struct OstMaterialField {
     /* region_count, NULL for regions whose axes have no formula; NULL if no region's axes have one. */
     struct OstAxesFormula **region_formula;
 
-    /* region_count × 3: m of C = rest + m m' along the material axes (ost_field_mean_dilatation), 0 for regions whose C
-     * is not split. NULL if no C is. */
-    double *region_stiff_mode;
-    double *region_rest; /* region_count × 36: the rest of C in material axes; NULL if no C is split */
+    /* How C of regions with one stiff mode is split: not, as the mean dilatation or the mixed form have it. A field may
+     * have both, and a copy of it use the other. */
+    OstSplitForm form;
+    OstSplit mean, mixed;
+
+    /* The pressure of the state that forces and stresses are asked for: 4 × tet_count, at the tets' vertices, 0 where C
+     * is not split; not owned. NULL: 0 everywhere. */
+    const double *pressure;
 
     double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
 
     double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
     double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
 };
+
+/* Local. The first region that is incompressible (nu = 1/2), or -1. */
+int ost_field_incompressible(const OstMaterialField *field);
 
 /* Local. The factor of a tet's stiffness. */
 static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
@@ -80,5 +96,16 @@ const double *ost_field_stiff_mode(const OstMaterialField *field, int32_t region
 /* Local. C - m m' of such a region in material axes (36 numbers), or NULL. It is not computed as a difference: near nu
  * = 1/2 both are so large that rounding errors would be all that is left. */
 const double *ost_field_rest(const OstMaterialField *field, int32_t region);
+
+/* Local. Is C of some region split for the mixed form? */
+static inline int ost_field_is_mixed(const OstMaterialField *field)
+{
+    return field->form == OST_SPLIT_MIXED;
+}
+
+/* Local. What the rest and the stiff mode of a mixed region give way by under its pressure, for each volume: m'rest^-1
+ * m
+ * + looseness. The Schur complement of the displacement is about this times the pressure's mass. */
+double ost_field_giving_way(const OstMaterialField *field, int32_t region);
 
 #endif

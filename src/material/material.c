@@ -42,7 +42,7 @@ static void fill_stiffness(const OstOrthotropic *constants, OstMaterial *materia
     memset(material->compliance, 0, sizeof material->compliance);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            material->stiffness[6 * i + j] = root[i] * root[j] * inverse[3 * i + j];
+            material->stiffness[6 * i + j] = material->incompressible ? NAN : root[i] * root[j] * inverse[3 * i + j];
             material->compliance[6 * i + j] = block[3 * i + j] / (root[i] * root[j]);
         }
         material->stiffness[7 * (i + 3)] = constants->shear_modulus[i];
@@ -64,6 +64,7 @@ OstStatus ost_material_create(OstContext *ctx, const char *name, const OstOrthot
     material->density = density;
     material->isotropic = is_isotropic(constants);
     material->constants = *constants;
+    material->incompressible = eigenvalues[0] == 0.0;
     material->condition = eigenvalues[2] / eigenvalues[0];
     fill_stiffness(constants, material);
     return OST_SUCCESS;

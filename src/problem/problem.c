@@ -20,7 +20,8 @@ void ost_problem_destroy(OstProblem **problem)
 {
     if (!*problem)
         return;
-    ost_system_destroy(&(*problem)->system);
+    ost_problem_release_stiffness(*problem);
+    ost_pressure_space_destroy(&(*problem)->pressures);
     ost_problem_release_timed(*problem);
     ost_supports_destroy(&(*problem)->supports);
     ost_follower_destroy(&(*problem)->follower);
@@ -72,6 +73,18 @@ static OstStatus constrain_nodes(const OstProblemParts *parts, const double *dis
     return ost_supports_complete(*supports);
 }
 
+/* nu = 1/2 leaves linear tets, and quadratic ones without pressures, no stiffness. */
+static OstStatus check_incompressible(const OstMesh *mesh, const OstMaterialField *field)
+{
+    const int region = ost_field_incompressible(field);
+    if (region < 0 || (ost_field_is_mixed(field) && mesh->nodes_per_tet == 10))
+        return OST_SUCCESS;
+    return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                     "material '%s' is incompressible (nu = 1/2): it needs quadratic tets and the mixed form "
+                     "(ost_field_mixed)",
+                     field->material[region].name);
+}
+
 /* Without supports and facts, with room for loads on `nodes` nodes. */
 static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstLocal nodes, OstProblem **problem)
 {
@@ -80,12 +93,16 @@ static OstStatus create(const OstMesh *mesh, const OstMaterialField *field, OstL
     if (!element)
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the mesh has tets of %d nodes; 4 or 10 are expected",
                          mesh->nodes_per_tet);
+    OST_TRY(check_incompressible(mesh, field));
     OstStatus status = OST_NEW(ctx, problem, 1);
     if (status == OST_SUCCESS) {
         **problem = (OstProblem){.ctx = ctx, .mesh = mesh, .field = field, .linear = element->linear};
         status = OST_NEW(ctx, &(*problem)->force, 3 * (size_t)nodes);
     }
-    return ost_agree(ctx, status);
+    status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS && ost_field_is_mixed(field) && mesh->nodes_per_tet == 10)
+        status = ost_pressure_space_create(mesh, field, &(*problem)->pressures);
+    return status;
 }
 
 /* Displacements that follow a table: zero unless the caller gives them. */
@@ -374,6 +391,8 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
     if (fills)
         OST_TRY(ost_agree(problem->ctx, fill(problem, t, u, from, definite)));
     problem->filled = 1;
+    if (problem->pressures && !problem->coupling)
+        OST_TRY(ost_pressure_coupling(problem->pressures, problem->system, problem->field, &problem->coupling));
     const OstBlockMatrix *matrix = problem->system->matrix;
     if (stiffness)
         *stiffness = (OstStiffness){.rows = matrix->rows,
@@ -435,6 +454,7 @@ void ost_problem_release_scatter(OstProblem *problem)
 
 void ost_problem_release_stiffness(OstProblem *problem)
 {
+    ost_coupling_destroy(&problem->coupling);
     ost_system_destroy(&problem->system);
     problem->filled = 0;
 }
@@ -472,6 +492,8 @@ OstStatus ost_problem_facts(const OstProblem *problem, OstSolverFacts *facts)
     const OstMesh *mesh = problem->mesh;
     double worst = 1.0;
     *facts = problem->facts;
+    if (problem->pressures) /* what the pressures leave of the stiffness */
+        facts->poisson = fmin(facts->poisson, OST_NEARLY_INCOMPRESSIBLE);
     facts->unknowns = 3 * problem->system->matrix->global_rows;
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         worst =

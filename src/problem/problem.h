@@ -3,6 +3,7 @@
 #define ORTHOSTAT_PROBLEM_PROBLEM_H
 
 #include "assembly/follower.h"
+#include "assembly/pressure/pressure_space.h"
 #include "assembly/system.h"
 #include "orthostat/problem.h"
 #include "problem/scene_data.h"
@@ -28,6 +29,9 @@ struct OstProblem {
     OstFollower *follower;        /* pressures that follow the surface, of all functions; NULL: there are none */
     int eigen_function;           /* the function of time that eigenstrains follow */
     int conservative;             /* is the load the gradient of a work function? */
+    OstPressureSpace *pressures;  /* of the mixed form; NULL without one */
+    OstCoupling *coupling;        /* theirs with the system's unknowns, as long as there is one */
+    OstMaterialField dilated;     /* the field where the mean dilatation has taken the mixed form's place */
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
     int linear;                   /* is the internal force linear in the displacement? */
@@ -88,6 +92,22 @@ OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int fu
 
 /* Collective. Its displacement P v + g of every local node. */
 OstStatus ost_problem_function_displacement(const OstProblem *problem, int function, const double *v, double *u);
+
+/* The mixed form (problem/mixed.c): what acts on its pressures, and their state. */
+
+/* Collective. The right-hand side of the pressures at t, or of one function at factor 1: the integral of each one's
+ * share of m'(e0 - strain of the prescribed displacements). `g` has pressures->owned numbers. */
+OstStatus ost_problem_volume(const OstProblem *problem, double t, double *g);
+OstStatus ost_problem_function_volume(const OstProblem *problem, int function, double *g);
+
+/* Local. The problem whose forces, energies and stresses are those of a state with these pressures of its tets (4 ×
+ * tet_count; NULL: 0). `field` is filled, and lives as long as `state` is used. */
+void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
+                             OstProblem *state);
+
+/* Collective. Goes on with the mean dilatation in place of the mixed form; the stiffness must be filled again. Raises
+ * OST_INVALID_INPUT where a material is incompressible. */
+OstStatus ost_problem_leave_mixed(OstProblem *problem);
 
 /* Local. Does some function prescribe a displacement other than zero for an owned node? */
 int ost_problem_moves(const OstProblem *problem, OstLocal node);

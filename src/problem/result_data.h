@@ -44,6 +44,8 @@ struct OstResult {
     double t;                      /* factor of what grows with t */
     OstFormulation formulation;    /* by which strain follows from the displacement */
     double *displacement;          /* 3 × node_count */
+    double *pressure;              /* 4 × tet_count: of a mixed form, at the tets' vertices; else NULL */
+    OstMaterialField at_pressure;  /* with a pressure: the field that has it, which `field` then is */
     double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
     double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */

@@ -9,7 +9,6 @@
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
-#include "problem/load_case.h"
 #include "problem/scene_parts.h"
 
 #include <string.h>
@@ -143,11 +142,30 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return status;
 }
 
+static OstStatus refuse_incompressible(const OstScene *scene, int region)
+{
+    const OstMesh *mesh = scene->mesh;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                     "%s: region '%.80s' has nu = 1/2, an incompressible material, which only the mixed form of "
+                     "quadratic tets can compute, and it is off: %s. Set %s, or nu = 0.4999",
+                     scene->c->path, mesh->regions.name[region],
+                     ost_effect_state(&scene->plan.effects, OST_EFFECT_MIXED)->reason,
+                     mesh->nodes_per_tet == 4 ? "element: {order: 2}" : "large_rotation: off");
+}
+
 /* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
- * use the mean dilatation of each tet, which prevents it. */
+ * have a mixed form, or use the mean dilatation of each tet, which prevents it. */
 static OstStatus treat_nearly_incompressible(OstScene *scene)
 {
     int regions = 0;
+    if (ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED)) {
+        ost_log(scene->ctx, OST_LOG_VERBOSE,
+                "nearly incompressible (nu above %g): the pressure is an unknown of its own",
+                OST_NEARLY_INCOMPRESSIBLE);
+        return ost_field_mixed(scene->field, OST_NEARLY_INCOMPRESSIBLE, &regions);
+    }
+    if (ost_field_incompressible(scene->field) >= 0)
+        return refuse_incompressible(scene, ost_field_incompressible(scene->field));
     for (int r = 0; r < scene->field->region_count; r++) {
         double eigenvalues[3] = {1.0, 1.0, 1.0};
         if (ost_orthotropic_eigenvalues(scene->ctx, &scene->field->material[r].constants, eigenvalues) == OST_SUCCESS)

@@ -27,6 +27,9 @@ struct OstScene {
  * outlives the scene. */
 OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMeshChunk **chunk, OstScene **scene);
 
+/* Collective. The scene of one of the load cases of the scene's case: on its mesh and materials, which outlive it. */
+OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case);
+
 /* Local. The case's output fields, without those of effects that are off. */
 unsigned ost_scene_result_fields(const OstScene *scene);
 

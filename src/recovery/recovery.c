@@ -8,6 +8,7 @@
 #include "core/parallel/halo.h"
 #include "element/large_rotation.h"
 #include "element/strain_batch.h"
+#include "element/tets.h"
 #include "fields/output_field.h"
 #include "recovery/derived.h"
 
@@ -111,6 +112,12 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
         ost_simd_stress(at_nodes->c[at], elastic, stress + 6 * a);
         for (int p = 0; p < 6 && at_nodes->by_mean; p++) /* where C is split, the stiff mode's part is its mean */
             stress[6 * a + p] += means.stiff * at_nodes->m[at][p];
+        if (at_nodes->mixed) {
+            const OstSimd *pressure = batch->elasticity.pressure;
+            const int *end = ost_tet10_ends[a];
+            for (int p = 0; p < 6; p++)
+                stress[6 * a + p] += 0.5 * (pressure[end[0]] + pressure[end[1]]) * at_nodes->m[at][p];
+        }
     }
 }
 

@@ -55,9 +55,11 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
                                 unsigned fields, OstResult *result)
 {
     OstContext *ctx = analysis->ctx;
+    OstProblem state = *analysis->problem; /* forces and energies of the answer: with its pressure, if it has one */
+    state.field = result->field;
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
     result->formulation = ost_problem_formulation(analysis->problem);
-    OST_TRY(ost_guard_after(analysis->problem, analysis->options.relative_residual, solved_for, result));
+    OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, result));
     if (solved_for->errors.known) /* one error of the displacement is stated */
         result->solve.error_estimate = solved_for->errors.displacement;
     OST_TRY(ost_result_find_largest(result));
@@ -69,7 +71,7 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 /* What estimates share, where more loads follow. */
 static OstStatus keep_estimate(OstAnalysis *analysis)
 {
-    if (!analysis->serves_several || analysis->estimate)
+    if (!analysis->serves_several || analysis->estimate || analysis->problem->pressures) /* each answer has its own */
         return OST_SUCCESS;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     const OstStatus status = ost_estimate_create(analysis->problem, &analysis->estimate);

@@ -52,9 +52,10 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
     return ost_agree(result->ctx, status);
 }
 
+/* A mixed form's dual problem would have a pressure too: there is no estimate of its quantities. */
 static int asks_of_quantity(const OstProblem *problem)
 {
-    return problem->scene && problem->scene->c->interest > 0;
+    return problem->scene && !problem->pressures && problem->scene->c->interest > 0;
 }
 
 /* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
@@ -116,10 +117,12 @@ done:
 OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result)
 {
     OstEstimate *estimate = NULL;
+    OstProblem state = *analysis->problem; /* with the answer's pressure, if it has one */
+    state.field = result->field;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     const int has_all = result->answer.known && !asks_of_quantity(analysis->problem);
     const int needs_own = !has_all && !analysis->estimate;
-    OstStatus status = needs_own ? ost_estimate_create(analysis->problem, &estimate) : OST_SUCCESS;
+    OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
     OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);

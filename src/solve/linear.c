@@ -23,6 +23,8 @@ static void release(OstAnalysis *analysis)
     ost_stiffness_solver_release(&linear->stiffness);
     OST_FREE(linear->rhs);
     OST_FREE(linear->v);
+    OST_FREE(linear->volume);
+    OST_FREE(linear->pressure);
     OST_FREE(analysis->work);
 }
 
@@ -39,6 +41,10 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &linear->rhs, unknowns);
     OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
+    if (problem->pressures) {
+        OST_THEN(OST_NEW(ctx, &linear->volume, problem->pressures->owned));
+        OST_THEN(OST_NEW(ctx, &linear->pressure, problem->pressures->count));
+    }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
     return ost_guard_stiffness(problem, linear->stiffness.rows.modes, &linear->rigid_motion, before);
@@ -51,19 +57,27 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
+    if (linear->volume) {
+        OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
+        OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));
+    }
     return ost_guard_load(problem, 0, linear->rhs, before);
 }
 
-static OstStatus describe_rhs(OstContext *ctx, const OstLinear *linear, size_t unknowns, OstSolvedFor *solved_for)
+static OstStatus describe_rhs(const OstProblem *problem, const OstLinear *linear, OstSolvedFor *solved_for)
 {
+    const size_t unknowns = 3 * (size_t)problem->system->matrix->rows;
     double sums[2] = {0.0};
     for (size_t i = 0; i < unknowns; i++) {
         sums[0] += linear->rhs[i] * linear->rhs[i];
         sums[1] += linear->rhs[i] * linear->v[i];
     }
-    OST_TRY(ost_sum(ctx, 2, sums));
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
     *solved_for = (OstSolvedFor){.norm = sqrt(sums[0]), .work = sums[1]};
-    return OST_SUCCESS;
+    if (!linear->volume)
+        return OST_SUCCESS;
+    const OstSaddle saddle = {problem->coupling, linear->volume, linear->pressure};
+    return ost_saddle_size(problem->system->matrix, &saddle, linear->rhs, &solved_for->norm);
 }
 
 /* Takes the unknowns of the displacement to start from, if there is one. */
@@ -82,6 +96,41 @@ static int take_start(const OstAnalysis *analysis)
     return analysis->start != NULL;
 }
 
+/* Takes the mean off the pressures of incompressible material, which nothing determines. */
+static OstStatus centre_pressure(const OstCoupling *coupling, double *pressure)
+{
+    double *mass = NULL, sums[2] = {0.0};
+    OST_TRY(
+        ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &mass, (size_t)coupling->columns + (size_t)coupling->rows)));
+    double *ones = mass + coupling->rows;
+    for (OstLocal i = 0; i < coupling->rows; i++)
+        ones[i] = coupling->looseness[i] == 0.0;
+    OstStatus status = ost_coupling_mass(coupling, ones, mass);
+    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++) {
+        sums[0] += ones[i] * mass[i];
+        sums[1] += pressure[i] * mass[i];
+    }
+    OST_THEN(ost_sum(coupling->ctx, 2, sums));
+    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++)
+        pressure[i] -= ones[i] * sums[1] / sums[0];
+    OST_FREE(mass);
+    return status;
+}
+
+/* By the solver, of the right-hand side that is there. */
+static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *report)
+{
+    OstLinear *linear = analysis->work;
+    OstSolver *solver = linear->stiffness.solver;
+    if (!linear->volume)
+        return ost_solver_solve(solver, linear->rhs, linear->v, report);
+    const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
+    const OstStatus solved = ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
+    if (linear->enclosed)
+        OST_TRY(centre_pressure(saddle.coupling, linear->pressure));
+    return solved;
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
@@ -90,11 +139,13 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     const int before = goes_on ? result->solve.iterations : 0;
     const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){.stop = stop, .goes_on = goes_on});
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, &result->solve);
+    const OstStatus solved = solve_equations(analysis, &result->solve);
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){0});
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
+    if (linear->volume)
+        OST_TRY(ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure));
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (result->reached && problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
@@ -155,17 +206,18 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     OstErrors errors = {0};
-    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
+    const int may_stop =
+        !linear->volume && analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved =
-        may_stop ? stop_early(analysis, result, &errors) : run_solver(analysis, NULL, take_start(analysis), result);
+    const OstStatus solved = may_stop ? stop_early(analysis, result, &errors)
+                                      : run_solver(analysis, NULL, !linear->volume && take_start(analysis), result);
     if (!result->reached)
         return solved;
-    if (solved == OST_SUCCESS && !result->solve.stopped)
+    if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
         OST_TRY(find_errors(analysis, result, 0, &errors));
-    OST_TRY(describe_rhs(analysis->ctx, linear, 3 * (size_t)problem->system->matrix->rows, solved_for));
+    OST_TRY(describe_rhs(problem, linear, solved_for));
     solved_for->errors = errors;
     return solved;
 }
@@ -189,7 +241,7 @@ OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *
     OstLinear *linear = analysis->work;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
-    const OstStatus solved = ost_solver_solve(linear->stiffness.solver, linear->rhs, linear->v, report);
+    const OstStatus solved = solve_equations(analysis, report);
     if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
         return solved;
     OST_TRY(ost_problem_function_displacement(problem, function, linear->v, displacement));

@@ -10,6 +10,8 @@
 typedef struct OstLinear {
     OstStiffnessSolver stiffness; /* its solver is made by the first solve */
     double *rhs, *v;              /* 3 × rows */
+    double *volume, *pressure;    /* of a mixed form: right-hand side and pressures, ghosts included; else NULL */
+    int enclosed;                 /* is only the shape of the pressure known (ost_guard_volume)? */
     double rigid_motion;
 } OstLinear;
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/memory.h"
 #include "guard/linearity.h"
 #include "solve/linear.h"
 #include "solve/newton.h"
@@ -47,9 +48,25 @@ static OstStatus start(const OstProblem *problem, const OstResult *linear, OstNe
     return OST_SUCCESS;
 }
 
+/* Newton's method has no mixed form: it goes on with the mean dilatation, and a solver of that stiffness. */
+static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
+{
+    OstProblem *problem = analysis->problem;
+    OstVerdict before = {.count = 0};
+    ost_linear_strategy.release(analysis);
+    OST_TRY(ost_problem_leave_mixed(problem));
+    OST_FREE(result->pressure);
+    result->at_pressure = *problem->field;
+    OST_TRY(ost_linear_strategy.prepare(analysis, &before));
+    OST_TRY(ost_verdict_raise(analysis->ctx, &before));
+    return ost_stiffness_solver_make(&((OstLinear *)analysis->work)->stiffness);
+}
+
 static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     OstProblem *problem = analysis->problem;
+    if (problem->pressures)
+        OST_TRY(leave_mixed(analysis, result));
     OstLinear *linear = analysis->work;
     OstNewton *newton = NULL;
     OstNewtonState state = {0};

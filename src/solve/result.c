@@ -20,10 +20,20 @@ OstStatus ost_result_create(const OstProblem *problem, OstResult **result)
         made->field = ost_problem_field(problem);
         made->t = 1.0;
         status = OST_NEW(ctx, &made->displacement, 3 * (size_t)mesh->node_count);
+        if (problem->pressures) {
+            ost_ledger_enter(ctx, OST_EFFECT_MIXED);
+            OST_THEN(OST_NEW(ctx, &made->pressure, 4 * (size_t)mesh->tet_count));
+            ost_ledger_leave(ctx);
+        }
     }
     status = ost_agree(ctx, status);
     if (status != OST_SUCCESS)
         ost_result_destroy(&made);
+    else if (made->pressure) {
+        OstProblem state;
+        ost_problem_at_pressure(problem, made->pressure, &made->at_pressure, &state);
+        made->field = &made->at_pressure;
+    }
     *result = made;
     return status;
 }
@@ -33,6 +43,7 @@ void ost_result_destroy(OstResult **result)
     if (!*result)
         return;
     OST_FREE((*result)->displacement);
+    OST_FREE((*result)->pressure);
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
     OST_FREE((*result)->strain);

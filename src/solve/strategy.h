@@ -40,7 +40,7 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 
-/* Collective. Another loading has been given to the problem (problem/load_case.h). */
+/* Collective. Another loading has been given to the problem (problem/cases/load_case.h). */
 OstStatus ost_analysis_take_loading(OstAnalysis *analysis);
 
 /* Collective. Makes all that the next solve needs; all objections are raised as one failure. */

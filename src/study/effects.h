@@ -14,6 +14,7 @@
     X(OST_VARIANT_ISOTROPIC, OST_EFFECT_ORTHOTROPY, "isotropic mean for orthotropy")          \
     X(OST_VARIANT_ONE_FRAME, OST_EFFECT_VARYING_AXES, "one frame for varying axes")           \
     X(OST_VARIANT_ONE_MATERIAL, OST_EFFECT_REGIONS, "one material for several")               \
+    X(OST_VARIANT_NOT_MIXED, OST_EFFECT_MIXED, "mean dilatation for mixed form")              \
     X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")    \
     X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero")  \
     X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                     \

@@ -24,6 +24,7 @@ typedef struct Tet {
     int nodes;
     OstLocal number;
     double x[3 * OST_MAX_TET_NODES], u[3 * OST_MAX_TET_NODES];
+    const double *pressure; /* at its vertices, of a mixed form; else NULL */
 } Tet;
 
 /* Quadratic tets of a nearly incompressible material see one mode of the strain by its mean over the tet alone
@@ -43,6 +44,9 @@ static void gather_tet(const View *view, OstLocal tet, Tet *gathered)
     gathered->number = tet;
     ost_gather3(n, nodes, view->mesh->coordinates, gathered->x);
     ost_gather3(n, nodes, view->result->displacement, gathered->u);
+    gathered->pressure = NULL;
+    if (view->result->pressure && ost_field_stiff_mode(view->result->field, view->mesh->tet_region[tet]))
+        gathered->pressure = view->result->pressure + 4 * (size_t)tet;
 }
 
 /* 11 22 33 12 23 31, shear twice. */
@@ -84,17 +88,37 @@ static void find_mode(const View *view, OstLocal tet, const double place[3], Mod
         }
 }
 
+static void take_off_eigenstrain(const View *view, OstLocal tet, const double place[3], double strain[6])
+{
+    const OstMaterialField *field = view->result->field;
+    double axes[9];
+    if (!ost_field_is_eigenstrained(field))
+        return;
+    ost_field_axes_at(field, tet, place, axes);
+    ost_field_add_eigenstrain(field, tet, -1.0, axes, strain);
+}
+
 /* What is left of the answer's strain when the eigenstrain is taken off. */
 static void elastic_strain_at(const View *view, const Tet *tet, const double at[4], const double place[3],
                               double strain[6])
 {
-    const OstMaterialField *field = view->result->field;
-    double axes[9];
     strain_at(tet, at, strain);
-    if (!ost_field_is_eigenstrained(field))
-        return;
-    ost_field_axes_at(field, tet->number, place, axes);
-    ost_field_add_eigenstrain(field, tet->number, -1.0, axes, strain);
+    take_off_eigenstrain(view, tet->number, place, strain);
+}
+
+static double pressure_at(const Tet *tet, const double at[4])
+{
+    return at[0] * tet->pressure[0] + at[1] * tet->pressure[1] + at[2] * tet->pressure[2] + at[3] * tet->pressure[3];
+}
+
+/* A mixed form's stress without its pressure, of a strain. */
+static void rest_stress(const View *view, OstLocal tet, const double place[3], const double strain[6], double stress[6])
+{
+    const OstMaterialField *field = view->result->field;
+    double axes[9], rest[36];
+    ost_field_axes_at(field, tet, place, axes);
+    ost_material_rotate_stiffness(ost_field_rest(field, field->tet_region[tet]), axes, rest);
+    ost_apply6(rest, strain, stress);
 }
 
 /* Mean over a tet of m'(elastic strain); 0 without mean dilatation. */
@@ -162,8 +186,15 @@ static OstStatus stress_in_tet(const View *view, const Tet *tet, const double at
 {
     double c[36], strain[6];
     Mode mode;
-    OST_TRY(view->exact->stiffness(view->exact->data, place, c));
     elastic_strain_at(view, tet, at, place, strain);
+    if (tet->pressure) {
+        find_mode(view, tet->number, place, &mode);
+        rest_stress(view, tet->number, place, strain, stress);
+        for (int p = 0; p < 6; p++)
+            stress[p] += pressure_at(tet, at) * mode.m[p];
+        return OST_SUCCESS;
+    }
+    OST_TRY(view->exact->stiffness(view->exact->data, place, c));
     ost_apply6(c, strain, stress);
     find_mode(view, tet->number, place, &mode);
     const double excess = ost_dot6(mode.m, strain) - mean_of_mode(view, tet);
@@ -361,6 +392,50 @@ static OstStatus add_energy(const View *view, const Tet *tet, const TetPoint *po
     return OST_SUCCESS;
 }
 
+/* A mixed form's energy, or its pressure alone: strain and pressure, and how far they are from the formula's. */
+static OstStatus add_mixed(const View *view, const Tet *tet, const TetPoint *point, double squares[SQUARES])
+{
+    const double looseness = view->result->field->mixed.looseness[view->mesh->tet_region[tet->number]];
+    const int only_pressure = view->quantity->norm == OST_NORM_PRESSURE;
+    double g[9], strain[SQUARES][6], elastic[6], stress[6], exact[6], pressure[SQUARES];
+    Mode mode;
+    OST_TRY(view->exact->gradient(view->exact->data, point->place, g));
+    OST_TRY(view->exact->stress(view->exact->data, point->place, exact));
+    strain_of_gradient(g, strain[OF_FORMULA]);
+    memcpy(elastic, strain[OF_FORMULA], sizeof elastic);
+    take_off_eigenstrain(view, tet->number, point->place, elastic);
+    rest_stress(view, tet->number, point->place, elastic, stress);
+    find_mode(view, tet->number, point->place, &mode);
+    for (int p = 0; p < 6; p++)
+        exact[p] -= stress[p];
+    pressure[OF_FORMULA] = ost_dot6(mode.m, exact) / ost_dot6(mode.m, mode.m);
+    pressure[OF_DIFFERENCE] = pressure_at(tet, point->at) - pressure[OF_FORMULA];
+    strain_at(tet, point->at, strain[OF_DIFFERENCE]);
+    for (int p = 0; p < 6; p++)
+        strain[OF_DIFFERENCE][p] -= strain[OF_FORMULA][p];
+    for (int s = 0; s < SQUARES; s++) {
+        rest_stress(view, tet->number, point->place, strain[s], stress);
+        squares[s] +=
+            point->weight * (only_pressure ? pressure[s] * pressure[s]
+                                           : ost_dot6(stress, strain[s]) + looseness * pressure[s] * pressure[s]);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_point(const View *view, const Tet *tet, const TetPoint *point, double squares[SQUARES],
+                           double modes[SQUARES])
+{
+    if (view->quantity->norm == OST_NORM_DISPLACEMENT)
+        return add_displacement(view, tet, point, squares);
+    if (tet->pressure)
+        return add_mixed(view, tet, point, squares);
+    if (view->quantity->norm == OST_NORM_ENERGY)
+        return add_energy(view, tet, point, squares, modes);
+    return OST_RAISE(view->mesh->ctx, OST_INVALID_INPUT,
+                     "field: pressure is an unknown of the mixed form alone, that of quadratic tets of a nearly "
+                     "incompressible material");
+}
+
 static OstStatus add_tet(const View *view, OstLocal number, double squares[SQUARES])
 {
     Tet tet;
@@ -374,8 +449,7 @@ static OstStatus add_tet(const View *view, OstLocal number, double squares[SQUAR
         point.weight =
             ost_tet_degree5.point[q].weight * ost_shape_gradients(tet.nodes, point.at, tet.x, gradients) / 6.0;
         volume += point.weight;
-        OST_TRY(view->quantity->norm == OST_NORM_DISPLACEMENT ? add_displacement(view, &tet, &point, squares)
-                                                              : add_energy(view, &tet, &point, squares, modes));
+        OST_TRY(add_point(view, &tet, &point, squares, modes));
     }
     for (int s = 0; s < SQUARES; s++)
         squares[s] += modes[s] * modes[s] / volume;

@@ -54,7 +54,7 @@ CASES = {
     "one of them replaced": ("mesh: {file: two.veg}\nmaterials: [{region: HARD, youngs_modulus: 1, poissons_ratio: 0.3}]\n" +
                              FIXED + force("{box: {min: [1, 0, 0], max: [1, 1, 1]}}"), ["several materials", "point force"]),
     "near incompressibility": ("element: {order: 2}\nmesh: {file: two.veg}\n" + FIXED + force("{vertices: [5]}"),
-                               ["mean dilatation"]),
+                               ["mixed form"]),
     "multigrid": ("element: {order: 2}\n" + BLOCK + STEEL + HELD + force("{boundary: xmax}") + "solver: {method: metric}\n",
                   ["linear space", "surface load"]),
 }

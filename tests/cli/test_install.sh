@@ -120,7 +120,7 @@ expect() { # ANSWER WORD...
 mkdir -p completion/deeper
 cd completion
 touch beam.yaml beam.yml beam.vtkhdf
-expect "solve scale " orthostat s
+expect "solve " orthostat so
 expect "--version --verbose " orthostat --ver
 expect "--json= " orthostat solve --js
 expect "--json " orthostat -q check --js
@@ -128,4 +128,4 @@ expect "beam.yaml beam.yml " orthostat solve b
 expect "beam.yaml beam.yml deeper " orthostat explain ""
 expect "beam.vtkhdf " orthostat solve --output beam.v
 expect "beam.vtkhdf " orthostat solve --output = beam.v
-expect "check cost " scripts/orthostat -n 4 c
+expect "check " scripts/orthostat -n 4 ch

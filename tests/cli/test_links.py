@@ -1,8 +1,9 @@
 """Rigid, tied and periodic faces, against formulas, on one rank and on several."""
 import itertools
+import json
 import os
 
-from program import check, fewer, new_folder, solve
+from program import check, fewer, new_folder, run, solve
 
 RANKS = (1, 2, 4)
 
@@ -108,6 +109,35 @@ def what_lies_elsewhere_does_not_matter():
     near(values[1]["tip"], values[0]["tip"], 1e-7, "the tip")
 
 
+LOAD_CASES = """
+mesh: {block: {size: [4, 1, 1], divisions: [4, 2, 2]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1200, poissons_ratio: 0}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+cases:
+  - {name: soft, loads: [{on: {boundary: xmax}, moment: [0, 0, 5]}]}
+  - {name: turned, constraints: [{on: {boundary: xmax}, rigid: {at: [4, 0.5, 0.5], rotation: [0, 0, 0.2]}}]}
+  - {name: twice, constraints: [{on: {boundary: xmax}, rigid: {at: [4, 0.5, 0.5], rotation: [0, 0, 0.4]}}]}
+  - {name: free, constraints: [{on: {boundary: xmax}, rigid: [4, 0.5, 0.5]}], loads: [{on: {boundary: xmax}, moment: [0, 0, 5]}]}
+watch: {tip: {displacement: {nearest: [4, 0.5, 0.5]}, component: y}}
+accuracy: {relative_residual: 1e-10}
+output: {file: bar.vtkhdf}
+"""
+
+
+def load_cases_have_faces_of_their_own():
+    folder = new_folder()
+    with open(os.path.join(folder, "bar.yaml"), "w") as stream:
+        stream.write(LOAD_CASES)
+    for ranks in fewer((1, 2)):
+        finished = run("solve", "bar.yaml", "--json", "bar.json", ranks=ranks, folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        with open(os.path.join(folder, "bar.json")) as stream:
+            tips = {one["load_case"]: one["watched"]["tip"]["value"] for one in json.load(stream)["cases"]}
+        for name, tip in (("soft", 0.4), ("turned", 0.4), ("twice", 0.8), ("free", 0.4)):
+            near(tips[name], tip, 1e-8, f"{ranks} ranks: the tip of '{name}'")
+
+
 TIED = """
 mesh: {file: two.msh}
 element: {order: ORDER}
@@ -198,6 +228,7 @@ def what_cannot_be_is_refused():
 
 a_rigid_face_bends_a_bar()
 what_lies_elsewhere_does_not_matter()
+load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_layered_cell_has_the_stiffness_of_a_laminate()
 what_cannot_be_is_refused()

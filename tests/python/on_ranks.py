@@ -56,6 +56,9 @@ def a_uniform_stretch_has_the_formula(folder):
             stream.write(text)
     of_text, of_file = orthostat.solve(text), orthostat.Case(file, comm=result.context).solve()
     close(of_file.displacement, of_text.displacement, 1e-9)
+    finer = orthostat.Case(file, settings={"title": "finer", "element.order": 2})
+    assert finer.title == "finer" and finer.solve().unknowns > of_file.unknowns
+    raises(ValueError, "settings are for files", orthostat.Case, BAR, settings={"title": "x"})
     result.write(os.path.join(folder, "bar.vtkhdf"), fields=["displacement", "stress"])
     assert open(os.path.join(folder, "bar.vtkhdf"), "rb").read(8) == b"\x89HDF\r\n\x1a\n"
 
@@ -116,6 +119,24 @@ def many_loads_share_one_hierarchy(folder):
     squares = mesh.gather_tets(estimated.tet_error ** 2).sum()
     close(squares, estimated.error.energy_norm ** 2, 1e-9)
     assert 0 < estimated.error.relative < 1 and estimated.stress is not None and estimated.strain is None
+
+
+def load_cases_share_a_stiffness(folder):
+    bend = [{"on": {"boundary": "xmax"}, "total_force": [0, -0.001, 0]}]
+    other = [{"on": {"boundary": "xmin"}, "displacement": [0.004, 0, 0]}]
+    case = orthostat.Case({**BAR, "constraints": LEFT_FIXED, "accuracy": {"relative_residual": 1e-10}, "cases": [
+        {"name": "pull"}, {"name": "both", "loads": bend}, {"name": "moved", "constraints": other},
+        {"name": "loose", "constraints": [{"on": {"boundary": "xmin"}, "displacement": [0, None, None]}]}]})
+    assert list(case.load_cases) == ["pull", "both", "moved", "loose"]
+    cases = case.scene().load_cases()
+    assert len(cases) == 4 and cases.stiffnesses == 2
+    failure = raises(orthostat.InvalidInput, "loose", case.solve)
+    results = failure.result
+    assert set(results) == {"pull", "both", "moved"} and "both" in results["both"].scene.case.title
+    close(results["moved"].displacement - results["pull"].displacement, np.tile([0.004, 0, 0], (results["pull"].mesh.node_count, 1)), 1e-6)
+    alone = orthostat.Case({**BAR, "constraints": LEFT_FIXED, "loads": BAR["loads"] + bend, "accuracy": {"relative_residual": 1e-10}}).solve()
+    close(results["both"].displacement, alone.displacement, 1e-7)
+    close(results["both"].watch["end"].value, alone.watch["end"].value, 1e-7)
 
 
 def fields_are_those_of_the_file(folder):
@@ -319,7 +340,7 @@ def main():
     context = orthostat.Context()
     folder = sys.argv[2]
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
-                 many_loads_share_one_hierarchy, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
+                 many_loads_share_one_hierarchy, load_cases_share_a_stiffness, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
                  poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, communicators_are_handed_over,
                  materials_have_their_matrices):

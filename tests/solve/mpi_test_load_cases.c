@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/analysis.h"
+#include "orthostat/load_cases.h"
 #include "problem/result_data.h"
-#include "solve/cases/load_cases.h"
+#include "problem/scene_data.h"
 #include "support.h"
 
 #include <string.h>

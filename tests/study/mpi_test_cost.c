@@ -45,8 +45,8 @@ static OstStatus pretend(OstCost *study, const OstCase *variant, OstCostRun *run
     run->unknowns = (OstGlobal)(finer * finer * finer);
     run->seconds = run->order * finer * finer * finer * (1.0 - 0.05 * log10(run->tolerance));
     run->bytes = 1e6 * run->seconds;
-    run->watched[0] = (OstWatched){2.0 + 1.0 / (finer * finer * run->order), 2.0, NAN};
-    run->watched[1] = (OstWatched){1.0 + finer, 1.0 + finer, NAN};
+    run->watched[0] = (OstWatched){2.0 + 1.0 / (finer * finer * run->order), 2.0, .error = NAN};
+    run->watched[1] = (OstWatched){1.0 + finer, 1.0 + finer, .error = NAN};
     return OST_SUCCESS;
 }
 

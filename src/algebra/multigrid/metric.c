@@ -224,15 +224,20 @@ void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPrecondi
     *cycle = (OstPreconditioner){.data = metric->cycle, .apply = ost_cycle_apply};
 }
 
+void ost_metric_report(const OstMetric *metric, OstSolveReport *report)
+{
+    report->levels = metric->levels;
+    for (int l = 0; l < metric->levels; l++)
+        report->level_unknowns[l] = metric->level_unknowns[l];
+    report->operator_complexity = metric->operator_complexity;
+}
+
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     OstPreconditioner cycle;
     OstCgSystem system;
     ost_metric_system(metric, &system, &cycle);
-    report->levels = metric->levels;
-    for (int l = 0; l < metric->levels; l++)
-        report->level_unknowns[l] = metric->level_unknowns[l];
-    report->operator_complexity = metric->operator_complexity;
+    ost_metric_report(metric, report);
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML cycle of %d levels", metric->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
 }

@@ -30,6 +30,9 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
 /* Local. What conjugate gradients iterate on, and what preconditions it; both live as long as the metric. */
 void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPreconditioner *cycle);
 
+/* Local. Fills the report's levels and operator complexity. */
+void ost_metric_report(const OstMetric *metric, OstSolveReport *report);
+
 /* Collective. As ost_cg_solve; fills the report's levels, complexity and condition estimate. */
 OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "solve/cases/load_cases.h"
+#include "orthostat/load_cases.h"
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "problem/load_case.h"
+#include "problem/cases/load_case.h"
+#include "problem/scene_data.h"
 #include "solve/strategy.h"
 
 struct OstLoadCases {

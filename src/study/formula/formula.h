@@ -28,6 +28,7 @@ typedef struct OstFormula {
 
     void (*displacement)(const double *constant, const double x[3], double u[3]);
     void (*gradient)(const double *constant, const double x[3], double gradient[9]); /* NULL: by finite differences */
+    void (*stress)(const double *constant, const double x[3], double stress[6]); /* NULL: by the material from strain */
 } OstFormula;
 
 extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_uniform_load, ost_formula_torsion,
@@ -37,8 +38,8 @@ extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_un
 /* Local. Number of a value by name, or -1. */
 int ost_formula_find_value(const OstFormula *formula, const char *name);
 
-/* The closed-form solution of a case: strain from the formula's displacement, stress by the material in its axes at the
- * point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
+/* The closed-form solution of a case: strain from the formula's displacement, stress by the formula or by the material in
+ * its axes at the point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
 typedef struct OstExact {
     OstClosedForm field; /* field.data is this object */
     OstContext *ctx;

@@ -14,8 +14,9 @@
 /* Lekhnitskii, Theory of Elasticity of an Anisotropic Body, §41, for a cylindrically orthotropic tube; with k = 1
  * Lamé's (Timoshenko and Goodier, §28). With beta_ij = S_ij - S_iz S_jz / S_zz and k² = beta_rr / beta_tt,
  *   sigma_r = C r^(k-1) + D r^(-k-1),  sigma_t = k C r^(k-1) - k D r^(-k-1),  u_r = r (beta_rt sigma_r + beta_tt
- * sigma_t), C and D such that sigma_r = -p at the inner radius and 0 at the outer. */
-enum { EXPONENT, C, D, BETA_RT, BETA_TT };
+ * sigma_t), sigma_z = -(S_rz sigma_r + S_tz sigma_t) / S_zz, C and D such that sigma_r = -p at the inner radius and 0
+ * at the outer. */
+enum { EXPONENT, C, D, BETA_RT, BETA_TT, AXIAL_R, AXIAL_T };
 
 static OstStatus find_directions(const OstCase *c, int *radial, int *tangential, int *axial)
 {
@@ -71,6 +72,8 @@ static OstStatus prepare_cylinder(const OstCase *c, const double *parameter, Ost
     const double rr = compliance(o, r, r) - compliance(o, r, z) * compliance(o, r, z) / zz;
     k[BETA_RT] = compliance(o, r, t) - compliance(o, r, z) * compliance(o, t, z) / zz;
     k[BETA_TT] = compliance(o, t, t) - compliance(o, t, z) * compliance(o, t, z) / zz;
+    k[AXIAL_R] = -compliance(o, r, z) / zz;
+    k[AXIAL_T] = -compliance(o, t, z) / zz;
     k[EXPONENT] = sqrt(rr / k[BETA_TT]);
     const double e = k[EXPONENT];
     /* C b^(e-1) = -D b^(-e-1); C a^(e-1) + D a^(-e-1) = -p */
@@ -93,18 +96,31 @@ static void cylinder(const double *k, const double p[3], double u[3])
     u[2] = 0.0;
 }
 
+static void cylinder_stress(const double *k, const double p[3], double stress[6])
+{
+    const double r = hypot(p[0], p[1]), x = p[0] / r, y = p[1] / r;
+    const double radial = tube_radial_stress(k, r), hoop = tube_hoop_stress(k, r);
+    stress[0] = radial * x * x + hoop * y * y;
+    stress[1] = radial * y * y + hoop * x * x;
+    stress[2] = k[AXIAL_R] * radial + k[AXIAL_T] * hoop;
+    stress[3] = (radial - hoop) * x * y;
+    stress[4] = stress[5] = 0.0;
+}
+
 const OstFormula ost_formula_cylinder = {
     .name = "cylinder",
     .parameter_name = {"inner_radius", "outer_radius", "pressure"},
     .value_name = {"inner_displacement", "outer_displacement", "inner_hoop_stress", "exponent"},
     .prepare = prepare_cylinder,
     .displacement = cylinder,
+    .stress = cylinder_stress,
 };
 
 /* --- a hollow sphere about the origin --- */
 
-/* Lamé (Timoshenko and Goodier, §136): u_r = p a³ / (E (b³ - a³)) ((1 - 2 nu) r + (1 + nu) b³ / (2 r²)). */
-enum { LINEAR, INVERSE_SQUARE };
+/* Lamé (Timoshenko and Goodier, §136): u_r = p a³ / (E (b³ - a³)) ((1 - 2 nu) r + (1 + nu) b³ / (2 r²));
+ * sigma_r = p a³ / (b³ - a³) (1 - b³ / r³), sigma_t = p a³ / (b³ - a³) (1 + b³ / (2 r³)). */
+enum { LINEAR, INVERSE_SQUARE, UNIFORM, OUTER_CUBE };
 
 static OstStatus prepare_sphere(const OstCase *c, const double *parameter, OstFormulaData *data)
 {
@@ -116,6 +132,8 @@ static OstStatus prepare_sphere(const OstCase *c, const double *parameter, OstFo
     const double size = pressure * pow(inner, 3) / (o->youngs_modulus[0] * (pow(outer, 3) - pow(inner, 3)));
     k[LINEAR] = size * (1.0 - 2.0 * nu);
     k[INVERSE_SQUARE] = size * 0.5 * (1.0 + nu) * pow(outer, 3);
+    k[UNIFORM] = size * o->youngs_modulus[0];
+    k[OUTER_CUBE] = pow(outer, 3);
     data->length = inner;
     data->value[0] = k[LINEAR] * inner + k[INVERSE_SQUARE] / (inner * inner);
     data->value[1] = k[LINEAR] * outer + k[INVERSE_SQUARE] / (outer * outer);
@@ -129,10 +147,21 @@ static void sphere(const double *k, const double p[3], double u[3])
         u[i] = stretch * p[i];
 }
 
+static void sphere_stress(const double *k, const double p[3], double stress[6])
+{
+    const double r = ost_norm3(p), cube = k[OUTER_CUBE] / (r * r * r);
+    const double radial = k[UNIFORM] * (1.0 - cube), hoop = k[UNIFORM] * (1.0 + 0.5 * cube);
+    for (int i = 0; i < 3; i++) {
+        stress[i] = hoop + (radial - hoop) * p[i] * p[i] / (r * r);
+        stress[3 + i] = (radial - hoop) * p[i] * p[(i + 1) % 3] / (r * r);
+    }
+}
+
 const OstFormula ost_formula_sphere = {
     .name = "sphere",
     .parameter_name = {"inner_radius", "outer_radius", "pressure"},
     .value_name = {"inner_displacement", "outer_displacement"},
     .prepare = prepare_sphere,
     .displacement = sphere,
+    .stress = sphere_stress,
 };

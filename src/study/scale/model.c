@@ -250,6 +250,8 @@ int ost_scale_check(const OstScale *scale, const OstScaleRun *run, const OstScal
             other->ranks > 1 && other->ranks < run->ranks && (!*from || other->ranks > (*from)->ranks))
             *from = other;
     }
+    if (!*from && run->ranks > 1)
+        *from = run;
     if (!*from)
         return 0;
     ost_scale_foretell(*from, &scale->here, run->ranks, (double)run->unknowns, forecast);

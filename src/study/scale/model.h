@@ -47,8 +47,8 @@ double ost_scale_memory_rate(const OstScale *scale);
 /* Local. What a rank sends in an iteration, on all levels. */
 void ost_scale_sent(const OstScaleRun *run, OstScaleCount *messages, OstScaleCount *bytes);
 
-/* Local. Foretells a run for this machine from that of the same size on fewer ranks, but more than one. Returns 0 if
- * there is none. */
+/* Local. Foretells a run for this machine from that of the same size on fewer ranks, but more than one; from itself if
+ * there is none, which checks its seconds alone. Returns 0 on one rank. */
 int ost_scale_check(const OstScale *scale, const OstScaleRun *run, const OstScaleRun **from,
                     OstScaleForecast *forecast);
 

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_PROBLEM_LOAD_CASE_H
-#define ORTHOSTAT_PROBLEM_LOAD_CASE_H
+#ifndef ORTHOSTAT_PROBLEM_CASES_LOAD_CASE_H
+#define ORTHOSTAT_PROBLEM_CASES_LOAD_CASE_H
 
 #include "problem/problem.h"
 
 /* Several loadings of one body. */
-
-/* Collective. The scene of one of the load cases of the scene's case: on its mesh and materials, which outlive it. */
-OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case);
 
 /* Collective. A number for what the supports of the scene's case hold: their directions and springs, not by how much
  * they move. Where it is the same on every rank, so is the stiffness. */

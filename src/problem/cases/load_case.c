@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/load_case.h"
+#include "problem/cases/load_case.h"
 
 #include "core/hash.h"
 #include "problem/boundary_conditions.h"

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_SOLVE_CASES_LOAD_CASES_H
-#define ORTHOSTAT_SOLVE_CASES_LOAD_CASES_H
+#ifndef ORTHOSTAT_LOAD_CASES_H
+#define ORTHOSTAT_LOAD_CASES_H
 
-#include "problem/scene_data.h"
+#include "orthostat/scene.h"
+
+OST_API_BEGIN
 
 /* The load cases of a scene's case, solved one after another. Those that hold the body alike share its stiffness and
  * the solver's hierarchy or factors, and follow each other. */
@@ -24,5 +26,7 @@ const OstScene *ost_load_cases_scene(const OstLoadCases *cases, int number);
 /* Collective. Solves it; result and failures as of ost_analysis_solve. After a failure the others can be solved still.
  */
 OstStatus ost_load_cases_solve(OstLoadCases *cases, unsigned fields, OstResult **result);
+
+OST_API_END
 
 #endif

@@ -1,33 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/solve_cases.h"
+#include "study/cases/solve_cases.h"
 
 #include "case/plan.h"
-#include "cli/destination.h"
-#include "cli/solve_path.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "orthostat/load_cases.h"
 #include "output/load_case_files.h"
-#include "output/path_files.h"
 #include "output/probe_files.h"
-#include "solve/cases/load_cases.h"
+#include "problem/scene_data.h"
 #include "study/watch.h"
 
 #include <stdio.h>
 #include <string.h>
 
-OstStatus ost_cli_check_case_outputs(const OstCase *c, const char *output)
-{
-    char path[OST_LONGEST_PATH], table[OST_LONGEST_PATH];
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
-    ost_load_case_table_name(output, sizeof table, table);
-    OST_TRY(ost_check_outputs(c, 2, (const char *const[]){path, table}));
-    for (int k = 0; k < c->load_case_count; k++) {
-        ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
-        OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
-        OST_TRY(ost_cli_check_probe_outputs(c, path, NULL));
-    }
-    return OST_SUCCESS;
-}
+enum { LONGEST_PATH = 4096 };
 
 /* All load cases, on their way. */
 typedef struct Run {
@@ -41,7 +27,7 @@ typedef struct Run {
 
 static int prints(const Run *run)
 {
-    return ost_log_level(run->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(run->how->json);
+    return ost_log_level(run->ctx) != OST_LOG_QUIET && !(run->how->json && strcmp(run->how->json, "-") == 0);
 }
 
 static OstStatus note_failure(Run *run, OstStatus status, OstLoadCaseReport *report)
@@ -56,7 +42,7 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
                              OstLoadCaseReport *report)
 {
     OstContext *ctx = run->ctx;
-    char file[OST_LONGEST_PATH];
+    char file[LONGEST_PATH];
     OstWatchedValue *watched = NULL;
     const int is_answer = result->verdict.count == 0;
     const int writes = result->checks.finite && (is_answer || run->how->keeps);
@@ -198,7 +184,7 @@ static OstStatus raise_failures(const Run *run)
                      run->how->keeps ? "" : ", and nothing of them was written", text);
 }
 
-OstStatus ost_cli_solve_cases(const OstCase *c, const OstSolveCases *how)
+OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
 {
     Run run = {.ctx = c->ctx, .c = c, .how = how};
     OstStatus status = ost_agree(c->ctx, OST_NEW(c->ctx, &run.report, c->load_case_count));

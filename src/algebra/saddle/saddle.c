@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/saddle/saddle.h"
+
+#include "algebra/krylov/precondition.h"
+#include "algebra/matrix/rounded_stiffness.h"
+#include "algebra/matrix/vector.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* tau over 1 / the smallest eigenvalue of M^-1 A seen so far, from a little before it is needed; and what that is taken
+ * for before any was seen. */
+static const double margin = 1.2, near = 1.05, first_eigenvalue = 0.7;
+
+/* Where the product proves not to be definite all the same, or the residual grows by so much, tau is multiplied and the
+ * pass begins again from where it began; so often at most. */
+static const double enlarge = 1.5, grown = 1e9;
+enum { MOST_RESTARTS = 12 };
+
+/* M works in single precision in part, so that z = N^-1 r, which is carried along, is off by that share of what it was
+ * when it was last computed: it is computed anew where r has become so much smaller. */
+static const double renew_below = 1e-3;
+
+/* A pass that does not reduce the true residual so far is a stall. The rounding limit is an estimate. */
+static const double least_gain = 0.5, rounding_slack = 3.0;
+enum { MOST_STALLS = 3 };
+
+/* A vector of the system: of displacements, and of pressures with room for ghosts. */
+typedef struct Pair {
+    double *u, *p;
+} Pair;
+
+enum { SUM_AZ, SUM_RZ, SUM_P, SUMS };
+
+typedef struct Run {
+    OstContext *ctx;
+    const OstCgSystem *system;
+    const OstPreconditioner *preconditioner;
+    const OstSaddle *saddle;
+    const double *f;
+    double *u;
+    OstGoal *goal;
+    size_t n, m, mg; /* unknowns, pressures, and these with ghosts */
+    double *memory;
+    Pair r, z, d, k;           /* residual, preconditioned; direction, and the system times it */
+    double *az, *ad, *bz, *bd; /* A and B times z and d */
+    double *w;                 /* N^-1 k, and other displacements */
+    double *wide, *scaled;     /* z with ghosts; work of the preconditioner */
+    double *q;                 /* pressures: work, with ghosts */
+    double *work;              /* of ost_coupling_schur_solve */
+    double tau;
+    double size; /* of r.u when z.u was last computed */
+    double weight;
+    double energy; /* of the right-hand sides, about */
+    int passes, restarts;
+    Pair start; /* u and p where the pass began */
+    OstLanczos lanczos;
+} Run;
+
+static OstStatus create(Run *run)
+{
+    const size_t columns = 3 * (size_t)run->system->matrix->columns;
+    const size_t n = run->n, m = run->m, mg = run->mg;
+    OstStatus status = OST_NEW(run->ctx, &run->memory, 9 * n + columns + 5 * mg + 7 * m);
+    OST_THEN(ost_lanczos_create(run->ctx, run->goal->most_iterations, &run->lanczos));
+    OST_TRY(ost_agree(run->ctx, status));
+    double *next = run->memory;
+    double **of_unknowns[] = {&run->r.u, &run->z.u, &run->d.u,    &run->k.u,    &run->az,
+                              &run->ad,  &run->w,   &run->scaled, &run->start.u};
+    double **of_columns[] = {&run->r.p, &run->z.p, &run->d.p, &run->k.p, &run->q};
+    double **of_pressures[] = {&run->start.p, &run->bz, &run->bd, &run->work};
+    for (int i = 0; i < 9; i++, next += n)
+        *of_unknowns[i] = next;
+    for (int i = 0; i < 5; i++, next += mg)
+        *of_columns[i] = next;
+    for (int i = 0; i < 4; i++, next += m)
+        *of_pressures[i] = next;
+    run->wide = run->work + 3 * m;
+    return OST_SUCCESS;
+}
+
+static void destroy(Run *run)
+{
+    OST_FREE(run->memory);
+    ost_lanczos_destroy(&run->lanczos);
+}
+
+/* --- norms --- */
+
+/* Squares of a residual: of its forces, and of the energy of its error of volume. */
+enum { FORCE, VOLUME, SQUARES };
+
+/* `q` and `work` are work space of pressures, `force` of displacements. */
+static OstStatus squares_of(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
+                            double *force, double squares[SQUARES])
+{
+    const size_t n = 3 * (size_t)coupling->unknowns;
+    OST_TRY(ost_coupling_schur_solve(coupling, r_p, q, work));
+    OST_TRY(ost_coupling_transpose(coupling, q, force));
+    squares[FORCE] = ost_dot(n, r_u, r_u) + ost_dot(n, force, force);
+    squares[VOLUME] = ost_dot((size_t)coupling->rows, r_p, q);
+    return ost_sum(coupling->ctx, SQUARES, squares);
+}
+
+static OstStatus mean_diagonal(const OstBlockMatrix *matrix, double *mean)
+{
+    *mean = 0.0;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
+        *mean += block[0] + block[4] + block[8];
+    }
+    OST_TRY(ost_sum(matrix->ctx, 1, mean));
+    *mean /= 3.0 * (double)matrix->global_rows;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double *size)
+{
+    const OstCoupling *coupling = saddle->coupling;
+    const size_t n = 3 * (size_t)coupling->unknowns, m = (size_t)coupling->rows, mg = (size_t)coupling->columns;
+    double *memory = NULL, squares[SQUARES], mean;
+    OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &memory, n + mg + 3 * m)));
+    OstStatus status = squares_of(coupling, f, saddle->g, memory + n, memory + n + mg, memory, squares);
+    OST_THEN(mean_diagonal(matrix, &mean));
+    if (status == OST_SUCCESS)
+        *size = sqrt(squares[FORCE] + mean * squares[VOLUME]);
+    OST_FREE(memory);
+    return status;
+}
+
+OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double relative,
+                          OstGoal *goal)
+{
+    OST_TRY(ost_saddle_size(matrix, saddle, f, &goal->start));
+    goal->norm = goal->start;
+    goal->target = relative * goal->start;
+    if (isfinite(goal->start))
+        return OST_SUCCESS;
+    return OST_RAISE(goal->ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
+}
+
+/* The norm of the residual at hand. */
+static OstStatus find_norm(Run *run, double *norm)
+{
+    double squares[SQUARES];
+    OST_TRY(squares_of(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, squares));
+    *norm = sqrt(squares[FORCE] + run->goal->start * run->goal->start / run->energy * squares[VOLUME]);
+    return OST_SUCCESS;
+}
+
+/* About twice the energy of the solution: f·A^-1 f + g·S^-1 g. */
+static OstStatus find_energy(Run *run)
+{
+    double sums[2];
+    OST_TRY(ost_precondition(run->system, run->preconditioner, run->f, run->scaled, run->w));
+    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->saddle->g, run->q, run->work));
+    sums[0] = ost_dot(run->n, run->f, run->w);
+    sums[1] = ost_dot(run->m, run->saddle->g, run->q);
+    OST_TRY(ost_sum(run->ctx, 2, sums));
+    run->energy = sums[0] + sums[1];
+    return OST_SUCCESS;
+}
+
+/* --- one iteration --- */
+
+/* z.u = N^-1 r */
+static OstStatus precondition(Run *run, const double *r, double *z)
+{
+    OST_TRY(ost_precondition(run->system, run->preconditioner, r, run->scaled, z));
+    for (size_t i = 0; i < run->n; i++)
+        z[i] *= run->tau;
+    return OST_SUCCESS;
+}
+
+/* r = b - K x for the u and p reached, and its norm. */
+static OstStatus find_residual(Run *run)
+{
+    const OstCoupling *coupling = run->saddle->coupling;
+    memcpy(run->wide, run->u, run->n * sizeof(double));
+    OST_TRY(ost_block_matrix_apply(run->system->matrix, run->wide, run->r.u));
+    OST_TRY(ost_coupling_transpose(coupling, run->saddle->p, run->w));
+    for (size_t i = 0; i < run->n; i++)
+        run->r.u[i] = run->f[i] - run->r.u[i] - run->w[i];
+    ost_coupling_multiply(coupling, run->wide, run->r.p);
+    OST_TRY(ost_coupling_give_way(coupling, run->saddle->p, run->work));
+    for (size_t i = 0; i < run->m; i++)
+        run->r.p[i] = run->saddle->g[i] - run->r.p[i] + run->work[i];
+    return find_norm(run, &run->goal->norm);
+}
+
+/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N proves not to be positive definite
+ * (*again). */
+static OstStatus complete(Run *run, int *again)
+{
+    const OstCoupling *coupling = run->saddle->coupling;
+    double sums[SUMS];
+    *again = 0;
+    memcpy(run->wide, run->z.u, run->n * sizeof(double));
+    OST_TRY(ost_block_matrix_apply(run->system->matrix, run->wide, run->az));
+    ost_coupling_multiply(coupling, run->wide, run->bz);
+    sums[SUM_AZ] = ost_dot(run->n, run->z.u, run->az);
+    sums[SUM_RZ] = ost_dot(run->n, run->z.u, run->r.u);
+    OST_TRY(ost_sum(run->ctx, 2, sums));
+    if (sums[SUM_RZ] > 0.0 && sums[SUM_AZ] < near * sums[SUM_RZ] && sums[SUM_AZ] > 0.0) {
+        const double larger = margin * sums[SUM_RZ] / sums[SUM_AZ];
+        run->tau *= larger;
+        for (size_t i = 0; i < run->n; i++) {
+            run->z.u[i] *= larger;
+            run->az[i] *= larger;
+        }
+        for (size_t i = 0; i < run->m; i++)
+            run->bz[i] *= larger;
+        sums[SUM_AZ] *= larger * larger;
+        sums[SUM_RZ] *= larger;
+        *again = 1;
+        ost_log(run->ctx, OST_LOG_VERBOSE, "solver: the preconditioner is scaled by %.3g", run->tau);
+    }
+    for (size_t i = 0; i < run->m; i++)
+        run->q[i] = run->bz[i] - run->r.p[i];
+    OST_TRY(ost_coupling_schur_solve(coupling, run->q, run->z.p, run->work));
+    sums[SUM_P] = ost_dot(run->m, run->z.p, run->q);
+    OST_TRY(ost_sum(run->ctx, 1, &sums[SUM_P]));
+    run->weight = sums[SUM_AZ] - sums[SUM_RZ] + sums[SUM_P];
+    return OST_SUCCESS;
+}
+
+static void add(size_t n, const double *z, double beta, double *d)
+{
+    for (size_t i = 0; i < n; i++)
+        d[i] = z[i] + beta * d[i];
+}
+
+/* d = z + beta d and k = K d; then w = N^-1 k.u. `curvature`: d·H N^-1 K d. */
+static OstStatus turn(Run *run, double beta, double *curvature)
+{
+    const OstCoupling *coupling = run->saddle->coupling;
+    add(run->n, run->z.u, beta, run->d.u);
+    add(run->m, run->z.p, beta, run->d.p);
+    add(run->n, run->az, beta, run->ad);
+    add(run->m, run->bz, beta, run->bd);
+    OST_TRY(ost_coupling_transpose(coupling, run->d.p, run->k.u));
+    OST_TRY(ost_coupling_give_way(coupling, run->d.p, run->k.p));
+    for (size_t i = 0; i < run->n; i++)
+        run->k.u[i] += run->ad[i];
+    for (size_t i = 0; i < run->m; i++)
+        run->k.p[i] = run->bd[i] - run->k.p[i];
+    OST_TRY(precondition(run, run->k.u, run->w));
+    *curvature =
+        ost_dot(run->n, run->k.u, run->w) - ost_dot(run->n, run->k.u, run->d.u) - ost_dot(run->m, run->k.p, run->d.p);
+    return ost_sum(run->ctx, 1, curvature);
+}
+
+static void step(Run *run, double alpha)
+{
+    for (size_t i = 0; i < run->n; i++) {
+        run->u[i] += alpha * run->d.u[i];
+        run->r.u[i] -= alpha * run->k.u[i];
+        run->z.u[i] -= alpha * run->w[i];
+    }
+    for (size_t i = 0; i < run->m; i++) {
+        run->saddle->p[i] += alpha * run->d.p[i];
+        run->r.p[i] -= alpha * run->k.p[i];
+    }
+}
+
+/* z.u anew where that is due. */
+static OstStatus renew(Run *run, int due)
+{
+    double square;
+    OST_TRY(ost_vector_dot(run->ctx, run->n, run->r.u, run->r.u, &square));
+    if (!due && sqrt(square) >= renew_below * run->size)
+        return OST_SUCCESS;
+    run->size = sqrt(square);
+    return precondition(run, run->r.u, run->z.u);
+}
+
+/* Steps of a pass. *broken: A - N proves not to be positive definite. */
+static OstStatus iterate(Run *run, int *broken)
+{
+    OstGoal *goal = run->goal;
+    const double most = grown * goal->norm;
+    double before = 0.0, curvature, norm;
+    int again;
+    *broken = 0;
+    OST_TRY(renew(run, 1));
+    for (int first = 1;; first = 0) {
+        OST_TRY(complete(run, &again));
+        *broken = !(run->weight > 0.0 && isfinite(run->weight));
+        if (*broken)
+            return OST_SUCCESS;
+        if (again && run->passes == 0)
+            run->lanczos.count = 0; /* of another operator */
+        OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
+        *broken = !(curvature > 0.0 && isfinite(curvature));
+        if (*broken)
+            return OST_SUCCESS;
+        before = run->weight;
+        if (run->passes == 0) /* a run of conjugate gradients; the passes that follow are others */
+            ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
+        step(run, run->weight / curvature);
+        OST_TRY(find_norm(run, &norm));
+        *broken = !(norm <= most);
+        if (!ost_goal_count(goal, norm, run->weight) || *broken)
+            return OST_SUCCESS;
+        OST_TRY(renew(run, 0));
+    }
+}
+
+/* A pass from the residual at hand. */
+static OstStatus run_pass(Run *run)
+{
+    OstGoal *goal = run->goal;
+    int broken;
+    memcpy(run->start.u, run->u, run->n * sizeof(double));
+    memcpy(run->start.p, run->saddle->p, run->m * sizeof(double));
+    OST_TRY(iterate(run, &broken));
+    while (broken && run->restarts++ < MOST_RESTARTS && goal->end == OST_END_REACHED) {
+        run->tau *= enlarge;
+        run->lanczos.count = 0;
+        ost_log(run->ctx, OST_LOG_VERBOSE, "solver: begun again, the preconditioner scaled by %.3g", run->tau);
+        memcpy(run->u, run->start.u, run->n * sizeof(double));
+        memcpy(run->saddle->p, run->start.p, run->m * sizeof(double));
+        OST_TRY(find_residual(run));
+        OST_TRY(iterate(run, &broken));
+    }
+    if (broken && goal->end == OST_END_REACHED)
+        ost_goal_accepts(goal, -1.0);
+    return OST_SUCCESS;
+}
+
+/* --- passes --- */
+
+static OstStatus find_limit(Run *run)
+{
+    double square;
+    OST_TRY(ost_halo_import(run->system->matrix->halo, 3 * sizeof(double), run->wide));
+    ost_term_rounding(run->system->matrix, run->wide, run->w);
+    OST_TRY(ost_vector_dot(run->ctx, run->n, run->w, run->w, &square));
+    run->goal->limit = sqrt(square);
+    return OST_SUCCESS;
+}
+
+static OstStatus explain_end(Run *run)
+{
+    OstGoal *goal = run->goal;
+    memcpy(run->wide, run->u, run->n * sizeof(double));
+    OST_TRY(find_limit(run));
+    if (goal->norm <= rounding_slack * goal->limit) {
+        goal->end = OST_END_ROUNDING;
+        snprintf(goal->words, sizeof goal->words,
+                 "rounding in double precision allows about %.2g here: request no smaller one, or look for what makes "
+                 "the stiffness so uneven",
+                 ost_goal_attainable(goal));
+    } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
+        ost_goal_end_by_iterations(goal);
+    } else if (goal->end == OST_END_REACHED) {
+        goal->end = OST_END_STALLED;
+        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing",
+                 goal->convergence.count);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus run_passes(Run *run)
+{
+    OstGoal *goal = run->goal;
+    int stalls = 0;
+    OST_TRY(find_energy(run));
+    if (!ost_goal_accepts(goal, run->energy))
+        return OST_SUCCESS;
+    OST_TRY(find_residual(run));
+    ost_convergence_start(&goal->convergence, goal->norm);
+    while (goal->end == OST_END_REACHED && goal->norm > goal->target && stalls < MOST_STALLS) {
+        const double before = goal->norm;
+        OST_TRY(run_pass(run));
+        run->passes++;
+        OST_TRY(find_residual(run));
+        stalls = goal->norm < least_gain * before ? 0 : stalls + 1;
+    }
+    if (goal->norm > goal->target)
+        return explain_end(run);
+    goal->end = OST_END_REACHED;
+    return OST_SUCCESS;
+}
+
+/* The error of u is the solution for the residual: one application of the preconditioner over the smallest eigenvalue
+ * is taken for it, as for A alone (energy_error.h). */
+static OstStatus report_error(Run *run, OstSolveReport *report)
+{
+    OstGoal *goal = run->goal;
+    double smallest, largest, squares[2];
+    int again;
+    ost_lanczos_extremes(&run->lanczos, &smallest, &largest);
+    goal->smallest = smallest;
+    report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
+    if (goal->crude || goal->end == OST_END_PRECONDITIONER || !(smallest > 0.0))
+        return OST_SUCCESS;
+    OST_TRY(precondition(run, run->r.u, run->z.u));
+    OST_TRY(complete(run, &again));
+    OST_TRY(ost_coupling_transpose(run->saddle->coupling, run->z.p, run->w));
+    for (size_t i = 0; i < run->n; i++)
+        run->k.u[i] = run->r.u[i] - run->w[i]; /* the displacement that the pressure's error brings with it */
+    OST_TRY(precondition(run, run->k.u, run->z.u));
+    squares[0] = ost_dot(run->n, run->z.u, run->z.u);
+    squares[1] = ost_dot(run->n, run->u, run->u);
+    OST_TRY(ost_sum(run->ctx, 2, squares));
+    if (squares[1] > 0.0)
+        report->error_estimate = report->energy_error = sqrt(squares[0] / squares[1]) / smallest;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
+                           const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    const OstCoupling *coupling = saddle->coupling;
+    Run run = {.ctx = coupling->ctx,
+               .system = system,
+               .preconditioner = preconditioner,
+               .saddle = saddle,
+               .f = f,
+               .u = u,
+               .goal = goal,
+               .n = 3 * (size_t)coupling->unknowns,
+               .m = (size_t)coupling->rows,
+               .mg = (size_t)coupling->columns,
+               .tau = margin / (preconditioner->factors ? 1.0 : first_eigenvalue)};
+    goal->end = OST_END_REACHED;
+    if (goal->start == 0.0)
+        return OST_SUCCESS;
+    OstStatus status;
+    OST_TRY_DONE(create(&run));
+    OST_TRY_DONE(run_passes(&run));
+    OST_TRY_DONE(report_error(&run, report));
+done:
+    ost_progress(run.ctx, "solve", -1.0);
+    destroy(&run);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_SADDLE_SADDLE_H
+#define ORTHOSTAT_ALGEBRA_SADDLE_SADDLE_H
+
+#include "algebra/krylov/goal.h"
+#include "algebra/krylov/preconditioner.h"
+#include "algebra/saddle/coupling.h"
+
+/* What stands beside A u = f in a mixed form (coupling.h). */
+typedef struct OstSaddle {
+    const OstCoupling *coupling;
+    const double *g; /* coupling->rows */
+    double *p;       /* coupling->columns; improved in place */
+} OstSaddle;
+
+/* Collective. The size of both right-hand sides, as forces: of f and of B' q, where q = S^-1 g is the pressure that g
+ * is worth, and of what the nodes feel of g's energy g·q where its forces balance (over the mean diagonal of A). */
+OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double *size);
+
+/* Collective. Prepares the goal for both equations, that of f alone being set: `relative` is the residual asked for.
+ * The norm is that of f - A u - B'p and of the forces B' q of the error of volume, and, relative to the energy of the
+ * right-hand sides, that of the error of volume. */
+OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double relative,
+                          OstGoal *goal);
+
+/* Collective. Improves u and p until the goal is reached or ended, preconditioned by M for A and by S for the
+ * pressures' Schur complement, by the conjugate gradients of J. H. Bramble and J. E. Pasciak (A preconditioning
+ * technique for indefinite systems resulting from mixed approximations of elliptic problems, Math. Comp. 50, 1988).
+ * Multiplied by [ N^-1    0    ] [ S^-1 B N^-1  -S^-1 ],    N = M / tau, the system is symmetric and positive definite
+ * in the product of diag(A - N, S), if A - N is positive definite: tau is a little more than 1 over the smallest
+ * eigenvalue of M^-1 A, as the iteration sees it. A step takes one product with A and one application of M, as a step
+ * of conjugate gradients for A alone; MINRES takes about twice the steps.
+ *
+ * Ours, because AztecOO has no product but the Euclidean one: its CG cannot take a preconditioned system that is
+ * symmetric in another, and its GMRES keeps a vector for every step. Fills the report's condition and error estimates.
+ */
+OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
+                           const double *f, double *u, OstGoal *goal, OstSolveReport *report);
+
+#endif

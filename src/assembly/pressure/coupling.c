@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/batch.h"
+#include "assembly/pressure/pressure_space.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/small.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { VERTICES = 4, NODES = 10 };
+
+/* The tets of each pressure. */
+typedef struct PressureTets {
+    OstLocal *start; /* count + 1 */
+    OstLocal *tet;
+} PressureTets;
+
+static OstStatus find_tets(const OstPressureSpace *space, PressureTets *tets)
+{
+    const size_t corners = VERTICES * (size_t)space->mesh->tet_count;
+    OST_TRY(OST_NEW(space->ctx, &tets->start, space->count + 1));
+    for (size_t i = 0; i < corners; i++)
+        if (space->of_tet[i] >= 0)
+            tets->start[space->of_tet[i]]++;
+    for (OstLocal r = 0; r < space->count; r++)
+        tets->start[r + 1] += tets->start[r];
+    OST_TRY(OST_NEW(space->ctx, &tets->tet, tets->start[space->count]));
+    for (size_t i = corners; i-- > 0;) /* filled from the back, as in pattern.c */
+        if (space->of_tet[i] >= 0)
+            tets->tet[--tets->start[space->of_tet[i]]] = (OstLocal)(i / VERTICES);
+    return OST_SUCCESS;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const OstLocal x = *(const OstLocal *)a, y = *(const OstLocal *)b;
+    return (x > y) - (x < y);
+}
+
+/* What the rows of B, or of M, list of a tet. */
+typedef struct Pattern {
+    const OstPressureSpace *space;
+    const OstSystem *system; /* NULL: the rows of M */
+    const PressureTets *tets;
+    OstLocal *seen; /* the last row that had this column */
+} Pattern;
+
+static int columns_of_tet(const Pattern *pattern, OstLocal tet, OstLocal columns[NODES])
+{
+    const OstLocal *pressures = pattern->space->of_tet + VERTICES * (size_t)tet;
+    const OstLocal *nodes = ost_mesh_nodes_of(pattern->space->mesh, tet);
+    const int count = pattern->system ? NODES : VERTICES;
+    for (int a = 0; a < count; a++)
+        columns[a] = pattern->system ? pattern->system->row_of_node[nodes[a]] : pressures[a];
+    return count;
+}
+
+/* The columns of a row, ascending; with `columns` NULL only their number. */
+static OstLocal list_row(const Pattern *pattern, OstLocal row, OstLocal *columns)
+{
+    OstLocal count = 0;
+    for (OstLocal i = pattern->tets->start[row]; i < pattern->tets->start[row + 1]; i++) {
+        OstLocal of_tet[NODES];
+        const int width = columns_of_tet(pattern, pattern->tets->tet[i], of_tet);
+        for (int a = 0; a < width; a++) {
+            if (of_tet[a] < 0 || pattern->seen[of_tet[a]] == row)
+                continue;
+            pattern->seen[of_tet[a]] = row;
+            if (columns)
+                columns[count] = of_tet[a];
+            count++;
+        }
+    }
+    if (columns)
+        qsort(columns, (size_t)count, sizeof *columns, compare);
+    return count;
+}
+
+static OstStatus make_rows(const OstPressureSpace *space, const OstSystem *system, const PressureTets *tets,
+                           OstLocal rows, OstLocal columns, OstLocal **start, OstLocal **column)
+{
+    OstContext *ctx = space->ctx;
+    Pattern pattern = {space, system, tets, NULL};
+    OstStatus status = OST_NEW(ctx, &pattern.seen, columns);
+    OST_THEN(OST_NEW(ctx, start, rows + 1));
+    for (int fill = 0; fill < 2 && status == OST_SUCCESS; fill++) {
+        for (OstLocal c = 0; c < columns; c++)
+            pattern.seen[c] = -1;
+        OstGlobal entries = 0;
+        for (OstLocal row = 0; row < rows && status == OST_SUCCESS; row++) {
+            entries += list_row(&pattern, row, fill ? *column + (*start)[row] : NULL);
+            status = ost_limit_nonzeros(ctx, entries);
+            (*start)[row + 1] = (OstLocal)entries;
+        }
+        if (!fill)
+            OST_THEN(OST_NEW(ctx, column, (*start)[rows]));
+    }
+    OST_FREE(pattern.seen);
+    return status;
+}
+
+static OstLocal find(const OstLocal *start, const OstLocal *column, OstLocal row, OstLocal wanted)
+{
+    OstLocal low = start[row], high = start[row + 1] - 1;
+    while (low < high) {
+        const OstLocal middle = low + (high - low) / 2;
+        if (column[middle] < wanted)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+typedef struct TetCoupling {
+    OstSimd columns[VERTICES * 3 * NODES], eigen[VERTICES], mass[10];
+} TetCoupling;
+
+static void add_tet(const OstPressureSpace *space, const OstSystem *system, const OstBatch *batch, int slot,
+                    const TetCoupling *of_tet, OstCoupling *coupling)
+{
+    const OstLocal *pressures = space->of_tet + VERTICES * (size_t)batch->tet[slot];
+    for (int v = 0; v < VERTICES && pressures[v] >= 0; v++) {
+        const OstLocal row = pressures[v];
+        for (int a = 0; a < NODES; a++) {
+            const OstLocal column = system->row_of_node[batch->node[slot][a]];
+            if (column < 0)
+                continue;
+            double *value = coupling->value + 3 * (size_t)find(coupling->row_start, coupling->column, row, column);
+            for (int i = 0; i < 3; i++)
+                value[i] += of_tet->columns[3 * NODES * v + 3 * a + i][slot];
+        }
+        for (int w = 0; w < VERTICES && row < coupling->rows; w++) {
+            const int pair = v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v);
+            coupling->mass[find(coupling->mass_start, coupling->mass_column, row, pressures[w])] +=
+                of_tet->mass[pair][slot];
+        }
+    }
+}
+
+static void add_tets(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                     OstCoupling *coupling)
+{
+    const OstMesh *mesh = space->mesh;
+    const OstElement *element = ost_element_of(NODES);
+    OstBatch batch;
+    TetCoupling of_tets;
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
+        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
+        if (!batch.elasticity.mixed)
+            continue;
+        element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
+        for (int slot = 0; slot < batch.count; slot++)
+            add_tet(space, system, &batch, slot, &of_tets, coupling);
+    }
+}
+
+/* B P, and what the mass is multiplied by. */
+static void finish(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                   OstCoupling *coupling)
+{
+    for (OstLocal k = 0; k < coupling->row_start[coupling->columns]; k++) {
+        double projector[9], whole[3];
+        const OstLocal node = system->node_of_row[coupling->column[k]];
+        if (ost_supports_get(system->supports, node, projector, NULL) == 0)
+            continue;
+        memcpy(whole, coupling->value + 3 * (size_t)k, sizeof whole);
+        ost_apply3(projector, whole, coupling->value + 3 * (size_t)k);
+    }
+    for (OstLocal row = 0; row < coupling->rows; row++) {
+        coupling->diagonal[row] = coupling->mass[find(coupling->mass_start, coupling->mass_column, row, row)];
+        coupling->looseness[row] = field->mixed.looseness[space->region[row]];
+        coupling->schur[row] = ost_field_giving_way(field, space->region[row]);
+    }
+}
+
+static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                          OstCoupling *coupling)
+{
+    OstContext *ctx = space->ctx;
+    PressureTets tets = {0};
+    OstStatus status;
+    *coupling = (OstCoupling){.ctx = ctx,
+                              .rows = space->owned,
+                              .columns = space->count,
+                              .unknowns = system->matrix->rows,
+                              .global_rows = space->global,
+                              .halo = space->halo};
+    OST_TRY_DONE(find_tets(space, &tets));
+    OST_TRY_DONE(make_rows(space, system, &tets, space->count, system->matrix->columns, &coupling->row_start,
+                           &coupling->column));
+    OST_TRY_DONE(
+        make_rows(space, NULL, &tets, space->owned, space->count, &coupling->mass_start, &coupling->mass_column));
+    OST_TRY_DONE(OST_NEW(ctx, &coupling->value, 3 * (size_t)coupling->row_start[space->count]));
+    OST_TRY_DONE(OST_NEW(ctx, &coupling->mass, coupling->mass_start[space->owned]));
+    OST_TRY_DONE(OST_NEW(ctx, &coupling->diagonal, space->owned));
+    OST_TRY_DONE(OST_NEW(ctx, &coupling->looseness, space->owned));
+    OST_TRY_DONE(OST_NEW(ctx, &coupling->schur, space->owned));
+    add_tets(space, system, field, coupling);
+    finish(space, system, field, coupling);
+done:
+    OST_FREE(tets.start);
+    OST_FREE(tets.tet);
+    return status;
+}
+
+OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                                OstCoupling **coupling)
+{
+    OstContext *ctx = space->ctx;
+    *coupling = NULL;
+    ost_ledger_enter(ctx, OST_EFFECT_MIXED);
+    OstStatus status = OST_NEW(ctx, coupling, 1);
+    OST_THEN(assemble(space, system, field, *coupling));
+    status = ost_agree(ctx, status);
+    if (status != OST_SUCCESS)
+        ost_coupling_destroy(coupling);
+    ost_ledger_leave(ctx);
+    return status;
+}
+
+/* What one vertex's share has of a batch: of the second equation, and of the mass. */
+static void find_share(const OstBatch *batch, const TetCoupling *of_tets, int v, const OstSimd *u, OstSimd *volume,
+                       OstSimd *mass)
+{
+    const OstSimd *columns = of_tets->columns + 3 * NODES * v;
+    *volume = -of_tets->eigen[v];
+    *mass = (OstSimd){0};
+    for (int n = 3; n < 3 * NODES; n++)
+        *volume += columns[n] * (u[n] - u[n % 3]);
+    for (int w = 0; w < VERTICES; w++) {
+        const OstSimd *pair = &of_tets->mass[v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v)];
+        *mass += *pair;
+        *volume -= batch->elasticity.looseness * *pair * batch->elasticity.pressure[w];
+    }
+}
+
+OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, double share,
+                              const double *u, double *volume, double *mass)
+{
+    const OstMesh *mesh = space->mesh;
+    const OstElement *element = ost_element_of(NODES);
+    OstBatch batch;
+    TetCoupling of_tets;
+    OstSimd displacement[3 * NODES];
+    memset(volume, 0, (size_t)space->owned * sizeof *volume);
+    if (mass)
+        memset(mass, 0, (size_t)space->owned * sizeof *mass);
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = share;
+    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
+        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
+        if (!batch.elasticity.mixed)
+            continue;
+        ost_batch_gather_vectors(&batch, NODES, u, displacement);
+        element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
+        for (int v = 0; v < VERTICES; v++) {
+            OstSimd of_volume, of_mass;
+            find_share(&batch, &of_tets, v, displacement, &of_volume, &of_mass);
+            for (int slot = 0; slot < batch.count; slot++) {
+                const OstLocal row = space->of_tet[VERTICES * (size_t)batch.tet[slot] + (size_t)v];
+                if (row < 0 || row >= space->owned)
+                    continue;
+                volume[row] += of_volume[slot];
+                if (mass)
+                    mass[row] += of_mass[slot];
+            }
+        }
+    }
+    return OST_SUCCESS;
+}

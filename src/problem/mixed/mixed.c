@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "problem/problem.h"
+
+#include <string.h>
+
+OstStatus ost_problem_function_volume(const OstProblem *problem, int function, double *g)
+{
+    const double share = function == problem->eigen_function ? 1.0 : 0.0;
+    double *none = NULL, *prescribed = NULL;
+    OstStatus status = OST_NEW(problem->ctx, &none, 3 * (size_t)problem->system->matrix->rows);
+    OST_THEN(OST_NEW(problem->ctx, &prescribed, 3 * (size_t)problem->mesh->node_count));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    OST_TRY_DONE(ost_problem_function_displacement(problem, function, none, prescribed));
+    ost_ledger_enter(problem->ctx, OST_EFFECT_MIXED);
+    status = ost_pressure_volume(problem->pressures, problem->field, share, prescribed, g, NULL);
+    ost_ledger_leave(problem->ctx);
+    for (OstLocal i = 0; i < problem->pressures->owned; i++)
+        g[i] = -g[i];
+done:
+    OST_FREE(none);
+    OST_FREE(prescribed);
+    return status;
+}
+
+OstStatus ost_problem_volume(const OstProblem *problem, double t, double *g)
+{
+    const OstLocal count = problem->pressures->owned;
+    double *of_function = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_function, count)));
+    OstStatus status = OST_SUCCESS;
+    memset(g, 0, (size_t)count * sizeof *g);
+    for (int k = 0; k < ost_problem_functions(problem) && status == OST_SUCCESS; k++) {
+        status = ost_problem_function_volume(problem, k, of_function);
+        for (OstLocal i = 0; i < count; i++)
+            g[i] += ost_problem_factor(problem, k, t) * of_function[i];
+    }
+    OST_FREE(of_function);
+    return status;
+}
+
+void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
+                             OstProblem *state)
+{
+    *field = *problem->field;
+    field->pressure = of_tets;
+    *state = *problem;
+    state->field = field;
+}
+
+OstStatus ost_problem_leave_mixed(OstProblem *problem)
+{
+    const OstMaterialField *field = problem->field;
+    const int region = ost_field_incompressible(field);
+    if (region >= 0)
+        return OST_RAISE(problem->ctx, OST_INVALID_INPUT,
+                         "material '%s' is incompressible (nu = 1/2), and rotations are large here: Newton's method "
+                         "needs nu below 1/2, as 0.4999; or say large_rotation: off, for linear theory",
+                         field->material[region].name);
+    ost_problem_release_stiffness(problem);
+    ost_pressure_space_destroy(&problem->pressures);
+    problem->dilated = *field;
+    problem->dilated.form = field->mean.stiff_mode ? OST_SPLIT_MEAN : OST_SPLIT_NOT;
+    problem->field = &problem->dilated;
+    return OST_SUCCESS;
+}
