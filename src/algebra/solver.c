@@ -403,6 +403,14 @@ static void report_goal(const OstGoal *goal, double size, OstSolveReport *report
     report->rounding_limited = goal->end == OST_END_ROUNDING;
 }
 
+/* A stiff part may have strains that are far off, and with them its stresses and the reactions, where it has next to
+ * none of the energy that tells a solve to stop. */
+static int is_uneven(const OstSolver *solver)
+{
+    static const double uneven = 1e6;
+    return solver->geometry.facts && solver->geometry.facts->contrast > uneven;
+}
+
 /* Solves with f scaled to order 1. */
 static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, const ScaledStop *stop,
                               OstSolveReport *report)
@@ -418,7 +426,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;
-    goal.stop = stop->user ? &stop->stop : NULL;
+    goal.stop = stop->user && !is_uneven(solver) ? &stop->stop : NULL;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)
         status = run_strategies(solver, f, u, &goal, report);
