@@ -5,11 +5,7 @@
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/write_aside.h"
-<<<<<<< HEAD
 #include "formats/serial/output_array.h"
-=======
-#include "formats/vtu/vtu.h"
->>>>>>> refs/heads/cases
 #include "output/path_files.h"
 #include "output/series.h"
 
@@ -68,37 +64,8 @@ void ost_load_case_table_name(const char *output, size_t size, char *path)
 
 /* --- the list of files --- */
 
-/* Files are found beside the list. */
-static const char *name_beside(const char *file)
-{
-    const char *slash = strrchr(file, '/');
-    return slash ? slash + 1 : file;
-}
-
-typedef struct Series {
-    int count;
-    const OstLoadCaseReport *reports;
-} Series;
-
-/* As VTK's XML lists files. */
-static OstStatus write_collection(FILE *file, const void *content)
-{
-    const Series *series = content;
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n", file);
-    for (int k = 0; k < series->count; k++) {
-        if (!series->reports[k].file)
-            continue;
-        fprintf(file, "<DataSet timestep=\"%d\" file=\"", k + 1);
-        ost_xml_write(file, name_beside(series->reports[k].file));
-        fputs("\"/>\n", file);
-    }
-    fputs("</Collection>\n</VTKFile>\n", file);
-    return OST_SUCCESS;
-}
-
 static OstStatus write_series(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output)
 {
-<<<<<<< HEAD
     char list[LONGEST_PATH];
     OstSeriesFile *files = NULL;
     int written = 0;
@@ -110,22 +77,6 @@ static OstStatus write_series(OstContext *ctx, int count, const OstLoadCaseRepor
     const OstStatus status = ost_series_write(ctx, list, written, files);
     OST_FREE(files);
     return status;
-=======
-    const Series series = {count, reports};
-    char name[LONGEST_PATH];
-    size_t stem;
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof name, name);
-    if (ost_result_form(output, &stem) != OST_RESULT_VTKHDF)
-        return ost_write_aside(ctx, name, write_collection, &series);
-    json_t *files = json_array();
-    for (int k = 0; k < count; k++)
-        if (reports[k].file)
-            json_array_append_new(
-                files, json_pack("{s:o, s:i}", "name", ost_json_text(name_beside(reports[k].file)), "time", k + 1));
-    json_t *document = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
-    return document ? ost_json_write(ctx, document, name)
-                    : OST_RAISE(ctx, OST_LIBRARY_FAILED, "the list of files '%s' cannot be written as JSON", name);
->>>>>>> refs/heads/cases
 }
 
 /* --- the table --- */
