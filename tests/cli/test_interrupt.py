@@ -55,7 +55,7 @@ for _ in range(600):
     time.sleep(0.05)
 process.send_signal(signal.SIGINT)
 errors = process.communicate(timeout=60)[1]
-check(process.returncode == 130 and "the files that were complete stay" in errors, errors)
+check(process.returncode == 130 and "the files that were complete stay" in errors, f"exit {process.returncode}: {errors}")
 check(os.path.exists(first) and not [name for name in os.listdir(folder) if name.startswith(".orthostat")], os.listdir(folder))
 
 # --- the line on a terminal ---

@@ -96,10 +96,11 @@ def main():
     check(helped.exit_code == 0 and helped.output.count("Usage:") == 1, f"solve --help: {helped.output}{helped.errors}")
     check(run("--version").output.startswith("orthostat "), "--version")
     check(run().exit_code == 2, "no command")
-    for words, stream, exit_code in (((), "errors", 2), (("--help",), "output", 0), (("sovle",), "errors", 2)):
+    for words, stream, exit_code, told in (((), "errors", 2, "Usage:"), (("--help",), "output", 0, "Usage:"),
+                                           (("sovle",), "errors", 2, "did you mean 'solve'?")):
         said = run(*words, ranks=2)
         check(said.exit_code == exit_code, f"{words} on 2 ranks: exit {said.exit_code}")
-        check(getattr(said, stream).count("Usage:") == 1, f"{words} on 2 ranks, not said once: {said.output}{said.errors}")
+        check(getattr(said, stream).count(told) == 1, f"{words} on 2 ranks, not said once: {said.output}{said.errors}")
     check(run("--version", ranks=2).output.count("orthostat") == 1, "--version on 2 ranks")
     wrong = run("sovle", "bar.yaml", folder=folder)
     check(wrong.exit_code == 2 and "sovle" in wrong.errors, "an unknown command")
