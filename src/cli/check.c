@@ -157,10 +157,12 @@ static void print_findings(const OstScene *scene, const Findings *findings)
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
            (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", springs, c->load_count,
            plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
-    if (c->load_case_count > 0)
-        printf("solve will write the fields of %d load case%s beside %s, which lists them in a .hdf.series\n",
-               c->load_case_count, plural(c->load_case_count), findings->output);
-    else if (c->path_steps > 0)
+    if (c->load_case_count > 0) {
+        char list[OST_LONGEST_PATH];
+        ost_path_file_name(findings->output, OST_PATH_SERIES, sizeof list, list);
+        printf("solve will write the fields of %d load case%s beside %s, listed in %s\n", c->load_case_count,
+               plural(c->load_case_count), findings->output, list);
+    } else if (c->path_steps > 0)
         printf("solve will write the fields of %d step%s beside %s, the first to %s\n", c->path_steps,
                plural(c->path_steps), findings->output, findings->first_step);
     else

@@ -21,7 +21,7 @@ enum {
 typedef enum {
     HARD_SOUND,
     HARD_BEYOND_BORDER, /* nine constants at 1.001 of the border of stability */
-    HARD_NU_HALF,       /* nu = 0.5 */
+    HARD_NU_HALF,       /* nu = 0.5, and no mixed form */
     HARD_LOOSE,         /* constrained at one vertex */
     HARD_INVERTED,      /* slivers with -1/1000 of their neighbours' volume */
     HARD_NOT_A_NUMBER,  /* for a load */

@@ -18,7 +18,7 @@ const double hard_hopeless = 0.1;
 
 /* Words that the reason for refusing a flawed point must hold. */
 static const char *const reason_word[HARD_FLAWS] = {
-    [HARD_SOUND] = "",         [HARD_BEYOND_BORDER] = "Stable up to", [HARD_NU_HALF] = "-1 < nu < 0.5",
+    [HARD_SOUND] = "",         [HARD_BEYOND_BORDER] = "Stable up to", [HARD_NU_HALF] = "nu = 1/2",
     [HARD_LOOSE] = "can turn", [HARD_INVERTED] = "is inverted",       [HARD_NOT_A_NUMBER] = "not finite",
 };
 
