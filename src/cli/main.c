@@ -281,6 +281,7 @@ int main(int argc, char **argv)
     }
     exit_code = end_with(exit_code);
     ost_progress_end();
+    ost_work_is_over();
     ost_context_destroy(&ctx);
     MPI_Finalize();
     return exit_code;

@@ -13,6 +13,7 @@ constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
 loads: [{on: {boundary: xmax}, total_force: [2, 0, 0]}]
 output: {file: bar.vtkhdf}
 """
+os.environ.pop("OMPI_MCA_odls_base_sigkill_timeout", None)  # of the tests: mpirun would kill ranks before they can speak
 folder = new_folder()
 with open(os.path.join(folder, "bar.yaml"), "w") as stream:
     stream.write(CASE)
@@ -24,10 +25,31 @@ def ranks_of(process):
     return [int(pid) for pid in found]
 
 
+def listens(pid):
+    """Does the process handle SIGTERM yet?"""
+    try:
+        with open(f"/proc/{pid}/status", encoding="utf-8") as stream:
+            caught = next(line for line in stream if line.startswith("SigCgt:"))
+    except (OSError, StopIteration):
+        return False
+    return int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1 == 1
+
+
+def wait_for(process, ranks):
+    """Until all ranks are at work; a busy machine takes its time."""
+    for _ in range(600):
+        pids = ranks_of(process) if ranks > 1 else [process.pid]
+        if len(pids) == ranks and all(map(listens, pids)):
+            return
+        time.sleep(0.05)
+    check(False, "the ranks do not start")
+
+
 def interrupt(command, number, of_rank):
     process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                text=True)
-    time.sleep(1.5)
+    wait_for(process, int(command[command.index("-n") + 1]) if "-n" in command else 1)
+    time.sleep(0.5)
     check(process.poll() is None, "the run ended before it could be interrupted")
     os.kill(ranks_of(process)[0] if of_rank else process.pid, number)
     output, errors = process.communicate(timeout=60)

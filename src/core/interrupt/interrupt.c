@@ -52,6 +52,12 @@ void ost_end_when_interrupted(int says)
     handle(SIGTERM, end, 0);
 }
 
+void ost_work_is_over(void)
+{
+    handle(SIGINT, SIG_DFL, 0);
+    handle(SIGTERM, SIG_DFL, 0);
+}
+
 void ost_half_written(const char *path)
 {
     for (int f = 0; f < MOST_FILES; f++)

@@ -8,6 +8,10 @@
  * and end the program with status 130. For programs, not for the library's callers. */
 void ost_end_when_interrupted(int speaks);
 
+/* Local. The work is over: signals end the program as they do others. mpirun sends SIGTERM to the ranks that are last
+ * to end after a failure, which is no interruption. */
+void ost_work_is_over(void);
+
 /* Local. A file that is being written aside: removed if the program is interrupted before it is forgotten. */
 void ost_half_written(const char *path);
 void ost_half_written_forget(const char *path, int is_complete);
