@@ -14,6 +14,7 @@ static char half_written[MOST_FILES][LONGEST_PATH];
 static volatile sig_atomic_t is_half_written[MOST_FILES];
 static volatile sig_atomic_t completed;
 static volatile sig_atomic_t speaks;
+static int handles;
 static void (*tick)(void);
 
 static void say(const char *text)
@@ -48,12 +49,20 @@ static void handle(int number, void (*handler)(int), int flags)
 void ost_end_when_interrupted(int says)
 {
     speaks = says;
+    handles = 1;
     handle(SIGINT, end, 0);
     handle(SIGTERM, end, 0);
 }
 
+void ost_metis_failed(void)
+{
+    if (handles)
+        raise(SIGTERM);
+}
+
 void ost_work_is_over(void)
 {
+    handles = 0;
     handle(SIGINT, SIG_DFL, 0);
     handle(SIGTERM, SIG_DFL, 0);
 }

@@ -12,6 +12,10 @@ void ost_end_when_interrupted(int speaks);
  * to end after a failure, which is no interruption. */
 void ost_work_is_over(void);
 
+/* Local. METIS takes a SIGTERM that comes while it works for an error of its own: what it then reports is passed on to
+ * the handler above, if there is one. */
+void ost_metis_failed(void);
+
 /* Local. A file that is being written aside: removed if the program is interrupted before it is forgotten. */
 void ost_half_written(const char *path);
 void ost_half_written_forget(const char *path, int is_complete);

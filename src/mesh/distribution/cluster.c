@@ -2,6 +2,7 @@
 #include "mesh/distribution/cluster.h"
 
 #include "core/error.h"
+#include "core/interrupt/interrupt.h"
 #include "core/memory.h"
 #include "core/parallel/numbering.h"
 
@@ -41,6 +42,8 @@ OstStatus ost_metis_partition(OstContext *ctx, const Graph *graph, idx_t parts, 
     idx_t edge_cut = 0;
     const int result = METIS_PartGraphKway(&rows, &constraints, graph->start, graph->neighbour, graph->row_weight, NULL,
                                            graph->edge_weight, &parts, NULL, NULL, options, &edge_cut, part);
+    if (result == METIS_ERROR)
+        ost_metis_failed();
     if (result == METIS_ERROR_MEMORY)
         return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "METIS ran out of memory when it partitioned a graph of %lld rows",
                          (long long)rows);
