@@ -29,7 +29,7 @@ OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle,
  * Multiplied by [ N^-1    0    ] [ S^-1 B N^-1  -S^-1 ],    N = M / tau, the system is symmetric and positive definite
  * in the product of diag(A - N, S), if A - N is positive definite: tau is a little more than 1 over the smallest
  * eigenvalue of M^-1 A, as the iteration sees it. A step takes one product with A and one application of M, as a step
- * of conjugate gradients for A alone; MINRES takes about twice the steps.
+ * of conjugate gradients for A alone; MINRES should take about twice the steps.
  *
  * Ours, because AztecOO has no product but the Euclidean one: its CG cannot take a preconditioned system that is
  * symmetric in another, and its GMRES keeps a vector for every step. Fills the report's condition and error estimates.
