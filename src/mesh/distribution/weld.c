@@ -21,8 +21,8 @@ enum { MOST_ROUNDS = 100 };
 /* The part that so many nodes of an inclusion are in, as one rank counts them. */
 typedef struct Piece {
     OstGlobal label;
-    OstGlobal nodes;
-    OstLocal part, number; /* -1 for none; its place in the list */
+    OstGlobal nodes, border; /* so many of them with a tet that is far softer */
+    OstLocal part, number;   /* -1 for none; its place in the list */
 } Piece;
 
 typedef struct Welding {
@@ -30,6 +30,7 @@ typedef struct Welding {
     const Slab *slab;
     size_t nodes;     /* the slab's, and its ghosts */
     double *sum;      /* nodes: the stiffness of their tets */
+    double *softer;   /* nodes: how many of these are far softer than the others */
     OstLocal *set;    /* nodes: any other of the same inclusion, or itself */
     OstGlobal *label; /* nodes: the lowest number of the inclusion that is known here */
     OstLocal pieces;
@@ -40,6 +41,7 @@ typedef struct Welding {
 static void destroy_welding(Welding *w)
 {
     OST_FREE(w->sum);
+    OST_FREE(w->softer);
     OST_FREE(w->set);
     OST_FREE(w->label);
     OST_FREE(w->piece);
@@ -51,6 +53,7 @@ static OstStatus create_welding(const OstMeshChunk *chunk, const Slab *slab, Wel
     OstContext *ctx = slab->ctx;
     *w = (Welding){.chunk = chunk, .slab = slab, .nodes = (size_t)slab->node_count + (size_t)slab->ghost_count};
     OST_TRY(OST_NEW(ctx, &w->sum, w->nodes));
+    OST_TRY(OST_NEW(ctx, &w->softer, w->nodes));
     OST_TRY(OST_NEW(ctx, &w->set, w->nodes));
     OST_TRY(OST_NEW(ctx, &w->label, w->nodes));
     OST_TRY(OST_NEW(ctx, &w->piece, slab->node_count));
@@ -88,7 +91,7 @@ static OstLocal root_of(OstLocal *set, OstLocal i)
     return i;
 }
 
-static void join_tets(Welding *w, const double *stiffness)
+static OstStatus join_tets(Welding *w, const double *stiffness)
 {
     const size_t width = (size_t)w->chunk->nodes_per_tet;
     for (size_t i = 0; i < w->nodes; i++)
@@ -96,11 +99,14 @@ static void join_tets(Welding *w, const double *stiffness)
     for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
         const OstLocal *node = w->slab->tet_nodes + width * t;
         double most = 0.0;
-        for (size_t v = 0; v < width; v++)
+        for (size_t v = 0; v < width; v++) {
             most = fmax(most, w->sum[node[v]]);
+            w->softer[node[v]] += !(stiffness[t] > share * w->sum[node[v]]);
+        }
         for (size_t v = 1; v < width && stiffness[t] > share * most; v++)
             w->set[root_of(w->set, node[v])] = root_of(w->set, node[0]);
     }
+    return ost_halo_add_to_owners(w->slab->halo, 1, w->softer);
 }
 
 /* Each node takes the lowest label of its set. */
@@ -182,33 +188,38 @@ static void count_pieces(Welding *w, const int *part)
 {
     const OstLocal n = w->slab->node_count;
     for (OstLocal i = 0; i < n; i++)
-        w->piece[i] = (Piece){.label = w->label[i], .nodes = 1, .part = part[i], .number = i};
+        w->piece[i] =
+            (Piece){.label = w->label[i], .nodes = 1, .border = w->softer[i] > 0.0, .part = part[i], .number = i};
     qsort(w->piece, (size_t)n, sizeof *w->piece, compare_pieces);
     for (OstLocal i = 0; i < n; i++) {
         const Piece next = w->piece[i];
         Piece *last = &w->piece[w->pieces - 1];
-        if (w->pieces > 0 && last->label == next.label && last->part == next.part)
+        if (w->pieces > 0 && last->label == next.label && last->part == next.part) {
             last->nodes++;
-        else
+            last->border += next.border;
+        } else {
             w->piece[w->pieces++] = next;
+        }
         w->place[next.number] = w->pieces - 1;
     }
 }
 
-/* The part of all pieces with one label: that with most nodes, of equal ones the lowest; -1 if they are too many. */
+/* The part of all pieces with one label: that with most nodes, of equal ones the lowest; -1 if they are too many, or
+ * have nothing softer around them. */
 static OstLocal best_part(OstLocal count, const Piece *piece, double most)
 {
-    OstGlobal all = 0, best = 0, nodes = 0;
+    OstGlobal all = 0, border = 0, best = 0, nodes = 0;
     OstLocal part = -1;
     for (OstLocal k = 0; k < count; k++) {
         nodes = (k > 0 && piece[k].part == piece[k - 1].part ? nodes : 0) + piece[k].nodes;
         all += piece[k].nodes;
+        border += piece[k].border;
         if (nodes > best) {
             best = nodes;
             part = piece[k].part;
         }
     }
-    return (double)all > most ? -1 : part;
+    return (double)all > most || border == 0 ? -1 : part;
 }
 
 /* The part of each piece, in the order of their numbers. */
@@ -295,7 +306,7 @@ OstStatus ost_parts_weld(const OstMeshChunk *chunk, const Slab *slab, const doub
     OstStatus status = create_welding(chunk, slab, &w);
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(sum_stiffness(&w, stiffness));
-    join_tets(&w, stiffness);
+    OST_TRY_DONE(join_tets(&w, stiffness));
     OST_TRY_DONE(label_nodes(&w));
     count_pieces(&w, part);
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &decided, w.pieces)));
