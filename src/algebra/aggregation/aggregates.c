@@ -16,6 +16,7 @@ enum {
     BELOW = 4 /* children of a heap's entry: half as many steps as with two, on the same cache lines */
 };
 
+static const float close = 0.1f; /* an edge is short below this part of the mean of each of its nodes' edges */
 static const double whole = 2.0; /* a part of the graph of so many targets stays one aggregate */
 
 typedef struct PathEnd {
@@ -31,6 +32,8 @@ typedef struct Ball {
 typedef struct Grouping {
     const OstMetricGraph *graph;
     const OstAggregateShape *shape;
+    const float *length; /* of the graph's edges; 0 between nodes that stay together */
+    float *own_length;   /* NULL if that is the graph's */
     /* shortest paths from the sources, by Dijkstra's method: */
     float *distance;  /* nodes: from the nearest source */
     OstLocal *source; /* nodes: which source that is; UNREACHED if none is connected */
@@ -47,6 +50,7 @@ typedef struct Grouping {
 
 static void destroy_grouping(Grouping *g)
 {
+    OST_FREE(g->own_length);
     OST_FREE(g->distance);
     OST_FREE(g->source);
     OST_FREE(g->queue);
@@ -60,7 +64,7 @@ static void destroy_grouping(Grouping *g)
 static OstStatus create_grouping(const OstMetricGraph *graph, const OstAggregateShape *shape, Grouping *g)
 {
     const size_t n = (size_t)graph->nodes;
-    *g = (Grouping){.graph = graph, .shape = shape};
+    *g = (Grouping){.graph = graph, .shape = shape, .length = graph->length};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(graph->ctx, &g->distance, n));
     OST_TRY_DONE(OST_NEW(graph->ctx, &g->source, n));
@@ -142,7 +146,7 @@ static OstStatus settle_ball(Grouping *g, OstLocal node, OstLocal source, double
             settled[end.node] = 1;
         for (OstLocal k = graph->edge_start[end.node]; k < graph->edge_start[end.node + 1]; k++) {
             const OstLocal j = graph->neighbour[k];
-            const float distance = end.distance + graph->length[k];
+            const float distance = end.distance + g->length[k];
             if (distance > radius || (g->source[j] == source && distance >= g->distance[j]))
                 continue;
             g->source[j] = source;
@@ -169,8 +173,9 @@ static OstStatus assign(Grouping *g)
             continue;
         for (OstLocal k = graph->edge_start[end.node]; k < graph->edge_start[end.node + 1]; k++) {
             const OstLocal j = graph->neighbour[k];
-            const float distance = end.distance + graph->length[k];
-            if (distance >= g->distance[j])
+            const float distance = end.distance + g->length[k];
+            const int together = g->length[k] == 0.0f && g->source[j] != g->source[end.node];
+            if (together ? distance > g->distance[j] : distance >= g->distance[j])
                 continue;
             g->distance[j] = distance;
             g->source[j] = g->source[end.node];
@@ -179,6 +184,72 @@ static OstStatus assign(Grouping *g)
     }
     return OST_SUCCESS;
 }
+
+/* --- nodes that stay together --- */
+
+static OstLocal root_of(OstLocal *set, OstLocal i)
+{
+    for (; set[i] != i; i = set[i])
+        set[i] = set[set[i]];
+    return i;
+}
+
+/* The length below which an edge of the node is short. */
+static float short_length(const OstMetricGraph *graph, OstLocal node)
+{
+    float sum = 0.0f;
+    OstLocal finite = 0;
+    for (OstLocal k = graph->edge_start[node]; k < graph->edge_start[node + 1]; k++)
+        if (!isinf(graph->length[k])) {
+            sum += graph->length[k];
+            finite++;
+        }
+    return finite > 0 ? close * sum / (float)finite : 0.0f;
+}
+
+/* Joins the ends of short edges; returns how many there are. `limit` is scratch. */
+static OstLocal join_close(const OstMetricGraph *graph, OstLocal *set, float *limit)
+{
+    OstLocal joined = 0;
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        limit[i] = short_length(graph, i);
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+            const OstLocal j = graph->neighbour[k];
+            if (j < i || graph->length[k] > fminf(limit[i], limit[j]))
+                continue;
+            if (joined++ == 0)
+                for (OstLocal n = 0; n < graph->nodes; n++)
+                    set[n] = n;
+            set[root_of(set, j)] = root_of(set, i);
+        }
+    return joined;
+}
+
+/* Nodes far closer to each other than to all others, as through the thickness of a flat layer, move as one: an
+ * aggregate or block that has only some of them is of little use. Where another seed is as near, the two could part. */
+static OstStatus keep_together(Grouping *g)
+{
+    const OstMetricGraph *graph = g->graph;
+    const OstLocal n = graph->nodes, most = (OstLocal)fmax(g->shape->target, g->shape->together);
+    OstLocal *set = g->seed, *size = g->size; /* not in use yet */
+    if (join_close(graph, set, g->distance) == 0)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(graph->ctx, &g->own_length, graph->edge_start[n]));
+    memset(size, 0, (size_t)n * sizeof *size);
+    for (OstLocal i = 0; i < n; i++)
+        size[root_of(set, i)]++;
+    for (OstLocal i = 0; i < n; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+            const OstLocal root = root_of(set, i);
+            const int together = root == root_of(set, graph->neighbour[k]) && size[root] <= most;
+            g->own_length[k] = together ? 0.0f : graph->length[k];
+        }
+    g->length = g->own_length;
+    return OST_SUCCESS;
+}
+
+/* --- seeds --- */
 
 /* First guess: the mean radius of a ball with 1.6 × target nodes, over a sample of the nodes. */
 static OstStatus guess_radius(Grouping *g, double *radius)
@@ -328,6 +399,7 @@ static OstStatus adopt_orphans(Grouping *g)
 static OstStatus group(Grouping *g)
 {
     int dropped = 1;
+    OST_TRY(keep_together(g));
     OST_TRY(choose_seeds(g));
     OST_TRY(assign(g));
     for (int pass = 0; pass < g->shape->recentrings || dropped; pass++) {

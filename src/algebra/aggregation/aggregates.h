@@ -10,6 +10,8 @@ typedef struct OstAggregateShape {
     OstLocal minimum; /* smaller ones are merged into their neighbours; connected components of fewer nodes are left
                          out (of_node -1) */
     int recentrings;  /* Lloyd passes */
+    double together;  /* so many nodes that are far closer to each other than to all others stay together; at least
+                         `target` do */
 } OstAggregateShape;
 
 /* Local. Aggregates that are round in the graph's metric: a greedy cover by balls of a radius that gives the target

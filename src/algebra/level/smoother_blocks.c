@@ -170,7 +170,7 @@ done:
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                      OstSmootherBlocks **blocks)
 {
-    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0};
+    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = LARGEST_BLOCK};
     OstAggregates *aggregates = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &aggregates);
