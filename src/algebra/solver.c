@@ -26,6 +26,7 @@ struct OstSolver {
     OstSolverAim aim;
     const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
     int aged;                /* have the matrix's values changed since the current strategy was built? */
+    int precise;             /* has single precision been found too little for the coarse levels? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -140,6 +141,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
     for (;; method++) {
         const double start = ost_seconds();
         ost_solver_strategy_options(&solver->plan.options, method, &options);
+        options.precise = solver->precise;
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = set_up(solver, &options);
         ost_ledger_leave(solver->ctx);
@@ -340,11 +342,20 @@ static OstMethod fastest(const OstSolveReport *report)
     return found;
 }
 
+/* The softest motion of a slender body has 1e-8 of the energy of its nodes' and less: single precision may make a
+ * coarse level that has it indefinite. The same strategy is then built again with more digits. */
+static int needs_digits(const OstSolver *solver, const OstGoal *goal)
+{
+    return goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise;
+}
+
 /* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const OstMethod from = solver->method;
-    const OstStatus status = build(solver, (OstMethod)(from + 1), report->step, &report->steps);
+    const int again = needs_digits(solver, goal);
+    const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
+    solver->precise |= again;
+    const OstStatus status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
     const OstMethod best = fastest(report);

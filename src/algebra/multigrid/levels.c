@@ -93,10 +93,10 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
 }
 
 /* The cycle's matrix of level l, which is the coarsest so far. */
-static OstStatus create_matrix(OstLevels *levels, int l)
+static OstStatus create_matrix(const OstSolverOptions *options, OstLevels *levels, int l)
 {
     OST_TRY(ost_level_matrix_create(levels->coarsest, &levels->matrix[l]));
-    if (!ost_metric_graph_is_uneven(levels->graph[l]))
+    if (!ost_metric_graph_is_uneven(levels->graph[l]) && !(options->precise && l > 0))
         return OST_SUCCESS;
     return ost_agree(levels->coarsest->ctx, ost_level_matrix_keep_rest(levels->coarsest, levels->matrix[l]));
 }
@@ -144,7 +144,7 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
     OST_TRY_DONE(gather(work, first, unknowns, &levels->coarsest));
-    OST_TRY_DONE(create_matrix(levels, l + 1));
+    OST_TRY_DONE(create_matrix(&work->options, levels, l + 1));
     levels->count++;
 done:
     ost_tentative_destroy(&tentative);
@@ -188,7 +188,7 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
     *finest_graph = NULL;
     OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &levels->coarsest));
     if (status == OST_SUCCESS)
-        status = create_matrix(levels, 0);
+        status = create_matrix(options, levels, 0);
     if (status == OST_SUCCESS)
         status = adapt_options(levels->graph[0], &work.options);
     if (status == OST_SUCCESS)
