@@ -48,7 +48,7 @@ typedef struct OstSolverOptions {
     int most_levels;               /* stop coarsening at this many; the last one is then factored, however large */
     double factor_memory;          /* bytes a factorisation may take over all ranks; 0: what is free */
     unsigned given;                /* OST_GIVEN_* */
-    int precise;                   /* coarse levels in twice single precision; the solver sets it where they need it */
+    int precise;                   /* 1: coarse levels in twice single precision; 2: the finest too. The solver sets it */
 } OstSolverOptions;
 
 /* What can be seen of a system before it is solved; 0 where it is not known. */

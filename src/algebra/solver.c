@@ -67,12 +67,13 @@ static void destroy_strategy(OstSolver *solver)
     solver->method = OST_METHOD_AUTO;
 }
 
-/* Sets up the method that `options` names. METRIC's hierarchy is kept for STRONG; anything else is destroyed before the
- * new one is built. On failure there is no strategy. */
+/* Sets up the method that `options` names. METRIC's hierarchy is kept for STRONG, unless that does without its linear
+ * tets; anything else is destroyed before the new one is built. On failure there is no strategy. */
 static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
 {
     OstStatus status = OST_SUCCESS;
-    if (solver->method == OST_METHOD_METRIC && options->method == OST_METHOD_STRONG) {
+    const int keeps = solver->method == OST_METHOD_METRIC && options->method == OST_METHOD_STRONG;
+    if (keeps && !ost_metric_is_over_linear(solver->metric)) {
         ost_metric_strengthen(solver->metric, options);
     } else {
         destroy_strategy(solver);

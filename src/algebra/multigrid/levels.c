@@ -96,7 +96,7 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
 static OstStatus create_matrix(const OstSolverOptions *options, OstLevels *levels, int l)
 {
     OST_TRY(ost_level_matrix_create(levels->coarsest, &levels->matrix[l]));
-    if (!ost_metric_graph_is_uneven(levels->graph[l]) && !(options->precise && l > 0))
+    if (!ost_metric_graph_is_uneven(levels->graph[l]) && options->precise <= (l == 0))
         return OST_SUCCESS;
     return ost_agree(levels->coarsest->ctx, ost_level_matrix_keep_rest(levels->coarsest, levels->matrix[l]));
 }

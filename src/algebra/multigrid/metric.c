@@ -27,6 +27,7 @@ struct OstMetric {
     OstScaling *scaling;
     OstCycle *cycle;
     OstScaling *linear_scaling; /* of the linear tets, for quadratic ones */
+    int over_linear;            /* are they a level? */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -113,6 +114,7 @@ static OstStatus build_linear(OstMetric *metric, const OstCoarseSpace *space, co
     OstMetricGraph *graph = NULL;
     OstStatus status;
     geometry.facts = facts;
+    metric->options.precise *= 2; /* the linear tets are a coarse level */
     metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
     OST_TRY_DONE(ost_scaling_create(space->matrix, &metric->linear_scaling));
     OST_TRY_DONE(ost_metric_graph_create(space->matrix, &geometry, &graph));
@@ -123,17 +125,21 @@ done:
     return status;
 }
 
-/* Should aggregates of the quadratic tets' nodes take the place of the linear tets? If so, sets their options. */
+/* Should aggregates of the quadratic tets' nodes take the place of the linear tets? If so, sets their options. Linear
+ * tets also lock in plates and in cells that are far longer than thick; STRONG therefore has none. */
 static OstStatus skip_linear(OstMetric *metric, const OstMetricGraph *graph, int *skip)
 {
     OstSolverOptions *options = &metric->options;
     double misalignment;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
-    *skip = misalignment > ost_metric_misaligned;
+    const int is_strong = options->method == OST_METHOD_STRONG;
+    *skip = is_strong || misalignment > ost_metric_misaligned;
     if (!*skip)
         return OST_SUCCESS;
     if (!(options->given & OST_GIVEN_AGGREGATE) && options->aggregate_nodes > quadratic_aggregate)
         options->aggregate_nodes = quadratic_aggregate;
+    if (is_strong)
+        return OST_SUCCESS;
     if (!(options->given & OST_GIVEN_DEGREE))
         options->smoother_degree += MISALIGNED_MORE_DEGREE;
     ost_log(
@@ -159,6 +165,7 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
     if (skip) {
         OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, levels));
     } else {
+        metric->over_linear = 1;
         OST_TRY_DONE(build_linear(metric, space, geometry->facts, levels));
         OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
                                                 &metric->options, quadratic));
@@ -211,6 +218,11 @@ OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverG
     const OstStatus status = ost_metric_graph_misalignment(graph, mean);
     ost_metric_graph_destroy(&graph);
     return status;
+}
+
+int ost_metric_is_over_linear(const OstMetric *metric)
+{
+    return metric->over_linear;
 }
 
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)

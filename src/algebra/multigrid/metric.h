@@ -23,6 +23,9 @@ OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometr
                             const OstSolverOptions *options, OstMetric **metric);
 void ost_metric_destroy(OstMetric **metric);
 
+/* Local. Are linear tets the first coarse level of quadratic ones? */
+int ost_metric_is_over_linear(const OstMetric *metric);
+
 /* Local. Takes the smoother's degree and ratio from `options` and raises the eigenvalue estimates; the levels and the
  * smoothers' blocks stay. */
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
