@@ -75,6 +75,35 @@ static void edges_off_the_stiff_directions_are_noticed(void **state)
     assert_true(nearest > 4.0);
 }
 
+/* Every second layer of bricks is a thousandth as thick as the others: the two nodes above each other stay together, in
+ * aggregates and in blocks. */
+static void the_two_sides_of_a_flat_layer_stay_together(void **state)
+{
+    (void)state;
+    const double targets[] = {7.0, 40.0};
+    const OstLocal plane = 18 * 18;
+    ElasticProblem problem;
+    OstMetricGraph *graph = NULL;
+    assert_success(elastic_create(ctx, &cube, &problem));
+    for (OstLocal i = 0; i < problem.matrix->rows; i++) {
+        const OstLocal layer = i / plane;
+        problem.coordinates[3 * i + 2] = 1e-3 * (layer / 2 + layer % 2) + 1.999 * (layer / 2);
+    }
+    assert_success(ost_metric_graph_create(problem.matrix, &problem.geometry, &graph));
+    for (int t = 0; t < 2; t++) {
+        const OstAggregateShape shape = {.target = targets[t], .minimum = 1, .recentrings = 2};
+        OstAggregates *aggregates = NULL;
+        assert_success(ost_aggregates_create(graph, &shape, &aggregates));
+        for (OstLocal i = 0; i < graph->nodes; i++)
+            if (i / plane % 2 == 0)
+                assert_int_equal(aggregates->of_node[i], aggregates->of_node[i + plane]);
+        assert_in_range(aggregates->count, graph->nodes / (1.5 * targets[t]), graph->nodes / (0.6 * targets[t]));
+        ost_aggregates_destroy(&aggregates);
+    }
+    ost_metric_graph_destroy(&graph);
+    elastic_destroy(&problem);
+}
+
 static void every_node_is_in_one_aggregate_and_sizes_meet_the_target(void **state)
 {
     (void)state;
@@ -233,6 +262,7 @@ static void a_metric_that_measures_nothing_is_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(edges_off_the_stiff_directions_are_noticed),
+    cmocka_unit_test(the_two_sides_of_a_flat_layer_stay_together),
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),
     cmocka_unit_test(parts_too_small_for_the_modes_are_left_to_the_smoother),

@@ -3,6 +3,8 @@
 
 #include "mesh_support.h"
 
+#include <math.h>
+
 /* Inclusions, 1e6 times stiffer, in a cube of 16³ hexes of six tets: are they whole on one rank? */
 
 enum { CELLS = 16, SIDE = CELLS + 1, NODES = SIDE * SIDE * SIDE };
@@ -108,6 +110,34 @@ static void inclusions_are_whole(void **state)
         }
 }
 
+/* Every second layer of hexes is flat: no rank has one side of it alone. */
+static void the_two_sides_of_a_flat_layer_are_together(void **state)
+{
+    (void)state;
+    const Pattern none = {4, 0, 1.0};
+    for (int scattered = 0; scattered < 2; scattered++) {
+        OstMeshChunk *chunk = make_chunk(&none, scattered);
+        OstMesh *mesh = NULL;
+        int split = 0;
+        for (OstLocal i = 0; i < chunk->node_count; i++) {
+            const long layer = lround(CELLS * chunk->coordinates[3 * (size_t)i + 2]);
+            chunk->coordinates[3 * (size_t)i + 2] = (0.002 * (double)(layer % 2) + (double)(layer / 2 * 2)) / CELLS;
+        }
+        assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
+        for (OstLocal t = 0; t < mesh->owned_tets; t++)
+            for (int e = 0; e < 6; e++) {
+                const OstLocal a = mesh->tet_nodes[4 * (size_t)t + (size_t)ost_tet_edge[e][0]];
+                const OstLocal b = mesh->tet_nodes[4 * (size_t)t + (size_t)ost_tet_edge[e][1]];
+                const double *p = mesh->coordinates + 3 * (size_t)a, *q = mesh->coordinates + 3 * (size_t)b;
+                split += hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]) < 0.01 / CELLS &&
+                         (a < mesh->owned_nodes) != (b < mesh->owned_nodes);
+            }
+        assert_int_equal(split, 0);
+        assert_true(imbalance(mesh) < 1.25);
+        ost_mesh_destroy(&mesh);
+    }
+}
+
 /* A body that hangs together, and one whose moduli hardly differ, are cut as if they were of one material. */
 static void other_bodies_are_cut_as_before(void **state)
 {
@@ -128,6 +158,7 @@ static void other_bodies_are_cut_as_before(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(inclusions_are_whole),
+    cmocka_unit_test(the_two_sides_of_a_flat_layer_are_together),
     cmocka_unit_test(other_bodies_are_cut_as_before),
 };
 

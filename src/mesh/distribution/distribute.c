@@ -66,7 +66,7 @@ static OstStatus weld(const OstMeshChunk *chunk, const Slab *slab, const OstTetM
     OstStatus status = OST_NEW(chunk->ctx, &stiffness, chunk->tet_count);
     OST_THEN(tets->stiffness(tets->data, chunk, stiffness));
     status = ost_agree(chunk->ctx, status);
-    OST_THEN(ost_parts_weld(chunk, slab, stiffness, part));
+    OST_THEN(ost_parts_weld_stiff(chunk, slab, stiffness, part));
     OST_FREE(stiffness);
     return status;
 }
@@ -84,6 +84,7 @@ static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tet
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
     OST_TRY_DONE(ost_partition(slab, metric, part));
     OST_FREE(metric);
+    OST_TRY_DONE(ost_parts_weld_close(chunk, slab, part));
     if (tets && tets->stiffness)
         OST_TRY_DONE(weld(chunk, slab, tets, part));
     take_names(chunk, mesh);

@@ -10,10 +10,12 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The ratio from which multigrid aggregates by stiffness. A tet hangs together if it has more than the share of what
- * the tets of each of its nodes have in all; a node has up to some hundred. */
-static const double uneven = 1e4, share = 1e-3, largest = 0.25;
+ * the tets of each of its nodes have in all; a node has up to some hundred. Nodes are close below this part of the mean
+ * of the distances that each has to others of its tets. */
+static const double uneven = 1e4, share = 1e-3, close = 0.1, largest = 0.25;
 
 /* An inclusion is found after as many rounds as it is split over ranks; what is split more often is too large. */
 enum { MOST_ROUNDS = 100 };
@@ -60,7 +62,83 @@ static OstStatus create_welding(const OstMeshChunk *chunk, const Slab *slab, Wel
     return OST_NEW(ctx, &w->place, slab->node_count);
 }
 
-/* --- what hangs together --- */
+/* --- what hangs together: close nodes --- */
+
+static double distance(const double *position, OstLocal a, OstLocal b)
+{
+    double square = 0.0;
+    for (size_t c = 0; c < 3; c++) {
+        const double d = position[3 * (size_t)b + c] - position[3 * (size_t)a + c];
+        square += d * d;
+    }
+    return sqrt(square);
+}
+
+/* Positions of all nodes; and in `sum` the mean distance that each has to the others of its tets. */
+static OstStatus measure_distances(const Welding *w, double *position, double *sum)
+{
+    const size_t width = (size_t)w->chunk->nodes_per_tet;
+    if (w->slab->node_count > 0)
+        memcpy(position, w->chunk->coordinates, 3 * (size_t)w->slab->node_count * sizeof *position);
+    OST_TRY(ost_halo_import(w->slab->halo, 3 * sizeof *position, position));
+    for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
+        const OstLocal *node = w->slab->tet_nodes + width * t;
+        for (size_t u = 0; u < width; u++) {
+            for (size_t v = 0; v < width; v++)
+                sum[2 * (size_t)node[u]] += distance(position, node[u], node[v]);
+            sum[2 * (size_t)node[u] + 1] += (double)(width - 1);
+        }
+    }
+    OST_TRY(ost_halo_add_to_owners(w->slab->halo, 2, sum));
+    OST_TRY(ost_halo_import(w->slab->halo, 2 * sizeof *sum, sum));
+    for (size_t i = 0; i < w->nodes; i++)
+        sum[i] = sum[2 * i] / fmax(sum[2 * i + 1], 1.0);
+    return OST_SUCCESS;
+}
+
+static OstLocal root_of(OstLocal *set, OstLocal i)
+{
+    for (; set[i] != i; i = set[i])
+        set[i] = set[set[i]];
+    return i;
+}
+
+static void start_sets(Welding *w)
+{
+    for (size_t i = 0; i < w->nodes; i++)
+        w->set[i] = (OstLocal)i;
+}
+
+/* Joins close nodes; *joined: how many pairs there are on all ranks. */
+static OstStatus join_close(Welding *w, OstGlobal *joined)
+{
+    const size_t width = (size_t)w->chunk->nodes_per_tet;
+    double *position = NULL, *mean = NULL;
+    OstStatus status = OST_NEW(w->slab->ctx, &position, 3 * w->nodes);
+    *joined = 0;
+    if (status == OST_SUCCESS)
+        status = OST_NEW(w->slab->ctx, &mean, 2 * w->nodes);
+    OST_TRY_DONE(ost_agree(w->slab->ctx, status));
+    OST_TRY_DONE(measure_distances(w, position, mean));
+    start_sets(w);
+    for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
+        const OstLocal *node = w->slab->tet_nodes + width * t;
+        for (size_t u = 0; u < width; u++)
+            for (size_t v = 0; v < u; v++) {
+                if (distance(position, node[u], node[v]) > close * fmin(mean[node[u]], mean[node[v]]))
+                    continue;
+                w->set[root_of(w->set, node[u])] = root_of(w->set, node[v]);
+                (*joined)++;
+            }
+    }
+    OST_TRY_DONE(ost_sum_numbers(w->slab->ctx, 1, joined));
+done:
+    OST_FREE(position);
+    OST_FREE(mean);
+    return status;
+}
+
+/* --- what hangs together: stiff tets --- */
 
 static OstStatus is_uneven(const OstMeshChunk *chunk, const double *stiffness, int *answer)
 {
@@ -84,18 +162,10 @@ static OstStatus sum_stiffness(Welding *w, const double *stiffness)
     return ost_halo_import(w->slab->halo, sizeof *w->sum, w->sum);
 }
 
-static OstLocal root_of(OstLocal *set, OstLocal i)
-{
-    for (; set[i] != i; i = set[i])
-        set[i] = set[set[i]];
-    return i;
-}
-
 static OstStatus join_tets(Welding *w, const double *stiffness)
 {
     const size_t width = (size_t)w->chunk->nodes_per_tet;
-    for (size_t i = 0; i < w->nodes; i++)
-        w->set[i] = (OstLocal)i;
+    start_sets(w);
     for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
         const OstLocal *node = w->slab->tet_nodes + width * t;
         double most = 0.0;
@@ -108,6 +178,8 @@ static OstStatus join_tets(Welding *w, const double *stiffness)
     }
     return ost_halo_add_to_owners(w->slab->halo, 1, w->softer);
 }
+
+/* --- their labels --- */
 
 /* Each node takes the lowest label of its set. */
 static void spread_labels(Welding *w)
@@ -286,7 +358,7 @@ static OstStatus move_nodes(const Welding *w, const OstLocal *decided, int *part
         part[i] = to >= 0 ? to : part[i];
     }
     OST_TRY_DONE(ost_sum_numbers(ctx, 1, &moved));
-    ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices change rank, so that stiff inclusions are whole",
+    ost_log(ctx, OST_LOG_VERBOSE, "mesh: %lld vertices change rank, so that what moves as one is on one",
             (long long)moved);
     status = ost_halo_import(w->slab->halo, sizeof *part, part);
 done:
@@ -294,26 +366,51 @@ done:
     return status;
 }
 
-OstStatus ost_parts_weld(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part)
+/* Gives every set to one part. */
+static OstStatus weld_sets(Welding *w, int *part)
 {
-    OstContext *ctx = chunk->ctx;
-    Welding w = {0};
     OstLocal *decided = NULL;
+    OstStatus status = label_nodes(w);
+    if (status != OST_SUCCESS)
+        return status;
+    count_pieces(w, part);
+    OST_TRY_DONE(ost_agree(w->slab->ctx, OST_NEW(w->slab->ctx, &decided, w->pieces)));
+    OST_TRY_DONE(ask_for_parts(w, decided));
+    status = move_nodes(w, decided, part);
+done:
+    OST_FREE(decided);
+    return status;
+}
+
+OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part)
+{
+    Welding w;
+    OstGlobal joined = 0;
+    OstStatus status = create_welding(chunk, slab, &w);
+    OST_TRY_DONE(ost_agree(chunk->ctx, status));
+    OST_TRY_DONE(join_close(&w, &joined));
+    for (size_t i = 0; i < w.nodes; i++)
+        w.softer[i] = 1.0; /* whatever is around them */
+    if (joined > 0)
+        status = weld_sets(&w, part);
+done:
+    destroy_welding(&w);
+    return status;
+}
+
+OstStatus ost_parts_weld_stiff(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part)
+{
+    Welding w;
     int uneven_body = 0;
     OST_TRY(is_uneven(chunk, stiffness, &uneven_body));
     if (!uneven_body)
         return OST_SUCCESS;
     OstStatus status = create_welding(chunk, slab, &w);
-    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_agree(chunk->ctx, status));
     OST_TRY_DONE(sum_stiffness(&w, stiffness));
     OST_TRY_DONE(join_tets(&w, stiffness));
-    OST_TRY_DONE(label_nodes(&w));
-    count_pieces(&w, part);
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &decided, w.pieces)));
-    OST_TRY_DONE(ask_for_parts(&w, decided));
-    status = move_nodes(&w, decided, part);
+    status = weld_sets(&w, part);
 done:
-    OST_FREE(decided);
     destroy_welding(&w);
     return status;
 }

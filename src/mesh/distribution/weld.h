@@ -4,11 +4,15 @@
 
 #include "mesh/distribution/slab.h"
 
-/* Collective. Gives every stiff inclusion to one rank whole: it moves as a rigid body, and multigrid can see that only
- * where one rank has all of it. Tets hang together where they are about as stiff as the stiffest at their nodes; what
- * hangs together in something far softer, unless it is more than a quarter of a rank's share, goes to the part (`part`:
- * of the slab's nodes and ghosts) that has most of it. `stiffness` is that of the chunk's tets; up to a ratio of 10,000
- * nothing is done. */
-OstStatus ost_parts_weld(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part);
+/* What moves as one should be on one rank, as multigrid's aggregates and blocks end at its border. After METIS has cut
+ * the mesh, such a set of nodes goes to the part that has most of it (`part`: of the slab's nodes and ghosts), unless
+ * it is more than a quarter of a rank's share. */
+
+/* Collective. Nodes that are far closer to each other than to the others of their tets, as through a flat layer. */
+OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part);
+
+/* Collective. Stiff inclusions in soft surroundings: tets hang together where they are about as stiff as the stiffest
+ * at their nodes. `stiffness` is that of the chunk's tets; up to a ratio of 10,000 nothing is done. */
+OstStatus ost_parts_weld_stiff(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part);
 
 #endif
