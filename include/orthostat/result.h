@@ -50,6 +50,7 @@ typedef struct OstNewtonReport {
     int rounding_limited;     /* rounding, and not the residual asked for, ended an iteration */
     int jumps;                /* load steps over which the body jumped from one state to another: snap-through */
     double jump_at;           /* load factor at the end of the last of these */
+    int stability_unknown;    /* whether the last state is stable could not be told (mixed form) */
     double seconds;           /* of Newton's method */
 } OstNewtonReport;
 

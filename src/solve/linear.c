@@ -144,8 +144,10 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
-    if (linear->volume)
-        OST_TRY(ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure));
+    if (linear->volume) {
+        OST_TRY(ost_pressure_complete(problem->pressures, linear->pressure));
+        ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure);
+    }
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (result->reached && problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));

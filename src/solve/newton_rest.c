@@ -63,6 +63,8 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
 {
     const OstProblem *problem = newton->problem;
     double sums[SUMS] = {0.0}, strain_energy = 0.0, work = 0.0;
+    if (ost_newton_is_mixed(newton))
+        ost_newton_take_pressure(newton, displacement);
     OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, displacement, newton->internal)));
     if (ost_newton_has_energy(newton))
         OST_TRY(ost_problem_energy(problem, newton->t, displacement, &strain_energy));
@@ -78,6 +80,10 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     OST_TRY(ost_sum(newton->ctx, SUMS, sums));
     work = problem->follower ? work : sums[SUM_WORK];
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
+    if (ost_newton_is_mixed(newton)) {
+        OST_TRY(ost_agree(newton->ctx, ost_newton_find_volume(newton, displacement)));
+        OST_TRY(ost_newton_mixed_norm(newton, &newton->norm));
+    }
     newton->energy = ost_newton_has_energy(newton) ? strain_energy - work : 0.0;
     newton->strain_energy = strain_energy;
     newton->energy_size = fabs(strain_energy) + fabs(work);
@@ -115,12 +121,16 @@ static OstStatus measure_change(OstNewton *newton, double length)
     return OST_SUCCESS;
 }
 
-/* The correction's norm in the energy, sqrt(d·K d) = sqrt(d·r). */
+/* The correction's norm in the energy, sqrt(d·K d) = sqrt(d·r); with pressures sqrt(d·A d + p·C p) (coupling.h). */
 static OstStatus measure_decrement(OstNewton *newton)
 {
+    const size_t rows = 3 * (size_t)newton->problem->system->matrix->rows;
+    const size_t pressures = ost_newton_is_mixed(newton) ? (size_t)newton->problem->pressures->owned : 0;
     double work = 0.0;
-    for (size_t i = 0; i < 3 * (size_t)newton->problem->system->matrix->rows; i++)
+    for (size_t i = 0; i < rows; i++)
         work += newton->residual[i] * newton->correction[i];
+    for (size_t i = rows; i < rows + pressures; i++)
+        work -= newton->residual[i] * newton->correction[i];
     OST_TRY(ost_sum(newton->ctx, 1, &work));
     newton->decrement = work >= 0.0 ? sqrt(work) : INFINITY;
     return OST_SUCCESS;

@@ -156,10 +156,13 @@ OstStatus ost_pressure_space_create(const OstMesh *mesh, const OstMaterialField 
     return status;
 }
 
-OstStatus ost_pressure_of_tets(const OstPressureSpace *space, double *pressure, double *of_tets)
+OstStatus ost_pressure_complete(const OstPressureSpace *space, double *pressure)
 {
-    OST_TRY(ost_halo_import(space->halo, sizeof *pressure, pressure));
+    return ost_agree(space->ctx, ost_halo_import(space->halo, sizeof *pressure, pressure));
+}
+
+void ost_pressure_of_tets(const OstPressureSpace *space, const double *pressure, double *of_tets)
+{
     for (size_t i = 0; i < 4 * (size_t)space->mesh->tet_count; i++)
         of_tets[i] = space->of_tet[i] < 0 ? 0.0 : pressure[space->of_tet[i]];
-    return OST_SUCCESS;
 }
