@@ -447,3 +447,16 @@ void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
             (*stretch)[slot] = fmin((*stretch)[slot], tets.at[q].polar.stretch[2][slot]);
 }
+
+void ost_large_rotation_volumes(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd volumes[2])
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    volumes[0] = tets.volume;
+    volumes[1] = (OstSimd){0};
+    for (int q = 0; q < tets.count; q++) {
+        const OstSimd *stretch = tets.at[q].polar.stretch;
+        volumes[1] += tets.at[q].point.volume * (stretch[0] * stretch[1] * stretch[2]);
+    }
+}

@@ -73,6 +73,10 @@ void ost_large_rotation_mean_rotation(const OstElement *element, const OstSimd *
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,
                                 const OstQuadraturePoint *at, OstSimd *strain);
 
+/* The tets' volumes before and after: integrals of 1 and of det F, counted positive before. */
+void ost_large_rotation_volumes(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd volumes[2]);
+
 /* The least principal stretch over the tets' points; negative where a tet is inverted. */
 void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
                                       const OstSimd *u, OstSimd *stretch);
