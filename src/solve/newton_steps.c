@@ -299,7 +299,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         int jumps = 0;
         OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
         const int found = is_at_rest(newton, rest);
-        if (found)
+        if (found && !ost_newton_is_mixed(newton)) /* whose stiffness is indefinite before the body is unstable */
             OST_TRY(find_jump(newton, state, step, &jumps));
         if (found && t == to)
             OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));

@@ -147,8 +147,8 @@ static void a_pressure_jumps_where_the_material_does(void **state)
     }
 }
 
-/* The classical formulation, and pressure that follows a surface with a free rim, have no energy: Newton's method goes on
- * with the mean dilatation. nu = 1/2 is refused then, as it is for linear tets. */
+/* The classical formulation, and pressure that follows a surface with a free rim, have no energy: Newton's method goes
+ * on with the mean dilatation. nu = 1/2 is refused then, as it is for linear tets. */
 static void what_has_no_mixed_form_says_so(void **state)
 {
     (void)state;
