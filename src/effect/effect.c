@@ -92,8 +92,6 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "formulation: classical uses the mean dilatation";
     if (has_links(f))
         return "rigid, tied or periodic faces use the mean dilatation";
-    if (f->path_steps > 0)
-        return "a path uses the mean dilatation";
     return NULL;
 }
 

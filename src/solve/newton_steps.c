@@ -280,7 +280,10 @@ static OstStatus renew_hierarchy(OstNewton *newton, const OstNewtonState *state)
     newton->rebuild = newton->stiffness->moved || largest > 0.0;
     if (newton->rebuild)
         newton->method = OST_METHOD_AUTO;
-    return OST_SUCCESS;
+    if (!newton->rebuild || !ost_newton_is_mixed(newton))
+        return OST_SUCCESS;
+    ost_newton_take_pressure(newton, state->displacement); /* by whose stiffness and coupling residuals are measured */
+    return ost_problem_stiffness_from(newton->problem, state->t, state->displacement, NULL, 0);
 }
 
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)

@@ -39,6 +39,12 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
     return OST_SUCCESS;
 }
 
+int ost_nonlinear_may_be_mixed(const OstProblem *problem)
+{
+    return problem->beyond_linear == OST_FORMULATION_LINEAR ||
+           (problem->beyond_linear == OST_FORMULATION_CONSISTENT && problem->conservative);
+}
+
 /* The state without load, and what the linear solution predicts. */
 static OstStatus start(const OstAnalysis *analysis, const OstResult *result, OstNewtonState *state)
 {
@@ -71,7 +77,7 @@ static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
 static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     OstProblem *problem = analysis->problem;
-    if (problem->pressures && !(problem->beyond_linear == OST_FORMULATION_CONSISTENT && problem->conservative))
+    if (problem->pressures && !ost_nonlinear_may_be_mixed(problem))
         OST_TRY(leave_mixed(analysis, result));
     OstLinear *linear = analysis->work;
     OstNewton *newton = NULL;

@@ -13,6 +13,8 @@ typedef struct OstPressureSpace {
     const OstMesh *mesh;
     OstLocal owned, count; /* without and with ghosts */
     OstGlobal global;
+    OstLocal *first;  /* node_count + 1: the first pressure of each node */
+    int most;         /* at a node, of all ranks */
     OstLocal *of_tet; /* tet_count × 4: the pressure at each of a tet's vertices; -1: none */
     int32_t *region;  /* count */
     OstHalo *halo;
