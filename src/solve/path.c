@@ -132,6 +132,23 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
     return OST_SUCCESS;
 }
 
+/* Does a load grow from here on at another rate than it did? The last step's slope then leads astray. */
+static int loads_turn(const OstPath *path, double t)
+{
+    if (path->done == 0)
+        return 0;
+    const OstProblem *problem = path->problem;
+    const double now = path->times[path->done - 1], before = path->done > 1 ? path->times[path->done - 2] : 0.0;
+    int turn = 0;
+    for (int k = 0; k < ost_problem_functions(problem) && before < now; k++) {
+        const double factor = ost_problem_factor(problem, k, now);
+        const double was = (factor - ost_problem_factor(problem, k, before)) / (now - before);
+        const double is = (ost_problem_factor(problem, k, t) - factor) / (t - now);
+        turn |= fabs(is - was) > 0.5 * fmax(fabs(is), fabs(was));
+    }
+    return turn;
+}
+
 /* Every step has its own method, so that it depends on the state alone. */
 static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolvedFor *solved_for)
 {
@@ -141,6 +158,8 @@ static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolve
         OST_TRY(ost_stiffness_solver_make(stiffness));
     ost_problem_take_formulation(path->problem, path->problem->beyond_linear);
     OST_TRY(ost_newton_create(stiffness, &path->linear.solve, &newton));
+    if (loads_turn(path, t))
+        path->state.step = 0.0; /* the tangent gives another */
     OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
     if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
         result->newton = path->judged;

@@ -216,6 +216,26 @@ static void steps_do_not_change_where_a_body_ends(void **state)
                 SOFT_BEAM "  - {on: {boundary: xmax}, displacement: [-1, free, 3]}\n" ON);
 }
 
+/* Unloading takes no more than loading did: where a load turns, the last step's slope would lead the wrong way. */
+static void a_load_that_turns_takes_the_body_back(void **state)
+{
+    (void)state;
+    Made made = make(BEAM ON "loads:\n  - {on: {boundary: xmax}, total_force: [0, 0, 8], "
+                             "time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {times: [0.25, 0.5, 0.75]}\n");
+    OstPath *path = NULL;
+    OstResult *step[3] = {NULL};
+    assert_success(ost_scene_path(made.scene, &path));
+    for (int i = 0; i < 3; i++)
+        assert_success(ost_path_advance(path, 0, &step[i]));
+    assert_true(farthest(3 * (size_t)step[0]->mesh->node_count, step[2]->displacement, step[0]->displacement) < 1e-6);
+    assert_true(ost_path_step(path, 2)->newton_iterations <= ost_path_step(path, 0)->newton_iterations);
+    assert_int_equal(step[2]->newton.jumps, 0);
+    for (int i = 0; i < 3; i++)
+        ost_result_destroy(&step[i]);
+    ost_path_destroy(&path);
+    destroy(&made);
+}
+
 static void a_body_at_rest_stays_until_it_is_loaded(void **state)
 {
     (void)state;
@@ -532,6 +552,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_has_no_table_needs_no_memory),
     cmocka_unit_test(a_program_gives_tables_too),
     cmocka_unit_test(steps_do_not_change_where_a_body_ends),
+    cmocka_unit_test(a_load_that_turns_takes_the_body_back),
     cmocka_unit_test(a_body_at_rest_stays_until_it_is_loaded),
     cmocka_unit_test(one_step_too_far_makes_all_newtons),
     cmocka_unit_test(a_resumed_path_has_the_same_bits),
