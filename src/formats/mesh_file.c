@@ -117,7 +117,7 @@ int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
     return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
@@ -137,6 +137,14 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     return status;
 }
 
+OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+{
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    const OstStatus status = read_file(ctx, path, chunk, materials);
+    ost_ledger_leave(ctx);
+    return status;
+}
+
 /* Rank 0 has all tets. */
 static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, const char *path, const char *name,
                                   OstFieldUse use, OstMeshChunk *chunk)
@@ -152,8 +160,7 @@ static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, 
     return status;
 }
 
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
-                                   OstMeshChunk *chunk)
+static OstStatus read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use, OstMeshChunk *chunk)
 {
     const OstMeshFormat *format = find_format(path);
     if (!format)
@@ -168,6 +175,15 @@ OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char
     OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? read_field_alone(ctx, format, path, name, use, chunk) : OST_SUCCESS));
     OST_TRY(broadcast(ctx, &chunk->fields, sizeof chunk->fields));
     return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
+}
+
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+                                   OstMeshChunk *chunk)
+{
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    const OstStatus status = read_field(ctx, path, name, use, chunk);
+    ost_ledger_leave(ctx);
+    return status;
 }
 
 OstStatus ost_chunk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
