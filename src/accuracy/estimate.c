@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
+#include "accuracy/earlier.h"
 #include "accuracy/loads.h"
 #include "accuracy/operator.h"
 #include "assembly/springs.h"
@@ -24,8 +25,9 @@ struct OstEstimate {
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;
-    double *inverse; /* of the functions' blocks, once they are known */
-    int has_inverse; /* of linear theory */
+    double *inverse;     /* of the functions' blocks, once they are known */
+    int has_inverse;     /* of linear theory */
+    OstEarlier *earlier; /* what was found for other loads; or NULL */
 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
@@ -35,6 +37,7 @@ void ost_estimate_destroy(OstEstimate **estimate)
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
     OST_FREE((*estimate)->inverse);
+    ost_earlier_destroy(&(*estimate)->earlier);
     OST_FREE(*estimate);
 }
 
@@ -53,6 +56,15 @@ OstStatus ost_estimate_take_loading(OstEstimate *estimate)
         return OST_SUCCESS;
     ost_surplus_loads_clear(&estimate->loads);
     return ost_surplus_loads_create(estimate->problem, &estimate->complement, &estimate->loads);
+}
+
+OstStatus ost_estimate_remember(OstEstimate *estimate)
+{
+    const OstProblem *problem = estimate->problem;
+    if (!problem->scene || !ost_problem_is_linear(problem) || estimate->earlier)
+        return OST_SUCCESS;
+    const size_t size = 3 * ((size_t)problem->system->matrix->rows + (size_t)estimate->complement.count);
+    return ost_agree(problem->ctx, ost_earlier_create(problem->ctx, size, &estimate->earlier));
 }
 
 /* Takes the stiffness to u. */
@@ -203,12 +215,12 @@ static double gains_to_come(double gain, double last)
     return gain * ratio / (1.0 - ratio);
 }
 
-/* Steps until |e|_A² with what is to come settles. */
-static OstStatus iterate(Search *search, double *square)
+/* Steps until |e|_A² with what is to come settles; `start` is that of the part of e that was found before. */
+static OstStatus iterate(Search *search, double start, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    double weight = 0.0, gain = 0.0, last = 0.0, sum = 0.0;
-    *square = 0.0;
+    double weight = 0.0, gain = 0.0, last = 0.0, sum = start;
+    *square = start;
     OST_TRY(turn(search, 0.0, &weight));
     for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
         const double before_last = last, before = *square;
@@ -219,12 +231,23 @@ static OstStatus iterate(Search *search, double *square)
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", k + 1, sqrt(sum),
                 sqrt(*square - sum));
         const double small = gain < fallen * before_last ? small_gain : lasting_gain;
-        if (search->failed || (k > 0 && gain <= small * sum && fabs(*square - before) <= settled * *square))
+        if (search->failed ||
+            ((k > 0 || start > 0.0) && gain <= small * sum && fabs(*square - before) <= settled * *square))
             break;
         OST_TRY(turn(search, gain, &weight));
     }
     search->longer = sum > 0.0 ? *square / sum : 1.0;
     return OST_SUCCESS;
+}
+
+/* The same, from the best combination of what was found for other loads. */
+static OstStatus iterate_from(Search *search, double *square)
+{
+    OstEarlier *earlier = search->estimate->earlier;
+    double start;
+    OST_TRY(ost_earlier_start(earlier, search->r, &start));
+    OST_TRY(iterate(search, start, square));
+    return search->failed ? OST_SUCCESS : ost_earlier_finish(earlier, search->r, search->e);
 }
 
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
@@ -312,7 +335,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     OstStatus status = move(estimate, u);
     OST_THEN(open_search(estimate, solver, &search));
     OST_THEN(find_residual(&search, t, u));
-    OST_THEN(iterate(&search, &square));
+    const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
+    OST_THEN(has_earlier ? iterate_from(&search, &square) : iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.failed) {
         status = compare(&search, t, u, square, found);
         if (tet_error)
@@ -406,7 +430,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
         problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
     OST_TRY_DONE(adjoint_residual(&search, interest));
     memset(search.z, 0, search.all * sizeof *search.z);
-    OST_TRY_DONE(iterate(&search, &square));
+    OST_TRY_DONE(iterate(&search, 0.0, &square));
     if (search.failed)
         goto done;
     OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));

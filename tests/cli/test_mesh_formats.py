@@ -3,6 +3,9 @@ refines, merges and orients."""
 import json
 import os
 
+import meshio
+import numpy as np
+
 from program import SOURCE, check, fewer, new_folder, run
 
 STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
@@ -135,7 +138,7 @@ check("48 linear tets" in said and "Clamp" in said and "least" in said, said)
 # --- convert, there and back ---
 
 for ranks in fewer([1, 3]):
-    for ending in ("msh", "inp", "vtkhdf", "hdf"):
+    for ending in ("msh", "inp", "vtu", "vtkhdf", "hdf"):
         new = f"new-{ranks}.{ending}"
         inspect(stored("cae-quadratic.inp"), new, ranks=ranks)
         again = inspect(new)
@@ -146,12 +149,23 @@ for ranks in fewer([1, 3]):
                   abs(region["volume"] - 1) < 1e-9, f"{new}: {again['regions']}")
         check({b["name"]: b["count"] for b in again["boundaries"]} == {b["name"]: b["count"] for b in counts["boundaries"]},
               f"{new}: {again['boundaries']}")
-for ending in ("msh", "inp"):
+for ending in ("msh", "inp", "vtu"):
     if len(fewer([1, 3])) == 2:
         texts = [open(os.path.join(folder, f"new-{ranks}.{ending}")).read() for ranks in (1, 3)]
         check(texts[0] == texts[1], f"{ending}: what is written depends on the number of ranks")
+for order, points, kinds in (("linear", 23, {"tetra": 48, "triangle": 4}), ("quadratic", 113, {"tetra10": 48, "triangle6": 4})):
+    inspect(stored(f"gmsh-{order}.mesh"), f"{order}.vtu")
+    other = meshio.read(os.path.join(folder, f"{order}.vtu"))
+    count = {}
+    for block in other.cells:
+        count[block.type] = count.get(block.type, 0) + len(block.data)
+    check(len(other.points) == points and count == kinds, f"meshio finds {len(other.points)} points and {count}")
+    check(sorted(set(np.concatenate(other.cell_data["region"]))) == [1, 2, 3], "numbers of regions and boundaries")
+    kept = inspect(f"{order}.vtu")
+    check([r["name"] for r in kept["regions"]] == ["volume-1", "volume-2"] and kept["boundaries"][0]["name"] == "surface-1",
+          f"{kept['regions']} {kept['boundaries']}")
 bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
-check(bad.exit_code == 2 and ".msh" in bad.errors, bad.errors)
+check(bad.exit_code == 2 and ".msh" in bad.errors and ".vtu" in bad.errors, bad.errors)
 
 # --- refine, raise, merge, orient ---
 
