@@ -33,6 +33,8 @@ OstStatus ost_path_create(OstProblem *problem, const OstSolverOptions *options, 
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
         memcpy(made->times, times, (size_t)count * sizeof *times);
+    if (problem->pressures && !ost_nonlinear_may_be_mixed(problem))
+        OST_THEN(ost_problem_leave_mixed(problem));
     OST_THEN(ost_analysis_create(problem, options, &made->analysis));
     if (status != OST_SUCCESS)
         ost_path_destroy(&made);
@@ -112,6 +114,7 @@ static OstStatus step_linearly(OstPath *path, double t, OstResult *result, OstSo
 static OstStatus begin(OstPath *path, double t, OstResult *result)
 {
     const OstProblem *problem = path->problem;
+    const OstLinear *linear = path->analysis->work;
     OstSolvedFor solved_for;
     OST_TRY(ost_agree(path->ctx, ost_newton_state_create(problem, &path->state)));
     path->state.t = ost_problem_begins_at_rest(problem) ? 0.0 : -1.0;
@@ -122,6 +125,8 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
     OST_TRY(ost_nonlinear_judge(problem, result));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
         path->state.slope[i] = result->displacement[i] / span;
+    for (OstLocal i = 0; problem->pressures && i < problem->pressures->count; i++)
+        path->state.slope[3 * (size_t)problem->mesh->node_count + (size_t)i] = linear->pressure[i] / span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
     ost_superposition_release(&path->linear);
     return OST_SUCCESS;

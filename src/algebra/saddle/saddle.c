@@ -205,6 +205,8 @@ static OstStatus complete(Run *run, int *again)
     sums[SUM_AZ] = ost_dot(run->n, run->z.u, run->az);
     sums[SUM_RZ] = ost_dot(run->n, run->z.u, run->r.u);
     OST_TRY(ost_sum(run->ctx, 2, sums));
+    if (sums[SUM_RZ] > 0.0 && sums[SUM_AZ] < 0.0)
+        return ost_goal_refuse_indefinite(run->goal, sums[SUM_AZ]);
     if (sums[SUM_RZ] > 0.0 && sums[SUM_AZ] < near * sums[SUM_RZ] && sums[SUM_AZ] > 0.0) {
         const double larger = margin * sums[SUM_RZ] / sums[SUM_AZ];
         run->tau *= larger;
