@@ -146,15 +146,16 @@ static OstStatus multiply(Search *search)
     return take_rows(search, search->q);
 }
 
-/* z = B r. The elements' own unknowns take part in every other step: as few steps are needed so as if they did in each,
- * and the multigrid cycle takes as long as several products with A. */
+/* z = B r. The elements' own unknowns take part in every other step, from the third on: hardly more steps are needed
+ * so, and the multigrid cycle takes as long as several products with A. */
 static OstStatus precondition(Search *search)
 {
     const OstComplement *complement = &search->estimate->complement;
     const double *r = search->r + search->rows;
     double *z = search->z + search->rows;
     int found = 1;
-    if (search->turns++ % 2 == 1)
+    const int turns = search->turns++;
+    if (turns > 0 && turns % 2 == 0)
         OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
     else
         memset(search->z, 0, search->rows * sizeof *search->z);
@@ -203,7 +204,7 @@ static double gains_to_come(double gain, double last)
     return gain * ratio / (1.0 - ratio);
 }
 
-/* Two steps, one of them with the elements' own unknowns. */
+/* Two steps: in all pairs but the first, one with the elements' own unknowns. */
 static OstStatus take_pair(Search *search, double *weight, double *gain)
 {
     double of_step = 0.0;

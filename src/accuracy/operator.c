@@ -362,7 +362,7 @@ static void find_forces(const Cells *cells, const OstElement *element, OstFormul
                           formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
     if (is_simple)
         forces_of_linear(cells, element, u, w, at_nodes, at_functions);
-    else if (cells->nodes == 10 && cells->straight && is_plain(cells, formulation))
+    else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
         forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
@@ -598,8 +598,7 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
         gather(operator, first, mesh->tet_count, &cells);
         if (cells.nodes == 4 && cells.batch.elasticity.points == 1)
             add_linear_blocks(&cells, element, block);
-        else if (cells.nodes == 10 && cells.straight && cells.batch.elasticity.points == 1 &&
-                 is_plain(&cells, OST_FORMULATION_LINEAR))
+        else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
             ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else
             add_blocks(&cells, element, block);

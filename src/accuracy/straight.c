@@ -21,6 +21,7 @@ int ost_straight_all(const OstSimd *x)
 
 typedef struct Straight {
     OstSimd gradient[VERTICES][3], volume;
+    OstSimd bend[EDGES][3]; /* of mid-edge nodes, from the middle of the edge's ends */
 } Straight;
 
 static inline void open(const OstSimd *x, Straight *tet)
@@ -29,6 +30,10 @@ static inline void open(const OstSimd *x, Straight *tet)
     ost_element_of(4)->evaluate(x, &ost_tet_degree1.point[0], &point);
     memcpy(tet->gradient, point.gradient, sizeof tet->gradient);
     tet->volume = point.volume;
+    for (int e = 0; e < EDGES; e++)
+        for (int i = 0; i < 3; i++)
+            tet->bend[e][i] =
+                x[3 * (4 + e) + i] - 0.5 * (x[3 * ost_tet_edge[e][0] + i] + x[3 * ost_tet_edge[e][1] + i]);
 }
 
 /* strain += factor × that of a displacement v f, g the gradient of f */
@@ -49,19 +54,26 @@ static inline void add_force(double factor, const OstSimd g[3], const OstSimd st
         force[i] += factor * part[i];
 }
 
-/* The strain of the elements' own displacement: u = sum of u_a L_a + h_ab 4 L_a L_b, linear in L. */
+/* The strain of the elements' own displacement: u = sum of u_a L_a + h_ab 4 L_a L_b, linear in L. What the slope
+ * between the vertices explains of a mid-edge node that lies off its edge does not count: so a linear u has a uniform
+ * strain. */
 static inline void add_own_strain(const Straight *tet, const OstSimd *u, OstSimd strain[PRODUCTS][6])
 {
     OstSimd at_vertex[VERTICES][6], mean[6] = {{0}};
+    OstSimd slope[3][3] = {{{0}}};
     for (int a = 0; a < VERTICES; a++)
-        add_strain(1.0, u + 3 * a, tet->gradient[a], mean);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                slope[i][j] += u[3 * a + i] * tet->gradient[a][j];
+    ost_strain_of_slope(slope, mean);
     for (int a = 0; a < VERTICES; a++)
         memcpy(at_vertex[a], mean, sizeof mean);
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         OstSimd h[3];
         for (int i = 0; i < 3; i++)
-            h[i] = u[3 * (4 + e) + i] - 0.5 * (u[3 * a + i] + u[3 * b + i]);
+            h[i] = u[3 * (4 + e) + i] - 0.5 * (u[3 * a + i] + u[3 * b + i]) - slope[i][0] * tet->bend[e][0] -
+                   slope[i][1] * tet->bend[e][1] - slope[i][2] * tet->bend[e][2];
         add_strain(4.0, h, tet->gradient[b], at_vertex[a]);
         add_strain(4.0, h, tet->gradient[a], at_vertex[b]);
     }
@@ -146,7 +158,7 @@ static inline void integrate_points(const Straight *tet, const OstElasticity *el
 
 static inline void find_own_forces(const Straight *tet, OstSimd moment[PRODUCTS][6], OstSimd *at_nodes)
 {
-    OstSimd of_vertex[VERTICES][6], sum[6];
+    OstSimd of_vertex[VERTICES][6], sum[6], of_slope[3][3] = {{{0}}};
     memcpy(of_vertex, moment, sizeof of_vertex);
     for (int p = 0; p < 6; p++) {
         for (int e = 0; e < EDGES; e++) {
@@ -166,8 +178,14 @@ static inline void find_own_forces(const Straight *tet, OstSimd moment[PRODUCTS]
         for (int i = 0; i < 3; i++) {
             at_nodes[3 * a + i] -= 0.5 * force[i];
             at_nodes[3 * b + i] -= 0.5 * force[i];
+            for (int j = 0; j < 3; j++)
+                of_slope[i][j] -= force[i] * tet->bend[e][j];
         }
     }
+    for (int a = 0; a < VERTICES; a++)
+        for (int i = 0; i < 3; i++)
+            at_nodes[3 * a + i] += of_slope[i][0] * tet->gradient[a][0] + of_slope[i][1] * tet->gradient[a][1] +
+                                   of_slope[i][2] * tet->gradient[a][2];
 }
 
 static inline void find_surplus_forces(const Straight *tet, OstSimd moment[PRODUCTS][6], OstSimd *at_functions)

@@ -5,7 +5,8 @@
 #include "accuracy/complement.h"
 
 /* Quadratic tets with straight edges, by linear theory: gradients of barycentric coordinates are constants there, and
- * strains are polynomials of degree 2. */
+ * strains are polynomials of degree 2. Curved ones are taken for straight, but for what a linear displacement needs,
+ * which has a uniform strain in them too: good enough for the stiffness, not for the forces of a state. */
 
 /* Local. Is each tet of the batch straight? x: 10 nodes. */
 int ost_straight_all(const OstSimd *x);
