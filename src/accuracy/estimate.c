@@ -16,7 +16,7 @@
 /* Steps end when what is to come is below the first share of |e|_A². Gains of pairs of steps are taken to fall by no
  * less than the ratio. On linear tets that lock they fall, and then stay for long: there the last one is to be below
  * the second share, too. */
-static const double small_rest = 0.25, small_gain = 0.11, largest_ratio = 0.75;
+static const double small_rest = 0.25, small_gain = 0.115, largest_ratio = 0.75;
 enum { most_pairs = 12 };
 
 struct OstEstimate {
