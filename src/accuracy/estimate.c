@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
+#include "accuracy/earlier.h"
 #include "accuracy/loads.h"
 #include "accuracy/operator.h"
 #include "assembly/springs.h"
@@ -17,6 +18,10 @@
  * less than the ratio. On linear tets that lock they fall, and then stay for long: there the last one is to be below
  * the second share, too. */
 static const double small_rest = 0.25, small_gain = 0.115, largest_ratio = 0.75;
+
+/* Where errors of other loads gave a start, one pair of steps is enough if it adds less than this share. */
+static const double little_new = 0.03;
+
 enum { most_pairs = 12 };
 
 struct OstEstimate {
@@ -24,8 +29,9 @@ struct OstEstimate {
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;
-    double *inverse; /* of the functions' blocks, once they are known */
-    int has_inverse; /* of linear theory */
+    double *inverse;     /* of the functions' blocks, once they are known */
+    int has_inverse;     /* of linear theory */
+    OstEarlier *earlier; /* what was found for other loads; or NULL */
 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
@@ -35,6 +41,7 @@ void ost_estimate_destroy(OstEstimate **estimate)
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
     OST_FREE((*estimate)->inverse);
+    ost_earlier_destroy(&(*estimate)->earlier);
     OST_FREE(*estimate);
 }
 
@@ -53,6 +60,15 @@ OstStatus ost_estimate_take_loading(OstEstimate *estimate)
         return OST_SUCCESS;
     ost_surplus_loads_clear(&estimate->loads);
     return ost_surplus_loads_create(estimate->problem, &estimate->complement, &estimate->loads);
+}
+
+OstStatus ost_estimate_remember(OstEstimate *estimate)
+{
+    const OstProblem *problem = estimate->problem;
+    if (!problem->scene || !ost_problem_is_linear(problem) || estimate->earlier)
+        return OST_SUCCESS;
+    const size_t size = 3 * ((size_t)problem->system->matrix->rows + (size_t)estimate->complement.count);
+    return ost_agree(problem->ctx, ost_earlier_create(problem->ctx, size, &estimate->earlier));
 }
 
 /* Takes the stiffness to u. */
@@ -220,13 +236,13 @@ static OstStatus take_pair(Search *search, double *weight, double *of_step, doub
     return OST_SUCCESS;
 }
 
-/* Pairs of steps until what is to come of |e|_A² is small. */
-static OstStatus iterate(Search *search, double *square)
+/* Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found before. */
+static OstStatus iterate(Search *search, double start, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
     const int is_quadratic = search->estimate->problem->mesh->nodes_per_tet == 10;
-    double weight = 0.0, of_step = 0.0, gain = 0.0, sum = 0.0;
-    *square = 0.0;
+    double weight = 0.0, of_step = 0.0, gain = 0.0, sum = start;
+    *square = start;
     search->turns = 0;
     for (int k = 1; k <= most_pairs && !search->failed; k++) {
         const double last = gain;
@@ -237,7 +253,8 @@ static OstStatus iterate(Search *search, double *square)
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k, sqrt(sum),
                 sqrt(to_come));
         const int falls = to_come <= small_rest * *square && (is_quadratic || gain <= small_gain * sum);
-        if (!(gain > 0.0) || (k > 1 && falls))
+        const int known = start > 0.0 && gain <= little_new * sum;
+        if (!(gain > 0.0) || (k > 1 ? falls : known))
             break;
     }
     search->longer = sum > 0.0 ? *square / sum : 1.0;
@@ -253,6 +270,16 @@ static OstStatus settle(Search *search)
     for (size_t i = 0; i < search->rows && found; i++)
         search->e[i] += search->z[i];
     return OST_SUCCESS;
+}
+
+/* The same, from the best combination of what was found for other loads. */
+static OstStatus iterate_from(Search *search, double *square)
+{
+    OstEarlier *earlier = search->estimate->earlier;
+    double start;
+    OST_TRY(ost_earlier_start(earlier, search->r, &start));
+    OST_TRY(iterate(search, start, square));
+    return search->failed ? OST_SUCCESS : ost_earlier_finish(earlier, search->r, search->e);
 }
 
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
@@ -336,7 +363,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     OstStatus status = move(estimate, u);
     OST_THEN(open_search(estimate, solver, &search));
     OST_THEN(find_residual(&search, t, u));
-    OST_THEN(iterate(&search, &square));
+    const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
+    OST_THEN(has_earlier ? iterate_from(&search, &square) : iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.failed) {
         if (surplus)
             status = settle(&search);
@@ -432,7 +460,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
         problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
     OST_TRY_DONE(adjoint_residual(&search, interest));
     memset(search.z, 0, search.all * sizeof *search.z);
-    OST_TRY_DONE(iterate(&search, &square));
+    OST_TRY_DONE(iterate(&search, 0.0, &square));
     if (search.failed)
         goto done;
     OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));

@@ -156,6 +156,19 @@ static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const d
     return OST_SUCCESS;
 }
 
+/* The same of a constant force in straight linear tets, where the mean of a function is 1/5. */
+static void load_straight_tet(const OstComplement *complement, OstLocal tet, const double vector[3], double *force)
+{
+    const OstMesh *mesh = complement->mesh;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    const double share = 0.2 * ost_tet_volume(mesh->coordinates, nodes);
+    OstLocal function[OST_MAX_FUNCTIONS];
+    ost_complement_of_tet(complement, tet, function);
+    for (int k = 0; k < 6; k++)
+        add(complement, function[k],
+            share * ost_complement_turn(mesh, nodes[ost_tet_edge[k][0]], nodes[ost_tet_edge[k][1]]), vector, force);
+}
+
 /* --- the loads of the case --- */
 
 static OstStatus add_body_load(const OstScene *scene, const OstComplement *complement, const OstLoad *load,
@@ -174,7 +187,10 @@ static OstStatus add_body_load(const OstScene *scene, const OstComplement *compl
         for (int i = 0; i < 3; i++)
             vector[i] = density * load->vector[i];
         spin.density = density;
-        OST_TRY(load_tet(complement, tet, vector, form, force));
+        if (mesh->nodes_per_tet == 4 && !form)
+            load_straight_tet(complement, tet, vector, force);
+        else
+            OST_TRY(load_tet(complement, tet, vector, form, force));
     }
     return OST_SUCCESS;
 }

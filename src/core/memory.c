@@ -4,18 +4,34 @@
 #include "core/context.h"
 #include "core/error.h"
 
+#include <limits.h>
 #include <malloc.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Large blocks start on a cache line: a vector register is as long as one, and loads of it that touch two lines take
+ * twice as long. Not with sanitizers, which would miss an access right behind the block. */
+#if defined __SANITIZE_ADDRESS__
+enum { LINE = 64, LARGE = INT_MAX };
+#else
+enum { LINE = 64, LARGE = 1024 }; /* bytes */
+#endif
+
 /* Precedes every block, so that freeing it needs only the pointer. Aligned, so that the block behind it is. */
 typedef struct Header {
     _Alignas(max_align_t) OstContext *ctx;
     size_t bytes;
     OstAccount account;
+    unsigned before; /* bytes from what malloc returned to the header */
 } Header;
+
+/* Where the header goes: at the start, or so that the block behind it starts on a cache line. */
+static unsigned bytes_before(const char *start, int aligned)
+{
+    return aligned ? (unsigned)(-(uintptr_t)(start + sizeof(Header)) % LINE) : 0;
+}
 
 static OstStatus raise_out_of_memory(OstContext *ctx, size_t count, size_t size)
 {
@@ -29,7 +45,7 @@ static OstStatus raise_out_of_memory(OstContext *ctx, size_t count, size_t size)
 
 static int overflows(size_t count, size_t size)
 {
-    return size != 0 && count > (SIZE_MAX / 2 - sizeof(Header)) / size;
+    return size != 0 && count > (SIZE_MAX / 2 - sizeof(Header) - LINE) / size;
 }
 
 OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory)
@@ -37,9 +53,13 @@ OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory
     *memory = NULL;
     if (overflows(count, size))
         return raise_out_of_memory(ctx, count, size);
-    Header *header = calloc(1, sizeof *header + count * size);
-    if (!header)
+    const int aligned = count * size >= LARGE;
+    char *start = calloc(1, sizeof(Header) + count * size + (aligned ? LINE : 0));
+    if (!start)
         return raise_out_of_memory(ctx, count, size);
+    const unsigned before = bytes_before(start, aligned);
+    Header *header = (Header *)(void *)(start + before);
+    header->before = before;
     header->ctx = ctx;
     header->bytes = count * size;
     header->account = ctx->stack[ctx->depth];
@@ -57,9 +77,16 @@ OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memo
     Header *header = (Header *)*memory - 1;
     const size_t old_bytes = header->bytes;
     const size_t bytes = count * size;
-    header = realloc(header, sizeof *header + bytes);
-    if (!header)
+    const unsigned old_before = header->before;
+    const int aligned = bytes >= LARGE || old_before > 0;
+    char *start = realloc((char *)header - old_before, sizeof *header + bytes + (aligned ? LINE : 0));
+    if (!start)
         return raise_out_of_memory(ctx, count, size);
+    const unsigned before = bytes_before(start, aligned);
+    header = (Header *)(void *)(start + before);
+    if (before != old_before)
+        memmove(header, start + old_before, sizeof *header + (bytes < old_bytes ? bytes : old_bytes));
+    header->before = before;
     if (bytes > old_bytes)
         memset((char *)(header + 1) + old_bytes, 0, bytes - old_bytes);
     header->bytes = bytes;
@@ -75,7 +102,7 @@ void ost_free_memory(void *memory)
         return;
     Header *header = (Header *)memory - 1;
     ost_ledger_book(header->ctx, header->account, header->bytes, 1);
-    free(header);
+    free((char *)header - header->before);
 }
 
 void ost_keep_freed_memory(void)

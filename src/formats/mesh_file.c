@@ -7,6 +7,7 @@
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <string.h>
 #include <strings.h>
@@ -55,10 +56,20 @@ done:
     return status;
 }
 
+/* Gmsh calls versions of its format .msh1 to .msh41. */
+static size_t length_without_version(const char *path)
+{
+    const size_t length = strlen(path);
+    size_t bare = length;
+    while (bare > 0 && isdigit((unsigned char)path[bare - 1]))
+        bare--;
+    return bare >= 4 && strncasecmp(path + bare - 4, ".msh", 4) == 0 ? bare : length;
+}
+
 static int ends_with(const char *path, const char *ending)
 {
-    const size_t length = strlen(path), tail = strlen(ending);
-    return length >= tail && strcasecmp(path + length - tail, ending) == 0;
+    const size_t length = length_without_version(path), tail = strlen(ending);
+    return length >= tail && strncasecmp(path + length - tail, ending, tail) == 0;
 }
 
 static const OstMeshFormat *find_format(const char *path)

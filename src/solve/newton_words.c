@@ -69,8 +69,9 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
                  rest == OST_REST_SLOW      ? "Newton's method does not converge there"
                  : rest == OST_REST_STALLED ? "no step along the correction lowers the energy"
                                             : "the linear solver finds no correction");
-    return OST_RAISE(newton->ctx, OST_NOT_CONVERGED,
-                     "%s %.6g%s and not to %.6g: %s. The last correction is largest in %s",
+    /* Tets turned inside out say themselves where it is. */
+    return OST_RAISE(newton->ctx, OST_NOT_CONVERGED, "%s %.6g%s and not to %.6g: %s%s%s",
                      on_path ? "the path is followed up to t =" : "the load is followed up to", state->t,
-                     on_path ? "" : " of it", t, reason, place);
+                     on_path ? "" : " of it", t, reason,
+                     worst.inverted > 0 ? "" : ". The last correction is largest in ", worst.inverted > 0 ? "" : place);
 }

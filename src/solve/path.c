@@ -33,6 +33,8 @@ OstStatus ost_path_create(OstProblem *problem, const OstSolverOptions *options, 
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
         memcpy(made->times, times, (size_t)count * sizeof *times);
+    if (problem->pressures && !ost_nonlinear_may_be_mixed(problem))
+        OST_THEN(ost_problem_leave_mixed(problem));
     OST_THEN(ost_analysis_create(problem, options, &made->analysis));
     if (status != OST_SUCCESS)
         ost_path_destroy(&made);
@@ -112,6 +114,7 @@ static OstStatus step_linearly(OstPath *path, double t, OstResult *result, OstSo
 static OstStatus begin(OstPath *path, double t, OstResult *result)
 {
     const OstProblem *problem = path->problem;
+    const OstLinear *linear = path->analysis->work;
     OstSolvedFor solved_for;
     OST_TRY(ost_agree(path->ctx, ost_newton_state_create(problem, &path->state)));
     path->state.t = ost_problem_begins_at_rest(problem) ? 0.0 : -1.0;
@@ -122,9 +125,28 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
     OST_TRY(ost_nonlinear_judge(problem, result));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
         path->state.slope[i] = result->displacement[i] / span;
+    for (OstLocal i = 0; problem->pressures && i < problem->pressures->count; i++)
+        path->state.slope[3 * (size_t)problem->mesh->node_count + (size_t)i] = linear->pressure[i] / span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
     ost_superposition_release(&path->linear);
     return OST_SUCCESS;
+}
+
+/* Does a load grow from here on at another rate than it did? The last step's slope then leads astray. */
+static int loads_turn(const OstPath *path, double t)
+{
+    if (path->done == 0)
+        return 0;
+    const OstProblem *problem = path->problem;
+    const double now = path->times[path->done - 1], before = path->done > 1 ? path->times[path->done - 2] : 0.0;
+    int turn = 0;
+    for (int k = 0; k < ost_problem_functions(problem) && before < now; k++) {
+        const double factor = ost_problem_factor(problem, k, now);
+        const double was = (factor - ost_problem_factor(problem, k, before)) / (now - before);
+        const double is = (ost_problem_factor(problem, k, t) - factor) / (t - now);
+        turn |= fabs(is - was) > 0.5 * fmax(fabs(is), fabs(was));
+    }
+    return turn;
 }
 
 /* Every step has its own method, so that it depends on the state alone. */
@@ -136,6 +158,8 @@ static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolve
         OST_TRY(ost_stiffness_solver_make(stiffness));
     ost_problem_take_formulation(path->problem, path->problem->beyond_linear);
     OST_TRY(ost_newton_create(stiffness, &path->linear.solve, &newton));
+    if (loads_turn(path, t))
+        path->state.step = 0.0; /* the tangent gives another */
     OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
     if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
         result->newton = path->judged;

@@ -55,7 +55,7 @@ def main():
     compare(["solve", "case.yaml"], folder, KINDS, ["--json", "-"])
     compare(["check", "case.yaml"], folder, KINDS, ["--json"])
     compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])
-    compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8"], folder, KINDS[:2], ["--json", "-"])
+    compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8", "--accuracies", "-"], folder, KINDS[:2], ["--json", "-"])
 
 
 main()

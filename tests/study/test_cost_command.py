@@ -21,6 +21,7 @@ watch:
   tip: {displacement: {nearest: [4, 1, 0]}, component: z}
 """
 LADDER = ["--tolerances", "1e-2,1e-8"]
+SHORT = [*LADDER, "--refinements", "0,1", "--accuracies", "-"]
 
 
 def run(*arguments, ranks=1, folder=None):
@@ -124,7 +125,7 @@ class Cost(unittest.TestCase):
         with open(self.path("share/orthostat/plot-cost"), "w") as stream:
             stream.write('#!/bin/sh\ntest -s "$1" && echo "$1"\n')
         os.chmod(stream.name, 0o755)
-        done = subprocess.run([program, "cost", "beam.yaml", *LADDER, "-q", "--picture", "p.png"], cwd=self.folder,
+        done = subprocess.run([program, "cost", "beam.yaml", *SHORT, "-q", "--picture", "p.png"], cwd=self.folder,
                               capture_output=True, text=True, timeout=100,
                               env={**os.environ, "TMPDIR": self.path("somewhere")})
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -132,7 +133,7 @@ class Cost(unittest.TestCase):
         self.assertFalse(os.path.exists(done.stdout.strip()))
 
     def test_picture_is_drawn(self):
-        self.assertEqual(self.cost(*LADDER, "-q", "--picture", "p.png").stdout, "")
+        self.assertEqual(self.cost(*SHORT, "-q", "--picture", "p.png").stdout, "")
         with open(self.path("p.png"), "rb") as stream:
             self.assertEqual(stream.read(8), b"\x89PNG\r\n\x1a\n")
         self.assertEqual(sorted(os.listdir(self.folder)), ["beam.yaml", "p.png"])

@@ -1,10 +1,8 @@
 """Answers compared with closed-form solutions, on coarse meshes; and mistakes that verification is there to catch."""
-import json
 import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from balance import check_cases  # noqa: E402
 from program import SANITIZED, SOURCE, check, new_folder, run  # noqa: E402
 
 CASES = os.path.join(SOURCE, "cases")
@@ -28,12 +26,10 @@ def fails_when(folder, name, old, new):
     check("FAIL" in finished.output, f"{name}: no quantity is said to fail\n{finished.output}")
 
 
-def coarse_meshes_pass(folder):
-    report = os.path.join(folder, "verify.json")
-    finished = run("verify", "--quick", "--json", report, ranks=2, timeout=540)
+def some_coarse_meshes_pass():
+    finished = run("verify", "--quick", "axial-pull", "cylinder-nu-5", "given-displacement", "hanging-bar", "torsion-1-5", ranks=2)
     check(finished.exit_code == 0, f"verify --quick: {finished.output[-4000:]}{finished.errors}")
-    with open(report) as stream:
-        check_cases(json.load(stream)["cases"])
+    check("5 of 5 cases pass" in finished.output, finished.output)
 
 
 def mistakes_fail(folder):
@@ -49,8 +45,8 @@ def mistakes_fail(folder):
 
 def main():
     folder = new_folder()
-    if SANITIZED:  # the release build's test_all.py runs these meshes too; mistakes are about numbers
-        coarse_meshes_pass(folder)
+    if SANITIZED:  # the release build's test_all.py runs all; mistakes are about numbers
+        some_coarse_meshes_pass()
     else:
         mistakes_fail(folder)
 
