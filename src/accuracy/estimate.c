@@ -19,8 +19,8 @@
  * the second share, too. */
 static const double small_rest = 0.25, small_gain = 0.115, largest_ratio = 0.75;
 
-/* Where errors of other loads gave a start, one pair of steps is enough if it adds less than this share. */
-static const double little_new = 0.03;
+/* The share where errors of other loads gave a start, and what one pair of steps may add to that to be the last. */
+static const double small_rest_of_start = 0.05, little_new = 0.03;
 
 enum { most_pairs = 12 };
 
@@ -252,7 +252,8 @@ static OstStatus iterate(Search *search, double start, double *square)
         *square = sum + to_come;
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k, sqrt(sum),
                 sqrt(to_come));
-        const int falls = to_come <= small_rest * *square && (is_quadratic || gain <= small_gain * sum);
+        const int falls = to_come <= (start > 0.0 ? small_rest_of_start : small_rest) * *square &&
+                          (is_quadratic || gain <= small_gain * sum);
         const int known = start > 0.0 && gain <= little_new * sum;
         if (!(gain > 0.0) || (k > 1 ? falls : known))
             break;

@@ -147,28 +147,6 @@ static void find_strain(const Cells *cells, OstFormulation formulation, int q, c
     ost_elastic_strain(elasticity, ost_elasticity_at(elasticity, q), strain, elastic);
 }
 
-/* C strain = (1 - 2 shear) A (A : strain) + 2 shear A strain A */
-static inline void stress_of_stretch(const OstElasticity *elasticity, const OstSimd strain[6], OstSimd stress[6])
-{
-    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    const OstSimd *a = elasticity->stretch_tensor;
-    const double shear = elasticity->shear;
-    OstSimd half[9];
-    const OstSimd bulk = (1.0 - 2.0 * shear) * (a[0] * strain[0] + a[1] * strain[1] + a[2] * strain[2] +
-                                                a[3] * strain[3] + a[4] * strain[4] + a[5] * strain[5]);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            half[3 * i + j] = (OstSimd){0};
-            for (int k = 0; k < 3; k++) /* engineering shear */
-                half[3 * i + j] += (k == j ? 2.0 : 1.0) * shear * a[place[i][k]] * strain[place[k][j]];
-        }
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        stress[p] = bulk * a[p] + half[3 * i] * a[place[0][j]] + half[3 * i + 1] * a[place[1][j]] +
-                    half[3 * i + 2] * a[place[2][j]];
-    }
-}
-
 /* The first Piola stress, times the volume; `mean` is that of the stiff mode over the tet. */
 static void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
                         const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
@@ -180,7 +158,7 @@ static void find_stress(const Cells *cells, OstFormulation formulation, int q, c
     OstPolar polar;
     find_strain(cells, formulation, q, slope, &polar, elastic);
     if (elasticity->by_stretch)
-        stress_of_stretch(elasticity, elastic, stress);
+        ost_stretch_stress(elasticity->stretch_tensor, elasticity->shear, elastic, stress);
     else
         ost_simd_stress(elasticity->c[at], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
