@@ -29,7 +29,10 @@ def answer(mesh, clamp, ranks=1):
         stream.write(CASE.format(mesh=mesh, clamp=clamp))
     done = run("solve", path, "-q", "--json", "-", "--output", os.path.join(folder, "out.vtkhdf"), ranks=ranks)
     check(done.exit_code == 0, f"{mesh}: {done.errors}")
-    watched = json.loads(done.output)["watched"]
+    report = json.loads(done.output)
+    watched, reading = report["watched"], [a for a in report["ledger"]["accounts"] if a["name"] == "mesh"][0]
+    check(reading["entries"] == 1 and reading["seconds"] > 0 and reading["bytes"] >= 24 * report["vertices"],
+          f"{mesh}: what is read is not booked to the mesh: {reading}")
     return [watched["end"]["value"], watched["energy"]["value"]]
 
 
