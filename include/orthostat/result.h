@@ -27,6 +27,7 @@ typedef struct OstChecks {
     int finite;
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
+    double volume_ratio;     /* where rotations are large, deformed over undeformed volume, the mean of det F; else 0 */
 } OstChecks;
 
 /* What was found out about large rotations, and what was done about them (large_rotation in docs/case.md). */
@@ -50,6 +51,7 @@ typedef struct OstNewtonReport {
     int rounding_limited;     /* rounding, and not the residual asked for, ended an iteration */
     int jumps;                /* load steps over which the body jumped from one state to another: snap-through */
     double jump_at;           /* load factor at the end of the last of these */
+    int stability_unknown;    /* whether the last state is stable could not be told (mixed form) */
     double seconds;           /* of Newton's method */
 } OstNewtonReport;
 

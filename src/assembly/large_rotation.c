@@ -54,3 +54,19 @@ void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const
         }
     }
 }
+
+void ost_deformed_volume(const OstMesh *mesh, const OstMaterialField *field, const double *u, double volumes[2])
+{
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    volumes[0] = volumes[1] = 0.0;
+    ost_elasticity_clear(&batch.elasticity);
+    for (OstLocal first = 0; first < mesh->owned_tets; first += batch.count) {
+        OstSimd of_nodes[3 * OST_MAX_TET_NODES], of_tets[2];
+        gather(&batch, mesh, field, u, first, of_nodes);
+        ost_large_rotation_volumes(element, batch.x, &batch.elasticity, of_nodes, of_tets);
+        for (int slot = 0; slot < batch.count; slot++)
+            for (int after = 0; after < 2; after++)
+                volumes[after] += of_tets[after][slot];
+    }
+}

@@ -95,6 +95,9 @@ OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *fie
 double ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
                                     double t, const double *u);
 
+/* Local. The volumes of this rank's own tets, before and after u (the integral of det F). */
+void ost_deformed_volume(const OstMesh *mesh, const OstMaterialField *field, const double *u, double volumes[2]);
+
 /* Local. Of this rank's own tets at u: how many are inverted at one of their points, and the one whose principal
  * stretch is the least at any point (-1 without tets; then the stretch is DBL_MAX). */
 typedef struct OstLeastStretch {

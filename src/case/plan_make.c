@@ -87,6 +87,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
                            : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
                                                                         : 1;
+    facts.classical = c->formulation == OST_FORMULATION_CLASSICAL;
     facts.formulation = c->formulation == OST_FORMULATION_CLASSICAL ? "classical" : "consistent";
     facts.accuracy = c->relative_error;
     facts.path_steps = c->path_steps;

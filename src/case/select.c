@@ -254,6 +254,11 @@ done:
 static OstStatus raise_nothing(const OstCase *c, const OstMesh *mesh, const OstSelection *selection)
 {
     double low[3], high[3];
+    if (selection->kind == OST_SELECT_BOUNDARY)
+        return ost_select_raise(c, selection,
+                                "boundary '%.80s' holds no vertex of the body: what the mesh file puts into it lies "
+                                "on no tet; `orthostat mesh FILE` lists all boundaries with their areas",
+                                selection->boundaries.name[0]);
     OST_TRY(ost_mesh_bounds(mesh, low, high));
     return ost_select_raise(c, selection,
                             "the selection holds no vertex; the body reaches from (%g, %g, %g) to (%g, %g, "

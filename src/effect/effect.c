@@ -77,7 +77,7 @@ static int has_links(const OstEffectFacts *f)
     return f->rigid_faces + f->ties + f->periodic > 0;
 }
 
-/* Why the mixed form is not used, or NULL. Newton's method has no mixed form. */
+/* Why the mixed form is not used, or NULL. */
 static const char *why_not_mixed(const OstEffectFacts *f)
 {
     if (f->nearly_incompressible == 0)
@@ -88,12 +88,10 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "left out";
     if (f->mixed == 0)
         return "the case says so: element: {mixed: off}";
-    if (f->large_rotation == 2 && !f->free_body)
-        return "large rotations use the mean dilatation";
+    if (f->large_rotation == 2 && f->classical && !f->free_body)
+        return "formulation: classical uses the mean dilatation";
     if (has_links(f))
         return "rigid, tied or periodic faces use the mean dilatation";
-    if (f->path_steps > 0)
-        return "a path uses the mean dilatation";
     return NULL;
 }
 

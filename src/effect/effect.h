@@ -65,6 +65,7 @@ typedef struct OstEffectFacts {
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     double accuracy;    /* relative */
     const char *formulation;
+    int classical;          /* is it? */
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
     int moments;                      /* loads with a moment: those, and forces at a point */

@@ -11,7 +11,8 @@ typedef struct Deformed {
     OstPoint point;
     OstPolar polar;
     OstSimd strain[6]; /* U - I - e0 */
-    OstSimd stress[6];
+    OstSimd stress[6]; /* without the stiff mode's part, where C is split */
+    OstSimd pressure;  /* of a mixed form */
     const OstSimd *c, *m, *e0;
 } Deformed;
 
@@ -51,6 +52,8 @@ static void deform(const OstElement *element, const OstSimd *x, const OstElastic
             at->strain[p] -= at->e0[p];
         ost_simd_stress(at->c, at->strain, at->stress);
         tets->volume += at->point.volume;
+        if (elasticity->mixed)
+            ost_pressure_at(elasticity, rule->point[q].at, &at->pressure);
         if (!elasticity->by_mean)
             continue;
         dot6(at->m, at->strain, &mode);
@@ -95,6 +98,14 @@ static inline void whole_stress(const DeformedTets *tets, const OstElasticity *e
     memcpy(stress, tets->at[q].stress, 6 * sizeof *stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
         stress[p] += tets->stiff * tets->at[q].m[p];
+    for (int p = 0; p < 6 && elasticity->mixed; p++)
+        stress[p] += tets->at[q].pressure * tets->at[q].m[p];
+}
+
+/* Energy density of a mixed form's stiff mode. */
+static inline void energy_of_pressure(const OstElasticity *elasticity, const Deformed *at, OstSimd *density)
+{
+    *density = elasticity->mixed ? 0.5 * elasticity->looseness * at->pressure * at->pressure : (OstSimd){0};
 }
 
 /* force += the first Piola stress along the shape functions' gradients */
@@ -118,9 +129,10 @@ static void consistent_energy(const OstElement *element, const OstSimd *x, const
     deform(element, x, elasticity, u, &tets);
     *energy = 0.5 * tets.volume * tets.stiff * tets.stiff;
     for (int q = 0; q < tets.count; q++) {
-        OstSimd twice;
+        OstSimd twice, of_pressure;
         dot6(tets.at[q].strain, tets.at[q].stress, &twice);
-        *energy += 0.5 * tets.at[q].point.volume * twice;
+        energy_of_pressure(elasticity, &tets.at[q], &of_pressure);
+        *energy += tets.at[q].point.volume * (0.5 * twice + of_pressure);
     }
 }
 
@@ -215,6 +227,30 @@ static void consistent_stiffness(const OstElement *element, const OstSimd *x, co
         sum_points(element->nodes, &tets, elasticity, definite, blocks);
     if (elasticity->by_mean)
         add_mean_blocks(element, &tets, blocks);
+}
+
+void ost_large_rotation_coupling(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                 const OstSimd *u, OstSimd *columns, OstSimd volume[4])
+{
+    const OstQuadrature *rule = element->rule(x, elasticity);
+    const int numbers = 3 * element->nodes;
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    memset(columns, 0, 4 * (size_t)numbers * sizeof *columns);
+    memset(volume, 0, 4 * sizeof *volume);
+    for (int q = 0; q < tets.count; q++) {
+        const Deformed *at = &tets.at[q];
+        OstSimd of_point[3 * OST_MAX_TET_NODES] = {{0}}, mode;
+        add_force(element->nodes, at, at->m, of_point);
+        dot6(at->m, at->strain, &mode);
+        mode = at->point.volume * (mode - elasticity->looseness * at->pressure);
+        for (int v = 0; v < 4; v++) {
+            const double share = rule->point[q].at[v];
+            volume[v] += share * mode;
+            for (int n = 0; n < numbers; n++)
+                columns[numbers * v + n] += share * of_point[n];
+        }
+    }
 }
 
 /* The mean over the tets of F - I. */
@@ -357,8 +393,10 @@ static void consistent_means(const OstElement *element, const OstSimd *x, const 
     for (int q = 0; q < tets.count; q++) {
         const Deformed *at = &tets.at[q];
         const OstSimd share = at->point.volume / tets.volume;
-        OstSimd stress[6];
+        OstSimd stress[6], of_pressure;
         whole_stress(&tets, elasticity, q, stress);
+        energy_of_pressure(elasticity, at, &of_pressure);
+        means->energy += share * of_pressure;
         for (int p = 0; p < 6; p++) {
             means->strain[p] += share * at->strain[p];
             if (elasticity->eigenstrained) {
@@ -408,4 +446,17 @@ void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *
     for (int q = 1; q < tets.count; q++)
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
             (*stretch)[slot] = fmin((*stretch)[slot], tets.at[q].polar.stretch[2][slot]);
+}
+
+void ost_large_rotation_volumes(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd volumes[2])
+{
+    DeformedTets tets;
+    deform(element, x, elasticity, u, &tets);
+    volumes[0] = tets.volume;
+    volumes[1] = (OstSimd){0};
+    for (int q = 0; q < tets.count; q++) {
+        const OstSimd *stretch = tets.at[q].polar.stretch;
+        volumes[1] += tets.at[q].point.volume * (stretch[0] * stretch[1] * stretch[2]);
+    }
 }

@@ -9,7 +9,7 @@
  * (orthostat/formulation.h). Local. Arguments as of OstElement; `elasticity` has C itself, not only its stretch tensor.
  *
  * Consistent: Biot's strain at each point of the element's rule (biot.h). Where C is split (elasticity.h), the stiff
- * mode counts by the tet's mean of m'(U - I).
+ * mode counts by the tet's mean of m'(U - I), or by the pressure of a mixed form.
  *
  * Classical: R is the rotation of the tet's mean F. Forces are R K d and the stiffness R K R', with d = R'x - X; the
  * energy 1/2 d'K d is reported, but is not a potential of the forces.
@@ -31,6 +31,12 @@ void ost_large_rotation_force(const OstElement *element, OstFormulation formulat
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                   const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
                                   OstSimd *blocks);
+
+/* The coupling of a mixed form's pressures, consistent alone: for each vertex, with N its share of the pressure, the
+ * derivative by the displacements (3 numbers a node) of the integral of N (m'(U - I - e0) - looseness p), and that
+ * integral itself. */
+void ost_large_rotation_coupling(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                 const OstSimd *u, OstSimd *columns, OstSimd volume[4]);
 
 /* F - I at a point. */
 static inline void ost_displacement_gradient(int nodes, const OstPoint *point, const OstSimd *u, OstSimd slope[9])
@@ -66,6 +72,10 @@ void ost_large_rotation_mean_rotation(const OstElement *element, const OstSimd *
 /* U - I at points of the tets. `at`: count × 4 barycentric coordinates; 6 strains a point. */
 void ost_large_rotation_strains(const OstElement *element, const OstSimd *x, const OstSimd *u, int count,
                                 const OstQuadraturePoint *at, OstSimd *strain);
+
+/* The tets' volumes before and after: integrals of 1 and of det F, counted positive before. */
+void ost_large_rotation_volumes(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
+                                const OstSimd *u, OstSimd volumes[2]);
 
 /* The least principal stretch over the tets' points; negative where a tet is inverted. */
 void ost_large_rotation_least_stretch(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,

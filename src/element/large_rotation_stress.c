@@ -28,27 +28,33 @@ static void prepare(Tets *tets, const OstElasticity *elasticity)
 }
 
 /* C : (strain - e0), with the stiff mode's part. */
-static void stress_of(const Tets *tets, const OstElasticity *elasticity, int place, const OstSimd strain[6],
-                      OstSimd stress[6])
+static void stress_of(const Tets *tets, const OstElasticity *elasticity, int place, const double at[4],
+                      const OstSimd strain[6], OstSimd stress[6])
 {
     OstSimd elastic[6];
     ost_elastic_strain(elasticity, place, strain, elastic);
     ost_simd_stress(elasticity->c[place], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
         stress[p] += tets->means.stiff * elasticity->m[place][p];
+    if (elasticity->mixed) {
+        OstSimd pressure;
+        ost_pressure_at(elasticity, at, &pressure);
+        for (int p = 0; p < 6; p++)
+            stress[p] += pressure * elasticity->m[place][p];
+    }
 }
 
-static void consistent_piola(const Tets *tets, const OstElasticity *elasticity, int place, const OstPolar *polar,
-                             OstSimd piola[9])
+static void consistent_piola(const Tets *tets, const OstElasticity *elasticity, int place, const double at[4],
+                             const OstPolar *polar, OstSimd piola[9])
 {
     OstSimd strain[6], stress[6];
     ost_biot_strain(polar, strain);
-    stress_of(tets, elasticity, place, strain, stress);
+    stress_of(tets, elasticity, place, at, strain, stress);
     ost_biot_piola(polar, stress, piola);
 }
 
-static void classical_piola(const Tets *tets, const OstElasticity *elasticity, int place, const OstPoint *point,
-                            OstSimd piola[9])
+static void classical_piola(const Tets *tets, const OstElasticity *elasticity, int place, const double at[4],
+                            const OstPoint *point, OstSimd piola[9])
 {
     OstSimd slope[9], strain[6], stress[6];
     ost_displacement_gradient(tets->element->nodes, point, tets->d, slope);
@@ -57,7 +63,7 @@ static void classical_piola(const Tets *tets, const OstElasticity *elasticity, i
         const int j = (i + 1) % 3;
         strain[p] = p < 3 ? slope[4 * i] : slope[3 * i + j] + slope[3 * j + i];
     }
-    stress_of(tets, elasticity, place, strain, stress);
+    stress_of(tets, elasticity, place, at, strain, stress);
     const OstSimd *const row[3][3] = {{&stress[0], &stress[3], &stress[5]},
                                       {&stress[3], &stress[1], &stress[4]},
                                       {&stress[5], &stress[4], &stress[2]}};
@@ -67,17 +73,17 @@ static void classical_piola(const Tets *tets, const OstElasticity *elasticity, i
 }
 
 /* One point: the symmetric part of Kirchhoff's stress P F' (all of it, but for the classical form), and det F. */
-static void kirchhoff(const Tets *tets, const OstElasticity *elasticity, int place, const OstPoint *point,
-                      OstSimd tau[6], OstSimd *jacobian)
+static void kirchhoff(const Tets *tets, const OstElasticity *elasticity, int place, const double at[4],
+                      const OstPoint *point, OstSimd tau[6], OstSimd *jacobian)
 {
     OstSimd slope[9], piola[9];
     OstPolar polar;
     ost_displacement_gradient(tets->element->nodes, point, tets->u, slope);
     ost_polar(slope, &polar);
     if (tets->formulation == OST_FORMULATION_CLASSICAL)
-        classical_piola(tets, elasticity, place, point, piola);
+        classical_piola(tets, elasticity, place, at, point, piola);
     else
-        consistent_piola(tets, elasticity, place, &polar, piola);
+        consistent_piola(tets, elasticity, place, at, &polar, piola);
     for (int p = 0; p < 6; p++) {
         const int i = p % 3;
         const int j = p < 3 ? p : (p + 1) % 3;
@@ -109,7 +115,7 @@ void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation fo
         OstPoint point;
         OstSimd tau[6], jacobian;
         element->evaluate(x, &rule->point[q], &point);
-        kirchhoff(&tets, elasticity, ost_elasticity_at(elasticity, q), &point, tau, &jacobian);
+        kirchhoff(&tets, elasticity, ost_elasticity_at(elasticity, q), rule->point[q].at, &point, tau, &jacobian);
         now += point.volume / tets.means.volume * jacobian;
         for (int p = 0; p < 6; p++)
             stress[p] += point.volume / tets.means.volume * tau[p];
@@ -130,7 +136,7 @@ void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation f
         for (int end = 0; end < 2; end++)
             node.at[ost_tet10_ends[a][end]] += 0.5;
         element->evaluate(x, &node, &point);
-        kirchhoff(&tets, at_nodes, ost_elasticity_at(at_nodes, a), &point, stress, &jacobian);
+        kirchhoff(&tets, at_nodes, ost_elasticity_at(at_nodes, a), node.at, &point, stress, &jacobian);
         divide_by_volume(&jacobian, stress);
     }
 }

@@ -438,6 +438,15 @@ static OstStatus look_at_body(const OstProblem *problem, const OstResult *result
     return OST_SUCCESS;
 }
 
+static OstStatus find_volume_ratio(const OstProblem *problem, OstResult *result)
+{
+    double volumes[2];
+    ost_deformed_volume(problem->mesh, problem->field, result->displacement, volumes);
+    OST_TRY(ost_sum(problem->ctx, 2, volumes));
+    result->checks.volume_ratio = volumes[1] / volumes[0];
+    return OST_SUCCESS;
+}
+
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstResult *result)
 {
@@ -473,8 +482,10 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
     OST_TRY_DONE(find_link_forces(result, internal, &links));
     OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
-    if (body.turns)
+    if (body.turns) {
         OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
+        OST_TRY_DONE(find_volume_ratio(problem, result));
+    }
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)

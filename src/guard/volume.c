@@ -61,7 +61,8 @@ static OstStatus find_force(const OstProblem *problem, Work *work, double *squar
     OstProblem state;
     for (OstLocal k = 0; k < space->owned; k++)
         work->worth[k] = work->left[k] / (work->mass[k] * ost_field_giving_way(problem->field, space->region[k]));
-    OST_TRY(ost_pressure_of_tets(space, work->worth, work->of_tets));
+    OST_TRY(ost_pressure_complete(space, work->worth));
+    ost_pressure_of_tets(space, work->worth, work->of_tets);
     ost_problem_at_pressure(problem, work->of_tets, &field, &state);
     OST_TRY(ost_agree(problem->ctx, ost_internal_force(space->mesh, &field, 0.0, work->zero, work->force, NULL)));
     for (OstLocal node = 0; node < space->mesh->owned_nodes; node++) {
@@ -82,7 +83,7 @@ OstStatus ost_guard_volume_error(const OstProblem *problem, const OstResult *res
     if (!problem->pressures || !problem->field->pressure)
         return OST_SUCCESS;
     OST_TRY_DONE(make_room(problem, &work));
-    OST_TRY_DONE(ost_agree(problem->ctx, ost_pressure_volume(problem->pressures, problem->field, result->t,
+    OST_TRY_DONE(ost_agree(problem->ctx, ost_pressure_volume(problem->pressures, problem->field, result->formulation, result->t,
                                                              result->displacement, work.left, work.mass)));
     sums[1] = find_work(problem, &work);
     OST_TRY_DONE(find_force(problem, &work, &sums[0]));

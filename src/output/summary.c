@@ -150,6 +150,16 @@ static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
     return 1;
 }
 
+static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    if (!result->newton.stability_unknown)
+        return 0;
+    snprintf(text, OST_LONGEST_WARNING,
+             "it is not known whether the state at rest is stable: without its pressures the stiffness is indefinite "
+             "there, as it is near a buckling load and beyond one; element: {mixed: off} with nu below 1/2 tells");
+    return 1;
+}
+
 /* A larger error of the answer is warned of. */
 static const double coarse = 0.05;
 
@@ -173,7 +183,7 @@ static int warn_of_coarse_mesh(const OstResult *result, char text[OST_LONGEST_WA
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
     int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted, warn_of_jump,
-                                                                  warn_of_coarse_mesh};
+                                                                  warn_of_stability, warn_of_coarse_mesh};
     text[0] = '\0';
     return warn[number](result, text);
 }
@@ -199,6 +209,8 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
         "solver; %.3f s\n",
         newton->load_steps, plural(newton->load_steps), newton->iterations, plural(newton->iterations),
         newton->definite, newton->setups, plural(newton->setups), newton->seconds);
+    printf("                   the body's volume is %.6g times that of the undeformed one\n",
+           result->checks.volume_ratio);
     if (newton->cut_backs > 0)
         printf("                   %d load step%s given up and cut back\n", newton->cut_backs,
                plural(newton->cut_backs));

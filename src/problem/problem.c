@@ -393,6 +393,9 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
     problem->filled = 1;
     if (problem->pressures && !problem->coupling)
         OST_TRY(ost_pressure_coupling(problem->pressures, problem->system, problem->field, &problem->coupling));
+    else if (problem->pressures && fills)
+        ost_pressure_coupling_at(problem->pressures, problem->system, problem->field,
+                                 problem->formulation == OST_FORMULATION_LINEAR ? NULL : u, problem->coupling);
     const OstBlockMatrix *matrix = problem->system->matrix;
     if (stiffness)
         *stiffness = (OstStiffness){.rows = matrix->rows,

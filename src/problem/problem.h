@@ -31,7 +31,7 @@ struct OstProblem {
     int conservative;             /* is the load the gradient of a work function? */
     OstPressureSpace *pressures;  /* of the mixed form; NULL without one */
     OstCoupling *coupling;        /* theirs with the system's unknowns, as long as there is one */
-    OstMaterialField dilated;     /* the field where the mean dilatation has taken the mixed form's place */
+    OstMaterialField own;         /* the field, where the problem has changed it (problem/mixed.c) */
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
     int linear;                   /* is the internal force linear in the displacement? */
@@ -104,6 +104,10 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
  * tet_count; NULL: 0). `field` is filled, and lives as long as `state` is used. */
 void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
                              OstProblem *state);
+
+/* Local. From now on the problem's own forces, energies and stiffness are those with these pressures of its tets (NULL:
+ * 0), which the caller keeps. */
+void ost_problem_take_pressure(OstProblem *problem, const double *of_tets);
 
 /* Collective. Goes on with the mean dilatation in place of the mixed form; the stiffness must be filled again. Raises
  * OST_INVALID_INPUT where a material is incompressible. */

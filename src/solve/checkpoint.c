@@ -25,7 +25,7 @@ typedef struct Header {
     int32_t nonlinear; /* then a node has the state's displacement and slope */
 } Header;
 
-enum { VERSION = 2, BLOCK = 65536, NODES = 4096 /* in a message */ };
+enum { VERSION = 3, BLOCK = 65536, NODES = 4096 /* in a message */ };
 static const char magic[16] = "orthostat path";
 
 /* One number after the other, as a struct has gaps. */
@@ -66,8 +66,10 @@ static OstStatus describe(const OstPath *path, Header *header)
 /* What the next step is made from: the parts of linear answers, or the state of Newton's method. */
 typedef struct Arrays {
     int count;
-    double *one[2]; /* 3 × node_count each */
-    double **array; /* `one`, or a superposition's parts */
+    double *one[2];                    /* ost_newton_state_size each */
+    double **array;                    /* `one`, or a superposition's parts */
+    const OstPressureSpace *pressures; /* of a mixed form, or NULL */
+    size_t nodes, numbers;             /* of displacements; of a node in each array, pressures included */
 } Arrays;
 
 static void list_arrays(const OstPath *path, Arrays *arrays)
@@ -78,12 +80,35 @@ static void list_arrays(const OstPath *path, Arrays *arrays)
         arrays->count = 2;
         arrays->array = arrays->one;
     }
+    arrays->pressures = path->problem->pressures;
+    arrays->nodes = 3 * (size_t)path->problem->mesh->node_count;
+    arrays->numbers = 3 + (arrays->pressures ? (size_t)arrays->pressures->most : 0);
 }
 
-/* A node with its three numbers of each array. */
+/* A node's numbers of an array: as many pressures as it has, and zeros for what others have more. */
+static void pack_node(const Arrays *arrays, const double *array, size_t node, double *numbers)
+{
+    memset(numbers, 0, arrays->numbers * sizeof *numbers);
+    memcpy(numbers, array + 3 * node, 3 * sizeof *numbers);
+    if (arrays->pressures) {
+        const OstLocal *first = arrays->pressures->first + node;
+        memcpy(numbers + 3, array + arrays->nodes + first[0], (size_t)(first[1] - first[0]) * sizeof *numbers);
+    }
+}
+
+static void unpack_node(const Arrays *arrays, const double *numbers, size_t node, double *array)
+{
+    memcpy(array + 3 * node, numbers, 3 * sizeof *numbers);
+    if (arrays->pressures) {
+        const OstLocal *first = arrays->pressures->first + node;
+        memcpy(array + arrays->nodes + first[0], numbers + 3, (size_t)(first[1] - first[0]) * sizeof *numbers);
+    }
+}
+
+/* A node with its numbers of each array. */
 static size_t record_size(const Arrays *arrays)
 {
-    return sizeof(OstGlobal) + 3 * (size_t)arrays->count * sizeof(double);
+    return sizeof(OstGlobal) + arrays->numbers * (size_t)arrays->count * sizeof(double);
 }
 
 /* --- writing: rank 0 writes, and takes the others' arrays in turn --- */
@@ -112,8 +137,8 @@ static int pack(const OstMesh *mesh, const Arrays *arrays, OstLocal first, char 
         char *record = records + (size_t)i * size;
         memcpy(record, &mesh->node_label[node], sizeof(OstGlobal));
         record += sizeof(OstGlobal);
-        for (int k = 0; k < arrays->count; k++, record += 3 * sizeof(double))
-            memcpy(record, arrays->array[k] + 3 * node, 3 * sizeof(double));
+        for (int k = 0; k < arrays->count; k++, record += arrays->numbers * sizeof(double))
+            pack_node(arrays, arrays->array[k], node, (double *)record);
     }
     return count;
 }
@@ -325,8 +350,8 @@ static void unpack(const OstIndex *nodes, const Arrays *arrays, int count, const
         memcpy(&label, record, sizeof label);
         record += sizeof label;
         const OstLocal node = ost_index_find(nodes, &label);
-        for (int k = 0; node >= 0 && k < arrays->count; k++, record += 3 * sizeof(double))
-            memcpy(arrays->array[k] + 3 * (size_t)node, record, 3 * sizeof(double));
+        for (int k = 0; node >= 0 && k < arrays->count; k++, record += arrays->numbers * sizeof(double))
+            unpack_node(arrays, (const double *)record, (size_t)node, arrays->array[k]);
         *taken += node >= 0;
     }
 }

@@ -11,6 +11,7 @@
 #include "solve/error.h"
 
 #include <math.h>
+#include <string.h>
 
 /* An error so many times what is good enough is not waited for, but solved for to the end. */
 static const double most_beyond = 100.0;
@@ -144,8 +145,10 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
-    if (linear->volume)
-        OST_TRY(ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure));
+    if (linear->volume) {
+        OST_TRY(ost_pressure_complete(problem->pressures, linear->pressure));
+        ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure);
+    }
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (result->reached && problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
@@ -232,6 +235,12 @@ OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *befor
         square += linear->rhs[i] * linear->rhs[i];
     OST_TRY(ost_sum(analysis->ctx, 1, &square));
     *norm = sqrt(square);
+    if (linear->volume) {
+        const OstSaddle saddle = {problem->coupling, linear->volume, linear->pressure};
+        OST_TRY(ost_problem_function_volume(problem, function, linear->volume));
+        OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));
+        OST_TRY(ost_saddle_size(problem->system->matrix, &saddle, linear->rhs, norm));
+    }
     return ost_guard_load(problem, function, linear->rhs, before);
 }
 
@@ -245,6 +254,11 @@ OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *
     if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
         return solved;
     OST_TRY(ost_problem_function_displacement(problem, function, linear->v, displacement));
+    if (linear->volume) {
+        OST_TRY(ost_pressure_complete(problem->pressures, linear->pressure));
+        memcpy(displacement + 3 * (size_t)problem->mesh->node_count, linear->pressure,
+               (size_t)problem->pressures->count * sizeof *displacement);
+    }
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, displacement));
     return solved;

@@ -20,8 +20,8 @@ typedef struct OstLinear {
 /* Collective. Takes the function's load for the next solve, checks it, and tells the norm of its right-hand side. */
 OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm);
 
-/* Collective. Solves for the load taken: the displacement (3 × node_count) at factor 1. OST_NOT_CONVERGED: that where
- * the solver stopped. */
+/* Collective. Solves for the load taken: the displacement (3 × node_count) at factor 1, and behind it the pressures of
+ * a mixed form. OST_NOT_CONVERGED: that where the solver stopped. */
 OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement);
 
 /* Collective. The work of the right-hand side at t on the unknowns of a displacement. */

@@ -13,10 +13,13 @@ typedef struct OstNewton OstNewton;
  * the same way, bit for bit on the same ranks. */
 typedef struct OstNewtonState {
     double t;             /* load factor (pseudo-time) */
-    double *displacement; /* 3 × node_count, ghosts filled */
-    double *slope;        /* 3 × node_count: its change per t over the last load step; zero if there was none */
+    double *displacement; /* 3 × node_count, ghosts filled; a mixed form's pressures follow, ghosts filled too */
+    double *slope;        /* as many: its change per t over the last load step; zero if there was none */
     double step;          /* load step to try next; 0: not known */
 } OstNewtonState;
+
+/* Local. How many numbers the displacement of a state has, those of pressures included. */
+size_t ost_newton_state_size(const OstProblem *problem);
 
 /* Local. The state at t = 0 without load; its arrays. */
 OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state);

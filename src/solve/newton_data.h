@@ -25,22 +25,24 @@ struct OstNewton {
     OstNewtonReport report;
     OstSolveReport solve; /* of the last linear solve */
 
-    /* The displacement that is looked for, and where it is: */
+    /* The displacement that is looked for, and where it is. A mixed form's pressures are part of it, at its end. */
     double t;
-    double *displacement, *candidate; /* 3 × node_count */
-    double *direction;                /* 3 × node_count: the correction of the displacement */
-    double *from;                     /* 3 × node_count: the displacement before its last change */
+    size_t count;                     /* 3 × node_count, and the pressures */
+    double *displacement, *candidate; /* count */
+    double *direction;                /* count: the correction of the displacement */
+    double *from;                     /* count: the displacement before its last change */
     double recent[OST_RECENT];        /* the energies at the last displacements, the oldest overwritten first */
     int moved;                        /* is there such a change, since the last state at rest? */
-    double *residual, *correction;    /* 3 × rows */
-    double *internal, *load;          /* 3 × owned_nodes */
-    double energy;                    /* total: of the strain, less that of the load */
-    double energy_size;               /* the sum of their sizes, for rounding */
-    double strain_energy;             /* 0 where there is no energy to minimise */
-    double norm;                      /* of the residual */
-    double driving;                   /* the largest residual with which a load step began, before its prediction */
-    double rounding;                  /* about what rounding of the displacement leaves of the residual */
-    double size;                      /* of load and reactions, or `driving`: what the residual is relative to */
+    double *residual, *correction;    /* 3 × rows, and the pressures */
+    double *of_tets;         /* 4 × tet_count: a mixed form's pressures now, which the problem has; else NULL */
+    double *internal, *load; /* 3 × owned_nodes */
+    double energy;           /* total: of the strain, less that of the load */
+    double energy_size;      /* the sum of their sizes, for rounding */
+    double strain_energy;    /* 0 where there is no energy to minimise */
+    double norm;             /* of the residual */
+    double driving;          /* the largest residual with which a load step began, before its prediction */
+    double rounding;         /* about what rounding of the displacement leaves of the residual */
+    double size;             /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */
     double change;    /* its 2-norm over that of the displacement */
@@ -57,10 +59,16 @@ struct OstNewton {
     int step_iterations; /* Newton iterations in this load step */
 };
 
-/* Is there an energy to minimise? */
+/* Is there an energy whose derivative the residual is? */
 static inline int ost_newton_has_energy(const OstNewton *newton)
 {
     return newton->problem->formulation == OST_FORMULATION_CONSISTENT && newton->problem->conservative;
+}
+
+/* Are pressures looked for too? The state at rest is then a saddle point and no minimum. */
+static inline int ost_newton_is_mixed(const OstNewton *newton)
+{
+    return newton->problem->pressures != NULL;
 }
 
 /* Has the stiffness an unsymmetric part? */
@@ -91,6 +99,24 @@ OstStatus ost_newton_search(OstNewton *newton, double *length);
 /* Collective. Looks whether the state at rest is stable: is the exact stiffness definite? If not, the body is pushed
  * along its softest motion, and a stable state is looked for from there. */
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest);
+
+/* Of a mixed form (newton_mixed.c). */
+
+/* Local. Gives the problem the pressures of a displacement. */
+void ost_newton_take_pressure(OstNewton *newton, const double *displacement);
+
+/* Local. The second equation's residual at a displacement, in newton->residual behind that of the first. */
+OstStatus ost_newton_find_volume(OstNewton *newton, const double *displacement);
+
+/* Collective. Adds to that residual its derivative along a displacement of the nodes, by the difference between it and
+ * the one at `displaced`, which is away by `share` of the change. */
+OstStatus ost_newton_move_volume(OstNewton *newton, const double *displaced, double share);
+
+/* Collective. The norm of both residuals, in forces. */
+OstStatus ost_newton_mixed_norm(const OstNewton *newton, double *norm);
+
+/* Collective. Solves both equations for newton->correction. */
+OstStatus ost_newton_solve_mixed(OstNewton *newton, const double *rhs);
 
 /* Collective. Raises OST_NOT_CONVERGED: no state at rest was found at load factor t, from `state`; says why and where.
  */

@@ -81,7 +81,7 @@ static double shorten(const Point *start, const Point *point)
 
 static OstStatus go_to(OstNewton *newton, double length, Point *point)
 {
-    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++)
+    for (size_t i = 0; i < newton->count; i++)
         newton->candidate[i] = newton->displacement[i] + length * newton->direction[i];
     OST_TRY(ost_newton_evaluate(newton, newton->candidate));
     return measure(newton, length, point);
@@ -104,7 +104,7 @@ static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
 /* To the candidate. */
 static void move(OstNewton *newton)
 {
-    const size_t bytes = 3 * (size_t)newton->problem->mesh->node_count * sizeof(double);
+    const size_t bytes = newton->count * sizeof(double);
     memcpy(newton->from, newton->displacement, bytes);
     memcpy(newton->displacement, newton->candidate, bytes);
     newton->moved = 1;
@@ -130,7 +130,7 @@ OstStatus ost_newton_search(OstNewton *newton, double *length)
     double next = 1.0;
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
-    if (ost_newton_is_unsymmetric(newton))
+    if (ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton))
         return take_whole(newton, length);
     for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
         OST_TRY(go_to(newton, next, &point));

@@ -31,6 +31,8 @@ static OstStatus fill(OstNewton *newton, int definite)
 {
     OstProblem *problem = newton->problem;
     const OstFormulation formulation = problem->formulation;
+    if (ost_newton_is_mixed(newton))
+        ost_newton_take_pressure(newton, newton->displacement);
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
     const OstStatus status = ost_problem_stiffness_from(
         problem, newton->t, newton->displacement,
@@ -98,6 +100,12 @@ OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, d
         ost_supports_get(problem->supports, node, projector, NULL);
         ost_apply3(projector, correction + 3 * (size_t)row, of_node);
     }
+    if (ost_newton_is_mixed(newton)) {
+        double *pressures = direction + 3 * (size_t)mesh->node_count;
+        memcpy(pressures, correction + 3 * (size_t)problem->system->matrix->rows,
+               (size_t)problem->pressures->owned * sizeof(double));
+        OST_TRY(ost_pressure_complete(problem->pressures, pressures));
+    }
     return ost_agree(newton->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), direction));
 }
 
@@ -164,7 +172,9 @@ static OstStatus attempt(OstNewton *newton, int definite, double forcing, const 
         }
     } else {
         OST_TRY(update(newton, definite));
-        status = ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+        status = ost_newton_is_mixed(newton)
+                     ? ost_newton_solve_mixed(newton, rhs)
+                     : ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
     }
     newton->report.linear_iterations += newton->solve.iterations;
     *again = can_go_on(status) && old && !newton->solve.indefinite;

@@ -37,6 +37,9 @@ static OstStatus smooth_forces(const OstNewton *newton, double *forces, double *
         ost_supports_get(system->supports, (OstLocal)node, projector, NULL);
         ost_apply3(projector, force, forces + 3 * row);
     }
+    if (ost_newton_is_mixed(newton))
+        memset(forces + 3 * (size_t)system->matrix->rows, 0,
+               (size_t)newton->problem->pressures->owned * sizeof *forces);
     return OST_SUCCESS;
 }
 
@@ -78,6 +81,10 @@ OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *res
         OST_TRY(ost_newton_solve(newton, 0, 1e-3, newton->residual, &stable));
         if (stable)
             return OST_SUCCESS;
+        if (ost_newton_is_mixed(newton)) { /* the pressures may hold what the rest of the stiffness does not */
+            newton->report.stability_unknown = 1;
+            return OST_SUCCESS;
+        }
         ost_log(newton->ctx, OST_LOG_VERBOSE,
                 "newton: t %.6g: at rest, but not stable; pushed along its softest motion", newton->t);
         *rest = OST_REST_UNSTABLE;

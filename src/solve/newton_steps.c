@@ -30,9 +30,14 @@ static const double least_step = 1.0 / 4096.0;
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
 static const double jump_step = 1.0 / 16.0;
 
+size_t ost_newton_state_size(const OstProblem *problem)
+{
+    return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0);
+}
+
 OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state)
 {
-    const size_t count = 3 * (size_t)problem->mesh->node_count;
+    const size_t count = ost_newton_state_size(problem);
     *state = (OstNewtonState){0};
     OstStatus status = OST_NEW(problem->ctx, &state->displacement, count);
     OST_THEN(OST_NEW(problem->ctx, &state->slope, count));
@@ -74,29 +79,35 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
 {
     OstProblem *problem = stiffness->problem;
     OstContext *ctx = problem->ctx;
-    const size_t nodes = 3 * (size_t)problem->mesh->node_count, owned = 3 * (size_t)problem->mesh->owned_nodes;
-    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    const size_t count = ost_newton_state_size(problem), owned = 3 * (size_t)problem->mesh->owned_nodes;
+    const size_t rows =
+        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? (size_t)problem->pressures->count : 0);
     OstNewton *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {
-        *made = (OstNewton){.ctx = ctx, .problem = problem, .options = stiffness->options, .stiffness = stiffness};
+        *made = (OstNewton){
+            .ctx = ctx, .problem = problem, .options = stiffness->options, .stiffness = stiffness, .count = count};
         made->solve = *solve;
         made->method = solve->method;
         made->report.used = 1;
         made->report.setups = 1;
-        OST_THEN(OST_NEW(ctx, &made->displacement, nodes));
-        OST_THEN(OST_NEW(ctx, &made->candidate, nodes));
-        OST_THEN(OST_NEW(ctx, &made->direction, nodes));
-        OST_THEN(OST_NEW(ctx, &made->from, nodes));
+        OST_THEN(OST_NEW(ctx, &made->displacement, count));
+        OST_THEN(OST_NEW(ctx, &made->candidate, count));
+        OST_THEN(OST_NEW(ctx, &made->direction, count));
+        OST_THEN(OST_NEW(ctx, &made->from, count));
         OST_THEN(OST_NEW(ctx, &made->internal, owned));
         OST_THEN(OST_NEW(ctx, &made->load, owned));
         OST_THEN(OST_NEW(ctx, &made->residual, rows));
         OST_THEN(OST_NEW(ctx, &made->correction, rows));
+        if (problem->pressures)
+            OST_THEN(OST_NEW(ctx, &made->of_tets, 4 * (size_t)problem->mesh->tet_count));
     }
     status = ost_agree(ctx, status);
     OST_THEN(measure_stiffness(stiffness));
     if (status != OST_SUCCESS)
         ost_newton_destroy(&made);
+    else if (problem->pressures)
+        ost_problem_take_pressure(problem, made->of_tets);
     *newton = made;
     return status;
 }
@@ -105,6 +116,9 @@ void ost_newton_destroy(OstNewton **newton)
 {
     if (!*newton)
         return;
+    if ((*newton)->of_tets)
+        ost_problem_take_pressure((*newton)->problem, NULL);
+    OST_FREE((*newton)->of_tets);
     OST_FREE((*newton)->displacement);
     OST_FREE((*newton)->candidate);
     OST_FREE((*newton)->direction);
@@ -160,7 +174,7 @@ static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
         return OST_SUCCESS;
     OST_TRY(ost_mesh_bounds(mesh, low, high));
     const double share = 1e-7 * fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / largest;
-    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+    for (size_t i = 0; i < newton->count; i++)
         newton->direction[i] = state->displacement[i] + share * newton->candidate[i];
     memcpy(newton->load, newton->internal, 3 * (size_t)mesh->owned_nodes * sizeof(double));
     OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, newton->direction, newton->internal)));
@@ -174,7 +188,7 @@ static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
         for (size_t i = 0; i < 3; i++)
             newton->residual[3 * (size_t)row + i] -= kept[i];
     }
-    return OST_SUCCESS;
+    return ost_newton_is_mixed(newton) ? ost_newton_move_volume(newton, newton->direction, share) : OST_SUCCESS;
 }
 
 /* Where the tangent at the state would take the body at load factor t: the state's slope. The first load step turns it
@@ -182,7 +196,7 @@ static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
 static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
 {
     const OstMesh *mesh = newton->problem->mesh;
-    const size_t count = 3 * (size_t)mesh->node_count;
+    const size_t count = newton->count;
     OstLinearity largest;
     int found = 0;
     OST_TRY(load_to(newton, state, t));
@@ -226,7 +240,7 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
     newton->indefinite = newton->step_iterations = 0;
     OST_TRY(load_to(newton, state, t));
     newton->moved = 1;
-    for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->node_count; i++) {
+    for (size_t i = 0; i < newton->count; i++) {
         newton->from[i] = state->displacement[i];
         newton->displacement[i] = state->displacement[i] + step * state->slope[i];
     }
@@ -237,7 +251,7 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
 static void accept(OstNewton *newton, double t, OstNewtonState *state)
 {
     const double step = t - state->t;
-    const size_t count = 3 * (size_t)newton->problem->mesh->node_count;
+    const size_t count = newton->count;
     for (size_t i = 0; i < count; i++)
         state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
     memcpy(state->displacement, newton->displacement, count * sizeof(double));
@@ -266,7 +280,10 @@ static OstStatus renew_hierarchy(OstNewton *newton, const OstNewtonState *state)
     newton->rebuild = newton->stiffness->moved || largest > 0.0;
     if (newton->rebuild)
         newton->method = OST_METHOD_AUTO;
-    return OST_SUCCESS;
+    if (!newton->rebuild || !ost_newton_is_mixed(newton))
+        return OST_SUCCESS;
+    ost_newton_take_pressure(newton, state->displacement); /* by whose stiffness and coupling residuals are measured */
+    return ost_problem_stiffness_from(newton->problem, state->t, state->displacement, NULL, 0);
 }
 
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
@@ -285,7 +302,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         int jumps = 0;
         OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
         const int found = is_at_rest(newton, rest);
-        if (found)
+        if (found && !ost_newton_is_mixed(newton)) /* whose stiffness is indefinite before the body is unstable */
             OST_TRY(find_jump(newton, state, step, &jumps));
         if (found && t == to)
             OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));
@@ -328,6 +345,8 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
 {
     OST_TRY(load_to(newton, state, state->t));
     memcpy(result->displacement, state->displacement, 3 * (size_t)result->mesh->node_count * sizeof(double));
+    if (newton->of_tets)
+        memcpy(result->pressure, newton->of_tets, 4 * (size_t)result->mesh->tet_count * sizeof(double));
     newton->report.relative_residual = newton->norm / newton->size;
     const OstNewtonReport before = result->newton;
     result->newton = newton->report;

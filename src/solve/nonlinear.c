@@ -39,16 +39,28 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
     return OST_SUCCESS;
 }
 
-/* The state without load, and what the linear solution predicts. */
-static OstStatus start(const OstProblem *problem, const OstResult *linear, OstNewtonState *state)
+int ost_nonlinear_may_be_mixed(const OstProblem *problem)
 {
+    return problem->beyond_linear == OST_FORMULATION_LINEAR ||
+           (problem->beyond_linear == OST_FORMULATION_CONSISTENT && problem->conservative);
+}
+
+/* The state without load, and what the linear solution predicts. */
+static OstStatus start(const OstAnalysis *analysis, const OstResult *result, OstNewtonState *state)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstLinear *linear = analysis->work;
+    const size_t nodes = 3 * (size_t)problem->mesh->node_count;
     OST_TRY(ost_agree(problem->ctx, ost_newton_state_create(problem, state)));
-    memcpy(state->slope, linear->displacement, 3 * (size_t)problem->mesh->node_count * sizeof(double));
-    state->step = ost_newton_first_step(linear->newton.linear_rotation);
+    memcpy(state->slope, result->displacement, nodes * sizeof(double));
+    if (problem->pressures)
+        memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->count * sizeof(double));
+    state->step = ost_newton_first_step(result->newton.linear_rotation);
     return OST_SUCCESS;
 }
 
-/* Newton's method has no mixed form: it goes on with the mean dilatation, and a solver of that stiffness. */
+/* Without an energy Newton's method has no mixed form: it goes on with the mean dilatation, and a solver of that
+ * stiffness. */
 static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
 {
     OstProblem *problem = analysis->problem;
@@ -65,14 +77,14 @@ static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
 static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     OstProblem *problem = analysis->problem;
-    if (problem->pressures)
+    if (problem->pressures && !ost_nonlinear_may_be_mixed(problem))
         OST_TRY(leave_mixed(analysis, result));
     OstLinear *linear = analysis->work;
     OstNewton *newton = NULL;
     OstNewtonState state = {0};
     ost_problem_take_formulation(problem, problem->beyond_linear);
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
-    OstStatus status = start(problem, result, &state);
+    OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
     if (status == OST_SUCCESS && result->answer.known)
         ost_newton_stop_at(newton, analysis->options.algebraic_fraction * result->answer.relative);

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "solve/linear.h"
 #include "solve/path_data.h"
 
 #include <math.h>
 #include <string.h>
+
+/* A displacement of this share of the body's size is rounding, where no load makes it. */
+static const double least_share = 1e-12;
 
 static OstStatus check_times(OstContext *ctx, int count, const double *times)
 {
@@ -33,6 +37,8 @@ OstStatus ost_path_create(OstProblem *problem, const OstSolverOptions *options, 
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
         memcpy(made->times, times, (size_t)count * sizeof *times);
+    if (problem->pressures && !ost_nonlinear_may_be_mixed(problem))
+        OST_THEN(ost_problem_leave_mixed(problem));
     OST_THEN(ost_analysis_create(problem, options, &made->analysis));
     if (status != OST_SUCCESS)
         ost_path_destroy(&made);
@@ -112,6 +118,7 @@ static OstStatus step_linearly(OstPath *path, double t, OstResult *result, OstSo
 static OstStatus begin(OstPath *path, double t, OstResult *result)
 {
     const OstProblem *problem = path->problem;
+    const OstLinear *linear = path->analysis->work;
     OstSolvedFor solved_for;
     OST_TRY(ost_agree(path->ctx, ost_newton_state_create(problem, &path->state)));
     path->state.t = ost_problem_begins_at_rest(problem) ? 0.0 : -1.0;
@@ -122,9 +129,72 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
     OST_TRY(ost_nonlinear_judge(problem, result));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
         path->state.slope[i] = result->displacement[i] / span;
+    for (OstLocal i = 0; problem->pressures && i < problem->pressures->count; i++)
+        path->state.slope[3 * (size_t)problem->mesh->node_count + (size_t)i] = linear->pressure[i] / span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
     ost_superposition_release(&path->linear);
     return OST_SUCCESS;
+}
+
+/* Does a load grow from here on at another rate than it did? The last step's slope then leads astray. */
+static int loads_turn(const OstPath *path, double t)
+{
+    if (path->done == 0)
+        return 0;
+    const OstProblem *problem = path->problem;
+    const double now = path->times[path->done - 1], before = path->done > 1 ? path->times[path->done - 2] : 0.0;
+    int turn = 0;
+    for (int k = 0; k < ost_problem_functions(problem) && before < now; k++) {
+        const double factor = ost_problem_factor(problem, k, now);
+        const double was = (factor - ost_problem_factor(problem, k, before)) / (now - before);
+        const double is = (ost_problem_factor(problem, k, t) - factor) / (t - now);
+        turn |= fabs(is - was) > 0.5 * fmax(fabs(is), fabs(was));
+    }
+    return turn;
+}
+
+/* Does nothing act at t: no load, no eigenstrain, no displacement but zero? `zero` and `given` have room for 3 numbers
+ * a node. */
+static OstStatus find_idle(const OstPath *path, double t, const double *zero, double *given, int *idle)
+{
+    const OstProblem *problem = path->problem;
+    const OstMesh *mesh = problem->mesh;
+    const int swells = ost_field_is_eigenstrained(problem->field);
+    double most = swells ? fabs(ost_problem_eigen_share(problem, t)) : 0.0;
+    OST_TRY(ost_problem_displacement(problem, t, zero, given));
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+        most = fmax(most, fabs(given[i]));
+    ost_problem_load(problem, t, zero, given);
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        most = fmax(most, fabs(given[i]));
+    OST_TRY(ost_max(path->ctx, 1, &most));
+    *idle = most == 0.0;
+    return OST_SUCCESS;
+}
+
+/* Where nothing acts, and what is left of the displacement is rounding, the body is at rest: errors relative to such
+ * an answer would mean nothing. */
+static OstStatus come_to_rest(OstPath *path, double t, int *rests)
+{
+    const OstMesh *mesh = path->problem->mesh;
+    const size_t count = 3 * (size_t)mesh->node_count;
+    double low[3], high[3], most = 0.0, *zero = NULL, *given = NULL;
+    *rests = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, fabs(path->state.displacement[i]));
+    OST_TRY(ost_max(path->ctx, 1, &most));
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    if (most > least_share * fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]))
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(path->ctx, &zero, count);
+    OST_THEN(OST_NEW(path->ctx, &given, count));
+    status = ost_agree(path->ctx, status);
+    OST_THEN(find_idle(path, t, zero, given, rests));
+    if (status == OST_SUCCESS && *rests)
+        memset(path->state.displacement, 0, ost_newton_state_size(path->problem) * sizeof *path->state.displacement);
+    OST_FREE(zero);
+    OST_FREE(given);
+    return status;
 }
 
 /* Every step has its own method, so that it depends on the state alone. */
@@ -136,11 +206,17 @@ static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolve
         OST_TRY(ost_stiffness_solver_make(stiffness));
     ost_problem_take_formulation(path->problem, path->problem->beyond_linear);
     OST_TRY(ost_newton_create(stiffness, &path->linear.solve, &newton));
+    if (loads_turn(path, t))
+        path->state.step = 0.0; /* the tangent gives another */
     OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
+    int rests = 0;
+    OST_THEN(come_to_rest(path, t, &rests));
     if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
         result->newton = path->judged;
         const OstStatus filled = ost_newton_fill(newton, &path->state, result, solved_for);
         status = filled == OST_SUCCESS ? status : filled;
+        if (rests)
+            result->solve.error_estimate = result->solve.energy_error = 0.0;
     }
     ost_newton_destroy(&newton);
     return status;

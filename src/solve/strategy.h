@@ -37,6 +37,9 @@ extern const OstStrategy ost_nonlinear_strategy; /* nonlinear.c */
 /* Collective. How far is linear theory off in this linear result? Fills that part of result->newton. */
 OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
 
+/* Local. Has Newton's method a mixed form for the problem, should it be needed? Not without an energy. */
+int ost_nonlinear_may_be_mixed(const OstProblem *problem);
+
 /* Collective. A result with room for the displacement. */
 OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 

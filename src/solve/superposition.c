@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "solve/linear.h"
+#include "solve/newton.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,7 +28,7 @@ OstStatus ost_superposition_make_room(const OstProblem *problem, OstSuperpositio
     OstStatus status = OST_NEW(ctx, &all->part, functions);
     OST_THEN(OST_NEW(ctx, &all->norm, functions));
     for (int k = 0; k < functions && status == OST_SUCCESS; k++) {
-        status = OST_NEW(ctx, &all->part[k], 3 * (size_t)problem->mesh->node_count);
+        status = OST_NEW(ctx, &all->part[k], ost_newton_state_size(problem));
         all->count = k + 1;
     }
     ost_ledger_leave(ctx);
@@ -79,6 +80,20 @@ OstStatus ost_superposition_create(OstAnalysis *analysis, OstSuperposition *all)
     return status;
 }
 
+/* The pressures at t, in the work space of the linear analysis. */
+static void add_pressures(const OstSuperposition *all, const OstAnalysis *analysis, double t, OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    double *pressure = ((OstLinear *)analysis->work)->pressure;
+    memset(pressure, 0, (size_t)problem->pressures->count * sizeof *pressure);
+    for (int k = 0; k < all->count; k++) {
+        const double *part = all->part[k] + 3 * (size_t)problem->mesh->node_count;
+        for (OstLocal i = 0; i < problem->pressures->count; i++)
+            pressure[i] += ost_problem_factor(problem, k, t) * part[i];
+    }
+    ost_pressure_of_tets(problem->pressures, pressure, result->pressure);
+}
+
 OstStatus ost_superposition_at(const OstSuperposition *all, const OstAnalysis *analysis, double t, OstResult *result,
                                OstSolvedFor *solved_for)
 {
@@ -95,6 +110,8 @@ OstStatus ost_superposition_at(const OstSuperposition *all, const OstAnalysis *a
             u[i] += factor * all->part[k][i];
         solved_for->norm += fabs(factor) * all->norm[k];
     }
+    if (problem->pressures)
+        add_pressures(all, analysis, t, result);
     const OstStatus status = ost_linear_work(analysis, t, u, &work);
     ost_ledger_leave(problem->ctx);
     solved_for->work = work;

@@ -7,7 +7,7 @@
 /* The linear answers of a path: what each function of time (problem/problem.h) causes at factor 1, to be added up. */
 typedef struct OstSuperposition {
     int count;            /* functions; 0: not solved yet */
-    double **part;        /* the displacement of each, 3 × node_count */
+    double **part;        /* the displacement of each, and the pressures of a mixed form: ost_newton_state_size */
     double *norm;         /* of each right-hand side */
     OstSolveReport solve; /* of all: iterations are added up, of errors the largest counts */
 } OstSuperposition;

@@ -67,6 +67,24 @@ watch:
     check(all(entry["error"] is None for entry in report["watched"].values()), f"not asked for: {report['watched']}")
 
 
+def reactions_balance_the_loads():
+    """Statics alone gives these; a solve that stops early, as others may, left them a percent off."""
+    heavy = """mesh: {block: {size: [8, 1, 1], divisions: [16, 2, 2]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: [1e7, 4e5, 4e5], poissons_ratio: 0.3, density: 2}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{gravity: [0, 0, -10]}]
+solver: {method: metric}
+"""
+    weight = "{weight: {reaction: {boundary: xmin}, component: z}}"
+    _, report, _ = solve(heavy + f"watch: {weight}\n")
+    check(abs(report["watched"]["weight"]["value"] - 160) < 1e-5, f"weight: {report['watched']}")
+    _, report, _ = solve(heavy + f"cases: [{{name: a}}, {{name: b, watch: {weight}}}, {{name: c}}]\n")
+    stopped = [entry["solver"]["stopped"] for entry in report["cases"]]
+    check(stopped == [True, False, True], f"which load cases stop early: {stopped}")
+    check(abs(report["cases"][1]["watched"]["weight"]["value"] - 160) < 1e-5, f"weight: {report['cases'][1]['watched']}")
+
+
 def nothing_watched_is_nothing_in_json():
     _, report, _ = solve(CASE[:CASE.index("watch:")])
     check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
@@ -99,6 +117,7 @@ def main():
     for ranks in (1, 2):
         is_printed_and_in_json(ranks)
     errors_are_stated()
+    reactions_balance_the_loads()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
             ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])

@@ -63,7 +63,8 @@ static const struct {
                                      BLOCK STIFF(", " CYLINDER) HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_REGIONS) = {BLOCK TWO HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_MIXED) = {QUADRATIC RUBBER HELD PULLED NO_FIELDS, BLOCK RUBBER HELD PULLED NO_FIELDS},
-    ROW(OST_EFFECT_MEAN_DILATATION) = {QUADRATIC RUBBER HELD PULLED NO_FIELDS "large_rotation: on\n",
+    ROW(OST_EFFECT_MEAN_DILATATION) = {QUADRATIC RUBBER HELD PULLED NO_FIELDS
+                                       "large_rotation: on\nformulation: classical\n",
                                        BLOCK RUBBER HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_LARGE_ROTATION) = {BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: on\nsolver: {method: metric}\n",
                                       BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: off\n"},

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "element/large_rotation.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,8 +118,14 @@ typedef struct TetCoupling {
     OstSimd columns[VERTICES * 3 * NODES], eigen[VERTICES], mass[10];
 } TetCoupling;
 
+static int pair_of(int v, int w)
+{
+    return v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v);
+}
+
+/* Adds B's part of a tet, and M's. */
 static void add_tet(const OstPressureSpace *space, const OstSystem *system, const OstBatch *batch, int slot,
-                    const TetCoupling *of_tet, OstCoupling *coupling)
+                    const TetCoupling *of_tet, int with_mass, OstCoupling *coupling)
 {
     const OstLocal *pressures = space->of_tet + VERTICES * (size_t)batch->tet[slot];
     for (int v = 0; v < VERTICES && pressures[v] >= 0; v++) {
@@ -131,35 +138,39 @@ static void add_tet(const OstPressureSpace *space, const OstSystem *system, cons
             for (int i = 0; i < 3; i++)
                 value[i] += of_tet->columns[3 * NODES * v + 3 * a + i][slot];
         }
-        for (int w = 0; w < VERTICES && row < coupling->rows; w++) {
-            const int pair = v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v);
+        for (int w = 0; w < VERTICES && row < coupling->rows && with_mass; w++) {
             coupling->mass[find(coupling->mass_start, coupling->mass_column, row, pressures[w])] +=
-                of_tet->mass[pair][slot];
+                of_tet->mass[pair_of(v, w)][slot];
         }
     }
 }
 
 static void add_tets(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                     OstCoupling *coupling)
+                     const double *u, int with_mass, OstCoupling *coupling)
 {
     const OstMesh *mesh = space->mesh;
     const OstElement *element = ost_element_of(NODES);
     OstBatch batch;
     TetCoupling of_tets;
+    OstSimd displacement[3 * NODES], volume[VERTICES];
     ost_elasticity_clear(&batch.elasticity);
     for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         if (!batch.elasticity.mixed)
             continue;
-        element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
+        if (u) {
+            ost_batch_keep_alike(&batch, element, mesh, field);
+            ost_batch_gather_vectors(&batch, NODES, u, displacement);
+            ost_large_rotation_coupling(element, batch.x, &batch.elasticity, displacement, of_tets.columns, volume);
+        } else
+            element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
         for (int slot = 0; slot < batch.count; slot++)
-            add_tet(space, system, &batch, slot, &of_tets, coupling);
+            add_tet(space, system, &batch, slot, &of_tets, with_mass, coupling);
     }
 }
 
-/* B P, and what the mass is multiplied by. */
-static void finish(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                   OstCoupling *coupling)
+/* B P. */
+static void project(const OstSystem *system, OstCoupling *coupling)
 {
     for (OstLocal k = 0; k < coupling->row_start[coupling->columns]; k++) {
         double projector[9], whole[3];
@@ -169,6 +180,11 @@ static void finish(const OstPressureSpace *space, const OstSystem *system, const
         memcpy(whole, coupling->value + 3 * (size_t)k, sizeof whole);
         ost_apply3(projector, whole, coupling->value + 3 * (size_t)k);
     }
+}
+
+/* What the mass is multiplied by. */
+static void scale_mass(const OstPressureSpace *space, const OstMaterialField *field, OstCoupling *coupling)
+{
     for (OstLocal row = 0; row < coupling->rows; row++) {
         coupling->diagonal[row] = coupling->mass[find(coupling->mass_start, coupling->mass_column, row, row)];
         coupling->looseness[row] = field->mixed.looseness[space->region[row]];
@@ -198,8 +214,9 @@ static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system
     OST_TRY_DONE(OST_NEW(ctx, &coupling->diagonal, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->looseness, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->schur, space->owned));
-    add_tets(space, system, field, coupling);
-    finish(space, system, field, coupling);
+    add_tets(space, system, field, NULL, 1, coupling);
+    project(system, coupling);
+    scale_mass(space, field, coupling);
 done:
     OST_FREE(tets.start);
     OST_FREE(tets.tet);
@@ -221,30 +238,51 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
     return status;
 }
 
-/* What one vertex's share has of a batch: of the second equation, and of the mass. */
-static void find_share(const OstBatch *batch, const TetCoupling *of_tets, int v, const OstSimd *u, OstSimd *volume,
-                       OstSimd *mass)
+void ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                              const double *u, OstCoupling *coupling)
 {
-    const OstSimd *columns = of_tets->columns + 3 * NODES * v;
-    *volume = -of_tets->eigen[v];
-    *mass = (OstSimd){0};
-    for (int n = 3; n < 3 * NODES; n++)
-        *volume += columns[n] * (u[n] - u[n % 3]);
-    for (int w = 0; w < VERTICES; w++) {
-        const OstSimd *pair = &of_tets->mass[v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v)];
-        *mass += *pair;
-        *volume -= batch->elasticity.looseness * *pair * batch->elasticity.pressure[w];
+    ost_ledger_enter(space->ctx, OST_EFFECT_MIXED);
+    memset(coupling->value, 0, 3 * (size_t)coupling->row_start[coupling->columns] * sizeof *coupling->value);
+    add_tets(space, system, field, u, 0, coupling);
+    project(system, coupling);
+    ost_ledger_leave(space->ctx);
+}
+
+/* The second equation of a batch by linear theory, of each vertex's share. */
+static void find_linear(const OstBatch *batch, const TetCoupling *of_tets, const OstSimd *u, OstSimd volume[VERTICES])
+{
+    for (int v = 0; v < VERTICES; v++) {
+        const OstSimd *columns = of_tets->columns + 3 * NODES * v;
+        volume[v] = -of_tets->eigen[v];
+        for (int n = 3; n < 3 * NODES; n++)
+            volume[v] += columns[n] * (u[n] - u[n % 3]);
+        for (int w = 0; w < VERTICES; w++)
+            volume[v] -= batch->elasticity.looseness * of_tets->mass[pair_of(v, w)] * batch->elasticity.pressure[w];
     }
 }
 
-OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, double share,
-                              const double *u, double *volume, double *mass)
+static void add_volume(const OstPressureSpace *space, const OstBatch *batch, const TetCoupling *of_tets,
+                       const OstSimd of_batch[VERTICES], double *volume, double *mass)
+{
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int v = 0; v < VERTICES; v++) {
+            const OstLocal row = space->of_tet[VERTICES * (size_t)batch->tet[slot] + (size_t)v];
+            if (row < 0 || row >= space->owned)
+                continue;
+            volume[row] += of_batch[v][slot];
+            for (int w = 0; w < VERTICES && mass; w++)
+                mass[row] += of_tets->mass[pair_of(v, w)][slot];
+        }
+}
+
+OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, OstFormulation formulation,
+                              double share, const double *u, double *volume, double *mass)
 {
     const OstMesh *mesh = space->mesh;
     const OstElement *element = ost_element_of(NODES);
     OstBatch batch;
     TetCoupling of_tets;
-    OstSimd displacement[3 * NODES];
+    OstSimd displacement[3 * NODES], of_batch[VERTICES];
     memset(volume, 0, (size_t)space->owned * sizeof *volume);
     if (mass)
         memset(mass, 0, (size_t)space->owned * sizeof *mass);
@@ -254,20 +292,16 @@ OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialFi
         ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
         if (!batch.elasticity.mixed)
             continue;
+        if (formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, field);
         ost_batch_gather_vectors(&batch, NODES, u, displacement);
-        element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
-        for (int v = 0; v < VERTICES; v++) {
-            OstSimd of_volume, of_mass;
-            find_share(&batch, &of_tets, v, displacement, &of_volume, &of_mass);
-            for (int slot = 0; slot < batch.count; slot++) {
-                const OstLocal row = space->of_tet[VERTICES * (size_t)batch.tet[slot] + (size_t)v];
-                if (row < 0 || row >= space->owned)
-                    continue;
-                volume[row] += of_volume[slot];
-                if (mass)
-                    mass[row] += of_mass[slot];
-            }
-        }
+        if (formulation == OST_FORMULATION_LINEAR || mass)
+            element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
+        if (formulation == OST_FORMULATION_LINEAR)
+            find_linear(&batch, &of_tets, displacement, of_batch);
+        else
+            ost_large_rotation_coupling(element, batch.x, &batch.elasticity, displacement, of_tets.columns, of_batch);
+        add_volume(space, &batch, &of_tets, of_batch, volume, mass);
     }
     return OST_SUCCESS;
 }

@@ -4,6 +4,9 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/numbering.h"
+#include "core/parallel/reduce.h"
+
+#include <math.h>
 
 /* Regions that have a pressure of their own at one vertex; if more meet there, the last ones share one. */
 enum { MOST_REGIONS = 6 };
@@ -18,6 +21,7 @@ void ost_pressure_space_destroy(OstPressureSpace **space)
 {
     if (!*space)
         return;
+    OST_FREE((*space)->first);
     OST_FREE((*space)->of_tet);
     OST_FREE((*space)->region);
     ost_halo_destroy(&(*space)->halo);
@@ -56,26 +60,26 @@ static void find_regions(const OstMesh *mesh, const OstMaterialField *field, Ver
     }
 }
 
-/* Numbers the pressures in the order of their vertices: this rank's, then ghosts. `first` is the first of each node. */
-static OstStatus number_locally(OstPressureSpace *space, const Vertex *vertex, OstLocal *first)
+/* Numbers the pressures in the order of their vertices: this rank's, then ghosts. */
+static OstStatus number_locally(OstPressureSpace *space, const Vertex *vertex)
 {
     const OstMesh *mesh = space->mesh;
+    OST_TRY(OST_NEW(space->ctx, &space->first, mesh->node_count + 1));
     for (OstLocal node = 0; node < mesh->node_count; node++) {
-        first[node] = space->count;
         space->count += vertex[node].count;
+        space->first[node + 1] = space->count;
         if (node < mesh->owned_nodes)
             space->owned = space->count;
     }
     OST_TRY(OST_NEW(space->ctx, &space->region, space->count));
     for (OstLocal node = 0; node < mesh->node_count; node++)
         for (int k = 0; k < vertex[node].count; k++)
-            space->region[first[node] + k] = vertex[node].region[k];
+            space->region[space->first[node] + k] = vertex[node].region[k];
     OST_TRY(OST_NEW(space->ctx, &space->of_tet, 4 * (size_t)mesh->tet_count));
     return OST_SUCCESS;
 }
 
-static void number_tets(OstPressureSpace *space, const OstMaterialField *field, const Vertex *vertex,
-                        const OstLocal *first)
+static void number_tets(OstPressureSpace *space, const OstMaterialField *field, const Vertex *vertex)
 {
     const OstMesh *mesh = space->mesh;
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
@@ -84,7 +88,7 @@ static void number_tets(OstPressureSpace *space, const OstMaterialField *field, 
         const int has = ost_field_stiff_mode(field, region) != NULL;
         for (int v = 0; v < 4; v++)
             space->of_tet[4 * (size_t)tet + (size_t)v] =
-                has ? first[nodes[v]] + slot_of(&vertex[nodes[v]], region) : -1;
+                has ? space->first[nodes[v]] + slot_of(&vertex[nodes[v]], region) : -1;
     }
 }
 
@@ -119,21 +123,23 @@ static OstStatus create(OstPressureSpace *space, const OstMaterialField *field)
     OstContext *ctx = space->ctx;
     const OstMesh *mesh = space->mesh;
     Vertex *vertex = NULL;
-    OstLocal *first = NULL;
     OstGlobal *number = NULL;
+    double most = 0.0;
     OstStatus status = OST_NEW(ctx, &vertex, mesh->node_count);
-    OST_THEN(OST_NEW(ctx, &first, mesh->node_count));
     OST_TRY_DONE(ost_agree(ctx, status));
     find_regions(mesh, field, vertex);
     OST_TRY_DONE(number_globally(space, vertex));
-    status = number_locally(space, vertex, first);
+    for (OstLocal node = 0; node < mesh->node_count; node++)
+        most = fmax(most, vertex[node].count);
+    OST_TRY_DONE(ost_max(ctx, 1, &most));
+    space->most = (int)most;
+    status = number_locally(space, vertex);
     OST_THEN(OST_NEW(ctx, &number, space->count - space->owned));
     OST_TRY_DONE(ost_agree(ctx, status));
-    number_tets(space, field, vertex, first);
+    number_tets(space, field, vertex);
     OST_TRY_DONE(ost_agree(ctx, connect(space, vertex, number)));
 done:
     OST_FREE(vertex);
-    OST_FREE(first);
     OST_FREE(number);
     return status;
 }
@@ -156,10 +162,13 @@ OstStatus ost_pressure_space_create(const OstMesh *mesh, const OstMaterialField 
     return status;
 }
 
-OstStatus ost_pressure_of_tets(const OstPressureSpace *space, double *pressure, double *of_tets)
+OstStatus ost_pressure_complete(const OstPressureSpace *space, double *pressure)
 {
-    OST_TRY(ost_halo_import(space->halo, sizeof *pressure, pressure));
+    return ost_agree(space->ctx, ost_halo_import(space->halo, sizeof *pressure, pressure));
+}
+
+void ost_pressure_of_tets(const OstPressureSpace *space, const double *pressure, double *of_tets)
+{
     for (size_t i = 0; i < 4 * (size_t)space->mesh->tet_count; i++)
         of_tets[i] = space->of_tet[i] < 0 ? 0.0 : pressure[space->of_tet[i]];
-    return OST_SUCCESS;
 }

@@ -13,6 +13,8 @@ typedef struct OstPressureSpace {
     const OstMesh *mesh;
     OstLocal owned, count; /* without and with ghosts */
     OstGlobal global;
+    OstLocal *first;  /* node_count + 1: the first pressure of each node */
+    int most;         /* at a node, of all ranks */
     OstLocal *of_tet; /* tet_count × 4: the pressure at each of a tet's vertices; -1: none */
     int32_t *region;  /* count */
     OstHalo *halo;
@@ -27,14 +29,21 @@ void ost_pressure_space_destroy(OstPressureSpace **space);
 OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
                                 OstCoupling **coupling);
 
-/* Local. For each owned pressure the integral of its share of m'(strain of u - share × e0) - looseness p, tet by tet
- * without the coupling, with p the field's pressure; u is 3 × node_count, `volume` has `owned` numbers, and so has `mass`
- * (or NULL): the integral of the share alone. */
-OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, double share,
-                              const double *u, double *volume, double *mass);
+/* Local. Brings a coupling made by the above to a displacement u (3 × node_count, large rotations: the derivative of
+ * the volume below), or back to that of linear theory (NULL). */
+void ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                              const double *u, OstCoupling *coupling);
 
-/* Collective over neighbours. Gives each tet the pressures of its vertices (OstMaterialField.pressure): `pressure` has
- * `count` numbers, whose ghosts are set here. */
-OstStatus ost_pressure_of_tets(const OstPressureSpace *space, double *pressure, double *of_tets);
+/* Local. For each owned pressure the integral of its share of m'(strain of u - share × e0) - looseness p, tet by tet
+ * without the coupling, with p the field's pressure; the strain is U - I where rotations are large. u is 3 ×
+ * node_count, `volume` has `owned` numbers, and so has `mass` (or NULL): the integral of the share alone. */
+OstStatus ost_pressure_volume(const OstPressureSpace *space, const OstMaterialField *field, OstFormulation formulation,
+                              double share, const double *u, double *volume, double *mass);
+
+/* Collective over neighbours. Sets the ghosts of `pressure`, which has `count` numbers. */
+OstStatus ost_pressure_complete(const OstPressureSpace *space, double *pressure);
+
+/* Local. Gives each tet the pressures of its vertices (OstMaterialField.pressure), from `count` numbers. */
+void ost_pressure_of_tets(const OstPressureSpace *space, const double *pressure, double *of_tets);
 
 #endif

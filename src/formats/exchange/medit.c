@@ -250,13 +250,18 @@ static OstStatus read_bytes(Medit *medit)
     return OST_SUCCESS;
 }
 
+/* By what the file holds: Gmsh writes words under either ending. A number one stands at the head of bytes. */
+static int is_bytes(const OstMshCursor *cursor)
+{
+    return cursor->end - cursor->bytes >= 4 && (cursor->bytes[0] == 1 || cursor->bytes[3] == 1);
+}
+
 OstStatus ost_medit_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     Medit medit = {.version = 2};
-    const char *ending = strrchr(path, '.');
     OstStatus status = ost_cells_open(ctx, path, &medit.cells);
     OST_THEN(ost_msh_open(ctx, path, &medit.cursor));
-    OST_THEN(ending && strcasecmp(ending, ".meshb") == 0 ? read_bytes(&medit) : read_words(&medit));
+    OST_THEN(is_bytes(&medit.cursor) ? read_bytes(&medit) : read_words(&medit));
     OST_THEN(ost_cells_finish(&medit.cells, chunk));
     ost_msh_close(&medit.cursor);
     ost_cells_close(&medit.cells);

@@ -75,12 +75,27 @@ static OstStatus fixed_fields(Nastran *nastran, const char *text, const char *en
     return OST_SUCCESS;
 }
 
+/* Columns count as if a tab went on to the next multiple of eight. */
+static OstStatus fields_after_tabs(Nastran *nastran, const char *line, const char *end)
+{
+    char text[9 * SMALL];
+    int length = 0;
+    for (; line < end && length < (int)sizeof text; line++)
+        do
+            text[length++] = *line == '\t' ? ' ' : *line;
+        while (*line == '\t' && length % SMALL != 0);
+    const int name = length < SMALL ? length : SMALL;
+    return fixed_fields(nastran, text + name, text + length, memchr(text, '*', (size_t)name) ? LARGE : SMALL);
+}
+
 static OstStatus read_fields(Nastran *nastran, const char *line, const char *end)
 {
     const char *comma = memchr(line, ',', (size_t)(end - line));
     const ptrdiff_t name = end - line < SMALL ? end - line : SMALL;
     if (comma)
         return free_fields(nastran, comma + 1, end);
+    if (memchr(line, '\t', (size_t)(end - line)))
+        return fields_after_tabs(nastran, line, end);
     return fixed_fields(nastran, line + name, end, memchr(line, '*', (size_t)name) ? LARGE : SMALL);
 }
 
@@ -121,14 +136,15 @@ static OstStatus read_grid(Nastran *nastran)
     return ost_cells_add_node(&nastran->cells, label, x);
 }
 
-/* Mid-edge nodes are all there, or none. */
+/* Mid-edge nodes are all there, or none. meshio leaves out the property. */
 static OstStatus read_cell(Nastran *nastran, OstCellKind linear, OstCellKind quadratic)
 {
     const int vertices = ost_cell_facts[linear].nodes, all = ost_cell_facts[quadratic].nodes;
-    OstGlobal label = 0, property = 0, nodes[MOST_NODES];
+    OstGlobal label = 0, property = OST_NO_GROUP, nodes[MOST_NODES];
     int middles = 0;
     OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
-    OST_TRY(take_integer(nastran, "a property", 1, &property));
+    if (field_of(nastran, 1)[0])
+        OST_TRY(take_integer(nastran, "a property", 1, &property));
     for (int n = vertices; n < all; n++)
         middles += field_of(nastran, 2 + n)[0] != '\0' && strcmp(field_of(nastran, 2 + n), "0") != 0;
     if (linear == OST_CELL_TRIANGLE3 && quadratic != OST_CELL_TRIANGLE6)
@@ -257,9 +273,22 @@ static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
     return read_fields(nastran, line, end);
 }
 
+/* What stands before says how to solve: SPC = 1 is no card there. A file may hold the cards alone. */
+static void go_to_bulk_data(OstMshCursor *cursor)
+{
+    const char *first = cursor->next;
+    while (cursor->next < cursor->end) {
+        const OstMshText text = ost_msh_rest_of_line(cursor);
+        if (text.length >= 5 && strncasecmp(text.start, "BEGIN", 5) == 0)
+            return;
+    }
+    cursor->next = first;
+}
+
 static OstStatus read_lines(Nastran *nastran)
 {
     OstMshCursor *cursor = &nastran->cursor;
+    go_to_bulk_data(cursor);
     while (cursor->next < cursor->end) {
         const char *line = cursor->next;
         const OstMshText text = ost_msh_rest_of_line(cursor);

@@ -14,7 +14,7 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(ost_problem_function_displacement(problem, function, none, prescribed));
     ost_ledger_enter(problem->ctx, OST_EFFECT_MIXED);
-    status = ost_pressure_volume(problem->pressures, problem->field, share, prescribed, g, NULL);
+    status = ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR, share, prescribed, g, NULL);
     ost_ledger_leave(problem->ctx);
     for (OstLocal i = 0; i < problem->pressures->owned; i++)
         g[i] = -g[i];
@@ -49,19 +49,32 @@ void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, O
     state->field = field;
 }
 
+/* The problem's own copy of its field, to be changed. */
+static OstMaterialField *own_field(OstProblem *problem)
+{
+    if (problem->field != &problem->own)
+        problem->own = *problem->field;
+    problem->field = &problem->own;
+    return &problem->own;
+}
+
+void ost_problem_take_pressure(OstProblem *problem, const double *of_tets)
+{
+    own_field(problem)->pressure = of_tets;
+}
+
 OstStatus ost_problem_leave_mixed(OstProblem *problem)
 {
-    const OstMaterialField *field = problem->field;
-    const int region = ost_field_incompressible(field);
+    const int region = ost_field_incompressible(problem->field);
     if (region >= 0)
         return OST_RAISE(problem->ctx, OST_INVALID_INPUT,
-                         "material '%s' is incompressible (nu = 1/2), and rotations are large here: Newton's method "
-                         "needs nu below 1/2, as 0.4999; or say large_rotation: off, for linear theory",
-                         field->material[region].name);
+                         "material '%s' is incompressible (nu = 1/2), and rotations are large here, which pressure on "
+                         "a surface with a free rim and formulation: classical can follow only below 1/2, as 0.4999; "
+                         "or say large_rotation: off, for linear theory",
+                         problem->field->material[region].name);
     ost_problem_release_stiffness(problem);
     ost_pressure_space_destroy(&problem->pressures);
-    problem->dilated = *field;
-    problem->dilated.form = field->mean.stiff_mode ? OST_SPLIT_MEAN : OST_SPLIT_NOT;
-    problem->field = &problem->dilated;
+    OstMaterialField *own = own_field(problem);
+    own->form = own->mean.stiff_mode ? OST_SPLIT_MEAN : OST_SPLIT_NOT;
     return OST_SUCCESS;
 }

@@ -122,6 +122,7 @@ static OstStatus make_problem(OstLoadCases *cases)
     if (cases->analysis) {
         ost_problem_take_loading(cases->problem, problem);
         ost_problem_destroy(&problem);
+        cases->analysis->options.algebraic_fraction = scene->c->solver.algebraic_fraction; /* each has its own watch */
         return ost_analysis_take_loading(cases->analysis);
     }
     cases->problem = problem;
