@@ -343,17 +343,12 @@ static OstMethod fastest(const OstSolveReport *report)
     return found;
 }
 
-/* The softest motion of a slender body has 1e-8 of the energy of its nodes' and less: single precision may make a
- * coarse level that has it indefinite. The same strategy is then built again with more digits. */
-static int needs_digits(const OstSolver *solver, const OstGoal *goal)
-{
-    return goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise;
-}
-
-/* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. */
+/* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. The softest motion of a
+ * slender body has 1e-8 of the energy of its nodes' and less: single precision may make a coarse level that has it
+ * indefinite. The same strategy is then built again with more digits. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const int again = needs_digits(solver, goal);
+    const int again = goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise;
     const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
     solver->precise |= again;
     const OstStatus status = build(solver, next, report->step, &report->steps);
