@@ -24,6 +24,9 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
 /* Collective. The problem has got another loading (problem/cases/load_case.h). */
 OstStatus ost_estimate_take_loading(OstEstimate *estimate);
 
+/* Collective. Other loadings follow: what is found for one starts the search for the next. For linear theory alone. */
+OstStatus ost_estimate_remember(OstEstimate *estimate);
+
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
  * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
  * NULL. surplus: e at the owned nodes (3 numbers each), lengthened by what the steps that were not taken would add; or

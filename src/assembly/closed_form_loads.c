@@ -15,34 +15,46 @@ static void share(const OstMesh *mesh, int count, const OstLocal *nodes, const d
             force[3 * (size_t)nodes[a] + (size_t)i] += values[a] * at_point[i];
 }
 
-static OstStatus load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstClosedForm *solution,
-                           double *force)
+OstStatus ost_load_by_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
+                               OstTractionAt at, const void *data, double *force)
 {
-    double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    ost_gather3(n, nodes, mesh->coordinates, x);
-    for (int q = 0; q < ost_triangle_degree5.count; q++) {
-        const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
-        double place[3], area[3], s[6];
-        ost_shape_values(n, point->at, values);
-        ost_shape_place(n, values, x, place);
-        ost_shape_area_vector(n, point->at, x, area);
-        OST_TRY(solution->stress(solution->data, place, s));
-        const double weight = 0.5 * point->weight;
-        const double traction[3] = {weight * (s[0] * area[0] + s[3] * area[1] + s[5] * area[2]),
-                                    weight * (s[3] * area[0] + s[1] * area[1] + s[4] * area[2]),
-                                    weight * (s[5] * area[0] + s[4] * area[1] + s[2] * area[2])};
-        share(mesh, n, nodes, values, traction, force);
+    const int n = nodes_per_face;
+    for (OstLocal f = 0; f < face_count; f++) {
+        const OstLocal *nodes = faces + (size_t)n * (size_t)f;
+        double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
+        ost_gather3(n, nodes, mesh->coordinates, x);
+        for (int q = 0; q < ost_triangle_degree5.count; q++) {
+            const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
+            double place[3], area[3], at_point[3];
+            ost_shape_values(n, point->at, values);
+            ost_shape_place(n, values, x, place);
+            ost_shape_area_vector(n, point->at, x, area);
+            for (int i = 0; i < 3; i++)
+                area[i] *= 0.5 * point->weight;
+            OST_TRY(at(data, place, area, at_point));
+            share(mesh, n, nodes, values, at_point, force);
+        }
     }
+    return OST_SUCCESS;
+}
+
+static OstStatus force_of_stress(const void *data, const double place[3], const double area[3], double force[3])
+{
+    const OstClosedForm *solution = data;
+    double s[6];
+    OST_TRY(solution->stress(solution->data, place, s));
+    force[0] = s[0] * area[0] + s[3] * area[1] + s[5] * area[2];
+    force[1] = s[3] * area[0] + s[1] * area[1] + s[4] * area[2];
+    force[2] = s[5] * area[0] + s[4] * area[1] + s[2] * area[2];
     return OST_SUCCESS;
 }
 
 OstStatus ost_load_closed_form_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces,
                                         int nodes_per_face, const OstClosedForm *solution, double *force)
 {
-    OstStatus status = OST_SUCCESS;
     ost_ledger_enter(mesh->ctx, OST_EFFECT_SURFACE_LOAD);
-    for (OstLocal f = 0; f < face_count && status == OST_SUCCESS; f++)
-        status = load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, solution, force);
+    const OstStatus status =
+        ost_load_by_traction(mesh, face_count, faces, nodes_per_face, force_of_stress, solution, force);
     ost_ledger_leave(mesh->ctx);
     return status;
 }

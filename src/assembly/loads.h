@@ -50,6 +50,11 @@ OstClosedForm ost_spin_form(const OstSpin *spin);
 /* Consistent nodal forces of loads that vary in space, by quadrature of degree 5. As in assembly/loads.h they are added
  * to `force`, and complete on owned nodes. */
 
+/* Local. The force on a piece of a face, whose normal is as long as its area. */
+typedef OstStatus (*OstTractionAt)(const void *data, const double place[3], const double area[3], double force[3]);
+OstStatus ost_load_by_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces, int nodes_per_face,
+                               OstTractionAt at, const void *data, double *force);
+
 /* Local. The traction of the closed-form stress on the given faces (local nodes, outward) with their discrete normals.
  * OST_EFFECT_SURFACE_LOAD. */
 OstStatus ost_load_closed_form_traction(const OstMesh *mesh, OstLocal face_count, const OstLocal *faces,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/spread.h"
 
+#include "assembly/loads.h"
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
@@ -141,30 +142,19 @@ OstStatus ost_spread_over_vertices(const OstMesh *mesh, OstLocal count, const Os
     return ost_spread_over_faces(mesh, count, nodes, 1, resultant, spread);
 }
 
-static void load_face(const OstMesh *mesh, int n, const OstLocal *nodes, const OstSpread *spread, double *force)
+static OstStatus force_at(const void *data, const double place[3], const double area[3], double force[3])
 {
-    double x[3 * OST_MAX_FACE_NODES], values[OST_MAX_FACE_NODES];
-    ost_gather3(n, nodes, mesh->coordinates, x);
-    for (int q = 0; q < ost_triangle_degree5.count; q++) {
-        const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
-        double place[3], area[3], traction[3];
-        ost_shape_values(n, point->at, values);
-        ost_shape_place(n, values, x, place);
-        ost_shape_area_vector(n, point->at, x, area);
-        ost_spread_at(spread, place, traction);
-        const double weight = 0.5 * point->weight * ost_norm3(area);
-        for (int a = 0; a < n; a++)
-            for (int i = 0; i < 3 && nodes[a] < mesh->owned_nodes; i++)
-                force[3 * (size_t)nodes[a] + (size_t)i] += weight * values[a] * traction[i];
-    }
+    ost_spread_at(data, place, force);
+    for (int i = 0; i < 3; i++)
+        force[i] *= ost_norm3(area);
+    return OST_SUCCESS;
 }
 
 void ost_load_spread_on_faces(const OstMesh *mesh, OstLocal count, const OstLocal *faces, int nodes_per_face,
                               const OstSpread *spread, double *force)
 {
     ost_ledger_enter(mesh->ctx, OST_EFFECT_MOMENT);
-    for (OstLocal f = 0; f < count; f++)
-        load_face(mesh, nodes_per_face, faces + (size_t)nodes_per_face * (size_t)f, spread, force);
+    (void)ost_load_by_traction(mesh, count, faces, nodes_per_face, force_at, spread, force); /* cannot fail */
     ost_ledger_leave(mesh->ctx);
 }
 

@@ -74,7 +74,7 @@ static const struct argp mesh_argp = {
     .parser = parse,
     .args_doc = "MESH [NEW]",
     .doc = "Read a mesh, say what is in it, and write it in the format of the new file's ending: .msh (Gmsh), .inp "
-           "(Abaqus) or .vtkhdf.",
+           "(Abaqus), .vtu (VTK) or .vtkhdf.",
 };
 
 /* What is done to the chunk, while tets are as the file has them. */

@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -182,4 +183,22 @@ OstStatus ost_write_aside(OstContext *ctx, const char *path, OstStatus (*write)(
     if (file && fclose(file) != 0 && status == OST_SUCCESS)
         status = raise_unwritten(ctx, path, strerror(errno));
     return ost_aside_finish(ctx, &aside, status);
+}
+
+void ost_csv_text(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        if (*text == '"')
+            fputc('"', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+void ost_csv_number(FILE *file, double number)
+{
+    fputc(',', file);
+    if (isfinite(number))
+        fprintf(file, "%.17g", number);
 }

@@ -36,6 +36,11 @@ OstStatus ost_aside_reserve(OstContext *ctx, const OstAside *aside, OstGlobal by
 OstStatus ost_write_aside(OstContext *ctx, const char *path, OstStatus (*write)(FILE *file, const void *content),
                           const void *content);
 
+/* Local. Cells of a CSV file: a text in quotes, in which quotes are doubled; a number after a comma, of which only the
+ * comma is left if it is not finite. */
+void ost_csv_text(FILE *file, const char *text);
+void ost_csv_number(FILE *file, double number);
+
 /* Local. The file behind any symbolic links of `path`, which need not exist. The caller frees it. */
 OstStatus ost_follow_links(OstContext *ctx, const char *path, char **target);
 

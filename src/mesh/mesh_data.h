@@ -96,20 +96,20 @@ static inline const OstLocal *ost_mesh_nodes_of(const OstMesh *mesh, OstLocal te
     return mesh->tet_nodes + (size_t)tet * (size_t)mesh->nodes_per_tet;
 }
 
-/* Gives the material metric, by which the partition avoids cutting stiff couplings: `fill` (local; called with more
- * than one rank) computes it for each of the chunk's tets (6 numbers, 11 22 33 12 23 31, largest eigenvalue 1) from the
- * centroids (3 numbers each). */
+/* What the partition wants to know of the material, of each of the chunk's tets. Both are local, called with more than
+ * one rank, and may be NULL. `fill`: the metric (6 numbers, 11 22 33 12 23 31, largest eigenvalue 1) from the centroids
+ * (3 numbers each); stiff couplings are not cut. `stiffness`: its largest Young's modulus, or what is proportional to
+ * it; stiff inclusions stay whole (mesh/distribution/weld.h). */
 typedef struct OstTetMetric {
     const void *data;
     OstStatus (*fill)(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric);
+    OstStatus (*stiffness)(const void *data, const OstMeshChunk *chunk, double *stiffness);
 } OstTetMetric;
 
 /* Local. Gives the chunk the node labels 1, 2, 3, ... if it has none. */
 OstStatus ost_chunk_label_nodes(OstMeshChunk *chunk);
 
-/* Collective. As ost_mesh_distribute, with the graph's edges weighted by the material metric (`tets` NULL: not
- * weighted).
- */
+/* Collective. As ost_mesh_distribute, by what the material is (`tets` NULL: isotropic, and the same everywhere). */
 OstStatus ost_mesh_distribute_by(OstContext *ctx, OstMeshChunk **chunk, const OstTetMetric *tets, OstMesh **mesh);
 
 /* Local. Index of a name, or -1; and the names in one line for messages, ending in dots if they do not fit. */

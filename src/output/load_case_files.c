@@ -129,29 +129,24 @@ typedef struct Table {
     Columns columns;
 } Table;
 
-static void write_number(FILE *file, double number)
-{
-    fputc(',', file);
-    if (isfinite(number))
-        fprintf(file, "%.17g", number);
-}
-
 static OstStatus write_rows(FILE *file, const void *content)
 {
     const Table *table = content;
     fputs("case,status,largest_displacement,strain_energy,relative_error,newton_iterations,iterations", file);
-    for (int w = 0; w < table->columns.count; w++)
-        ost_csv_write_name(file, table->columns.name[w]);
+    for (int w = 0; w < table->columns.count; w++) {
+        fputc(',', file);
+        ost_csv_text(file, table->columns.name[w]);
+    }
     fputc('\n', file);
     for (int k = 0; k < table->count; k++) {
         const OstLoadCaseReport *report = &table->reports[k];
         fprintf(file, "%s,%s", report->name, state_of(report));
-        write_number(file, report->is_known ? report->largest_displacement : NAN);
-        write_number(file, report->is_known ? report->strain_energy : NAN);
-        write_number(file, report->is_known ? report->relative_error : NAN);
+        ost_csv_number(file, report->is_known ? report->largest_displacement : NAN);
+        ost_csv_number(file, report->is_known ? report->strain_energy : NAN);
+        ost_csv_number(file, report->is_known ? report->relative_error : NAN);
         fprintf(file, ",%d,%d", report->newton_iterations, report->iterations);
         for (int w = 0; w < table->columns.count; w++)
-            write_number(file, value_of(report, table->columns.name[w]));
+            ost_csv_number(file, value_of(report, table->columns.name[w]));
         fputc('\n', file);
     }
     return OST_SUCCESS;

@@ -81,17 +81,6 @@ static int is_followed(const OstCase *c, int function)
     return followed;
 }
 
-void ost_csv_write_name(FILE *file, const char *text)
-{
-    fputs(",\"", file);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
-}
-
 static double factor_at(const OstCase *c, int function, double t)
 {
     static const OstTimeTable ramp = {0};
@@ -110,8 +99,10 @@ static void write_heading(FILE *file, const OstCase *c)
         else if (is_followed(c, f))
             fputs(",load_factor", file);
     fputs(",largest_displacement,strain_energy,newton_iterations,load_steps,iterations", file);
-    for (int w = 0; w < c->watch_count; w++)
-        ost_csv_write_name(file, c->watches[w].name);
+    for (int w = 0; w < c->watch_count; w++) {
+        fputc(',', file);
+        ost_csv_text(file, c->watches[w].name);
+    }
     fputc('\n', file);
 }
 

@@ -25,9 +25,6 @@ OstStatus ost_path_write_history(const OstScene *scene, OstPath *path, const cha
 /* Local; only rank 0 prints. The steps done, as a table. */
 void ost_path_print(const OstScene *scene, OstPath *path, const char *output);
 
-/* Local. A comma, and a text in quotes, in which quotes are doubled. */
-void ost_csv_write_name(FILE *file, const char *text);
-
 /* Local. The same as a list of objects; the caller's reference, NULL if jansson fails. */
 struct json_t;
 struct json_t *ost_path_json(const OstScene *scene, OstPath *path);

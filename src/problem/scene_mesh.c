@@ -10,6 +10,8 @@
 #include "mesh/distribution/share.h"
 #include "orthostat/refine.h"
 
+#include <math.h>
+
 /* Refuses a mesh too large for the machines before it is made. Compares the least that a solve needs, so that nothing
  * is refused that would fit. */
 static OstStatus check_memory(const OstCase *c, OstGlobal nodes, OstGlobal tets)
@@ -96,18 +98,35 @@ static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const 
     return status;
 }
 
+static double stiffest(const OstMaterial *material)
+{
+    const double *e = material->constants.youngs_modulus;
+    return fmax(e[0], fmax(e[1], e[2]));
+}
+
+/* The largest Young's modulus of each tet. */
+static OstStatus tet_stiffness(const void *data, const OstMeshChunk *chunk, double *stiffness)
+{
+    const OstSceneMaterials *materials = data;
+    for (OstLocal t = 0; t < chunk->tet_count; t++)
+        stiffness[t] = stiffest(&materials->material[chunk->tet_region[t]]);
+    return OST_SUCCESS;
+}
+
 /* Collective. Distributes the mesh (ost_mesh_distribute) so that borders of ranks run along the stiff directions of
- * orthotropic materials rather than across them: aggregates and blocks of multigrid end at a border, and a strong
- * coupling lost there costs iterations. Axes that are not known yet (of gradients) count as isotropic; a body of
- * isotropic materials is partitioned without weights. */
+ * orthotropic materials rather than across them, and around stiff inclusions: aggregates and blocks of multigrid end at
+ * a border, and a strong coupling lost there costs iterations. Axes that are not known yet (of gradients) count as
+ * isotropic; a body of isotropic materials is partitioned without weights. */
 static OstStatus partition(const OstSceneMaterials *materials, OstMeshChunk **chunk, OstMesh **mesh)
 {
-    const OstTetMetric metric = {materials, tet_metrics};
-    int any = 0;
-    for (int r = 0; r < (*chunk)->regions.count; r++)
-        any |= has_direction(*chunk, materials, r);
-    OST_TRY(ost_max_ints((*chunk)->ctx, 1, &any)); /* a rank without tets has no axes */
-    return ost_mesh_distribute_by((*chunk)->ctx, chunk, any ? &metric : NULL, mesh);
+    int any[2] = {0, 0}; /* a direction; several stiffnesses */
+    for (int r = 0; r < (*chunk)->regions.count; r++) {
+        any[0] |= has_direction(*chunk, materials, r);
+        any[1] |= stiffest(&materials->material[r]) != stiffest(&materials->material[0]);
+    }
+    OST_TRY(ost_max_ints((*chunk)->ctx, 2, any)); /* a rank without tets has no axes */
+    const OstTetMetric metric = {materials, any[0] ? tet_metrics : NULL, any[1] ? tet_stiffness : NULL};
+    return ost_mesh_distribute_by((*chunk)->ctx, chunk, any[0] || any[1] ? &metric : NULL, mesh);
 }
 
 OstShapeSurface ost_scene_surface(const OstCase *c)

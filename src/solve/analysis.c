@@ -74,7 +74,8 @@ static OstStatus keep_estimate(OstAnalysis *analysis)
     if (!analysis->serves_several || analysis->estimate || analysis->problem->pressures) /* each answer has its own */
         return OST_SUCCESS;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    const OstStatus status = ost_estimate_create(analysis->problem, &analysis->estimate);
+    OstStatus status = ost_estimate_create(analysis->problem, &analysis->estimate);
+    OST_THEN(ost_estimate_remember(analysis->estimate));
     ost_ledger_leave(analysis->ctx);
     return status;
 }

@@ -20,24 +20,10 @@
 
 /* --- CSV --- */
 
-/* In quotes; quotes within the text are doubled. */
-static void write_text(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
-}
-
 /* An empty field where there is no number. */
 static void write_number(FILE *file, int known, double number)
 {
-    fputc(',', file);
-    if (known && isfinite(number))
-        fprintf(file, "%.17g", number);
+    ost_csv_number(file, known ? number : NAN);
 }
 
 static void write_heading(FILE *file, const OstCost *cost)
@@ -55,7 +41,7 @@ static void write_heading(FILE *file, const OstCost *cost)
             char name[256];
             snprintf(name, sizeof name, "%.200s%s", cost->quantity[q].name, columns[c]);
             fputc(',', file);
-            write_text(file, name);
+            ost_csv_text(file, name);
         }
     }
     fputc('\n', file);
@@ -66,7 +52,7 @@ static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
     const int done = run->state == OST_COST_DONE;
     fprintf(file, "%d,%d,%g,%g,%s,", run->order, run->refinement, run->tolerance, run->accuracy,
             ost_cost_state_word[run->state]);
-    write_text(file, run->reason);
+    ost_csv_text(file, run->reason);
     write_number(file, run->predicted_seconds > 0.0, run->predicted_seconds);
 #define CELL(name, make_json) write_number(file, done, (double)run->name);
     RUN_NUMBER_TABLE(CELL)

@@ -3,6 +3,9 @@ refines, merges and orients."""
 import json
 import os
 
+import meshio
+import numpy as np
+
 from program import SOURCE, check, fewer, new_folder, run
 
 STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
@@ -26,7 +29,10 @@ def answer(mesh, clamp, ranks=1):
         stream.write(CASE.format(mesh=mesh, clamp=clamp))
     done = run("solve", path, "-q", "--json", "-", "--output", os.path.join(folder, "out.vtkhdf"), ranks=ranks)
     check(done.exit_code == 0, f"{mesh}: {done.errors}")
-    watched = json.loads(done.output)["watched"]
+    report = json.loads(done.output)
+    watched, reading = report["watched"], [a for a in report["ledger"]["accounts"] if a["name"] == "mesh"][0]
+    check(reading["entries"] == 1 and reading["seconds"] > 0 and reading["bytes"] >= 24 * report["vertices"],
+          f"{mesh}: what is read is not booked to the mesh: {reading}")
     return [watched["end"]["value"], watched["energy"]["value"]]
 
 
@@ -42,6 +48,10 @@ for order, source in (("linear", "gmsh2-binary"), ("quadratic", "gmsh41-quadrati
             check(all(abs(a - b) < 1e-7 * abs(b) for a, b in zip(found, expected)), f"{name}: {found}, expected {expected}")
 
 # --- as programs write them ---
+
+
+def stored(name):
+    return os.path.join(STORED, name)
 
 
 def write(name, text):
@@ -97,6 +107,14 @@ done = run("check", "stray.yaml", folder=folder)
 check(done.exit_code == 2 and "stray.yaml:3:" in done.errors and "boundary 'foot'" in done.errors and
       "on no tet" in done.errors, done.errors)
 
+# A text that was cut off is told so; a case is no mesh.
+text = open(stored("gmsh-linear.unv")).read()
+cut = text[:text.index("\n", len(text) // 3) - 2]
+done = run("mesh", write("cut.unv", cut), folder=folder)
+check(done.exit_code == 2 and "cut.unv:" in done.errors and "is it complete?" in done.errors, done.errors)
+done = run("mesh", "case.yaml", folder=folder)
+check(done.exit_code == 2 and "orthostat check case.yaml" in done.errors, done.errors)
+
 # --- inspect ---
 
 
@@ -104,10 +122,6 @@ def inspect(*arguments, ranks=1):
     done = run("mesh", *arguments, "--json", "-", ranks=ranks, folder=folder)
     check(done.exit_code == 0, f"mesh {arguments}: {done.errors}")
     return json.loads(done.output)
-
-
-def stored(name):
-    return os.path.join(STORED, name)
 
 
 for ranks in fewer([1, 2, 4]):
@@ -127,7 +141,7 @@ check("48 linear tets" in said and "Clamp" in said and "least" in said, said)
 # --- convert, there and back ---
 
 for ranks in fewer([1, 3]):
-    for ending in ("msh", "inp", "vtkhdf"):
+    for ending in ("msh", "inp", "vtu", "vtkhdf", "hdf"):
         new = f"new-{ranks}.{ending}"
         inspect(stored("cae-quadratic.inp"), new, ranks=ranks)
         again = inspect(new)
@@ -138,12 +152,23 @@ for ranks in fewer([1, 3]):
                   abs(region["volume"] - 1) < 1e-9, f"{new}: {again['regions']}")
         check({b["name"]: b["count"] for b in again["boundaries"]} == {b["name"]: b["count"] for b in counts["boundaries"]},
               f"{new}: {again['boundaries']}")
-for ending in ("msh", "inp"):
+for ending in ("msh", "inp", "vtu"):
     if len(fewer([1, 3])) == 2:
         texts = [open(os.path.join(folder, f"new-{ranks}.{ending}")).read() for ranks in (1, 3)]
         check(texts[0] == texts[1], f"{ending}: what is written depends on the number of ranks")
+for order, points, kinds in (("linear", 23, {"tetra": 48, "triangle": 4}), ("quadratic", 113, {"tetra10": 48, "triangle6": 4})):
+    inspect(stored(f"gmsh-{order}.mesh"), f"{order}.vtu")
+    other = meshio.read(os.path.join(folder, f"{order}.vtu"))
+    count = {}
+    for block in other.cells:
+        count[block.type] = count.get(block.type, 0) + len(block.data)
+    check(len(other.points) == points and count == kinds, f"meshio finds {len(other.points)} points and {count}")
+    check(sorted(set(np.concatenate(other.cell_data["region"]))) == [1, 2, 3], "numbers of regions and boundaries")
+    kept = inspect(f"{order}.vtu")
+    check([r["name"] for r in kept["regions"]] == ["volume-1", "volume-2"] and kept["boundaries"][0]["name"] == "surface-1",
+          f"{kept['regions']} {kept['boundaries']}")
 bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
-check(bad.exit_code == 2 and ".msh" in bad.errors, bad.errors)
+check(bad.exit_code == 2 and ".msh" in bad.errors and ".vtu" in bad.errors, bad.errors)
 
 # --- refine, raise, merge, orient ---
 

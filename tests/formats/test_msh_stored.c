@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "support.h"
+#include "two_cubes.h"
 
 #include "mesh/mesh_data.h"
 #include "orthostat/mesh_file.h"
 
 /* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8, meshio 5.0 and FreeFEM 4.11 write it, and by hand as ElmerGrid
- * does (groups of tag 0 alone, and the material as elementary tag); the counts are those of libgmsh. In two of the files
- * the volumes are also in a third group, 'all'. */
+ * does (groups of tag 0 alone, and the material as elementary tag); the counts are those of libgmsh. In two of the
+ * files the volumes are also in a third group, 'all'. */
 static const struct {
     const char *name;
     int nodes, named, boundaries, warnings;
@@ -35,35 +36,7 @@ static void count(void *listener, const char *text)
     ++*(int *)listener;
 }
 
-static double volume_of(const OstMeshChunk *chunk, OstLocal tet)
-{
-    const OstGlobal *nodes = chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
-    double e[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int d = 0; d < 3; d++)
-            e[i][d] = chunk->coordinates[3 * nodes[i + 1] + d] - chunk->coordinates[3 * nodes[0] + d];
-    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-           6.0;
-}
-
-/* Tets of the left cube are in region 'left', and fill it; faces of 'clamp' have x = 0. */
-static void check_regions(const OstMeshChunk *chunk, int named)
-{
-    double volume[2] = {0.0, 0.0};
-    for (OstLocal t = 0; t < chunk->tet_count; t++) {
-        const OstGlobal *nodes = chunk->tet_nodes + (size_t)t * (size_t)chunk->nodes_per_tet;
-        double x = 0.0;
-        for (int v = 0; v < 4; v++)
-            x += chunk->coordinates[3 * nodes[v]] / 4.0;
-        volume[x > 1.0] += volume_of(chunk, t);
-        if (named)
-            assert_string_equal(chunk->regions.name[chunk->tet_region[t]], x > 1.0 ? "right" : "left");
-    }
-    assert_close(volume[0], 1.0, 1e-12);
-    assert_close(volume[1], 1.0, 1e-12);
-}
-
+/* Faces of 'clamp' have x = 0. */
 static void check_boundary(const OstMeshChunk *chunk, int named)
 {
     const OstBoundary *clamp = &chunk->boundaries[0];
@@ -89,7 +62,7 @@ static void stored_files_are_read_as_gmsh_reads_them(void **state)
         assert_int_equal(chunk->global_nodes, files[f].nodes);
         assert_int_equal(chunk->global_tets, 48);
         assert_int_equal(chunk->boundary_count, files[f].boundaries);
-        check_regions(chunk, files[f].named);
+        check_cubes(chunk, files[f].named ? "left" : NULL, "right");
         if (files[f].boundaries > 0)
             check_boundary(chunk, files[f].named);
         ost_chunk_destroy(&chunk);

@@ -429,7 +429,7 @@ static void borders_run_along_what_is_stiff(void **state)
 {
     (void)state;
     static const OstBlockShape bar = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {24, 8, 8}};
-    const OstTetMetric metric = {NULL, metric_along_x};
+    const OstTetMetric metric = {.fill = metric_along_x};
     int cut[2];
     for (int k = 0; k < 2; k++) {
         OstMeshChunk *chunk = NULL;

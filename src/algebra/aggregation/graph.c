@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/aggregation/graph.h"
 
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 
 #include <float.h>
@@ -108,26 +110,44 @@ static double trace(const OstBlockMatrix *matrix, OstLocal row)
 
 /* A stiff inclusion in soft surroundings moves as a rigid body, at an energy far below that of its own parts. Its six
  * modes must lie in the coarse space whole: an aggregate that holds some of it and some of what is around cannot move
- * without straining it. */
-static OstStatus part_at_jumps(const OstBlockMatrix *matrix, OstMetricGraph *graph)
+ * without straining it. Two inclusions with nothing but soft tets between them may have all nodes of a body: then no
+ * two neighbours differ, but their coupling is far weaker than their own blocks. */
+static int are_apart(const OstBlockMatrix *matrix, OstLocal i, OstLocal k, double weakest_coupling)
 {
-    OstContext *ctx = graph->ctx;
-    double jump = 1.0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (OstLocal i = 0; i < graph->nodes; i++)
-            for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
-                const double here = trace(matrix, i), there = trace(matrix, graph->neighbour[k]);
-                const double ratio = here > there ? here / there : there / here;
-                if (pass == 0)
-                    jump = fmax(jump, ratio);
-                else if (ratio > apart)
-                    graph->length[k] = INFINITY;
-            }
-        if (pass == 0)
-            OST_TRY(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &jump, 1, MPI_DOUBLE, MPI_MAX, ost_comm(ctx))));
-        graph->jump = jump > uneven && isfinite(jump) ? jump : 1.0;
-        if (!ost_metric_graph_is_uneven(graph))
-            return OST_SUCCESS;
+    const double here = trace(matrix, i), there = trace(matrix, matrix->column[k]);
+    const double softer = fmin(here, there), least = weakest_coupling * softer;
+    const double *between = matrix->value + 9 * (size_t)k;
+    return fmax(here, there) > apart * softer || ost_dot(9, between, between) < least * least;
+}
+
+static OstStatus find_jump(const OstBlockMatrix *matrix, const OstSolverFacts *facts, const OstMetricGraph *graph,
+                           double *jump)
+{
+    const double stated = facts && facts->anisotropy > 0.0 ? facts->contrast / facts->anisotropy : 1.0;
+    *jump = fmax(stated, 1.0);
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++)
+            *jump = fmax(*jump, trace(matrix, i) / trace(matrix, graph->neighbour[k]));
+    return ost_max(graph->ctx, 1, jump);
+}
+
+static OstStatus part_at_jumps(const OstBlockMatrix *matrix, const OstSolverFacts *facts, OstMetricGraph *graph)
+{
+    double jump;
+    OST_TRY(find_jump(matrix, facts, graph, &jump));
+    graph->jump = jump > uneven && isfinite(jump) ? jump : 1.0;
+    if (!ost_metric_graph_is_uneven(graph))
+        return OST_SUCCESS;
+    const double weakest_coupling = 0.1 / sqrt(graph->jump);
+    for (OstLocal i = 0; i < graph->nodes; i++) {
+        OstLocal edge = graph->edge_start[i];
+        for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+            if (matrix->column[k] >= matrix->rows || matrix->column[k] == i)
+                continue;
+            if (are_apart(matrix, i, k, weakest_coupling))
+                graph->length[edge] = INFINITY;
+            edge++;
+        }
     }
     return OST_SUCCESS;
 }
@@ -164,7 +184,7 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
         status = fill_from_matrix(matrix, geometry, *graph);
     status = ost_agree(ctx, status);
     if (status == OST_SUCCESS)
-        status = part_at_jumps(matrix, *graph);
+        status = part_at_jumps(matrix, geometry->facts, *graph);
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(graph);
     return status;

@@ -74,6 +74,29 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
     return goal->end == OST_END_REACHED;
 }
 
+int ost_goal_at_limit(const OstGoal *goal)
+{
+    static const double slack = 3.0;
+    return goal->norm <= slack * goal->limit;
+}
+
+void ost_goal_explain_end(OstGoal *goal, const char *stall)
+{
+    if (ost_goal_at_limit(goal)) {
+        goal->end = OST_END_ROUNDING;
+        snprintf(goal->words, sizeof goal->words,
+                 "rounding in double precision allows about %.2g here: request no smaller one, or look for what makes "
+                 "the stiffness so uneven",
+                 ost_goal_attainable(goal));
+    } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
+        ost_goal_end_by_iterations(goal);
+    } else if (goal->end == OST_END_REACHED) {
+        goal->end = OST_END_STALLED;
+        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing%s",
+                 goal->convergence.count, stall);
+    }
+}
+
 static const char *what_is_wrong(double value)
 {
     return !isfinite(value) ? "is not finite" : value < 0.0 ? "is negative" : "is zero";

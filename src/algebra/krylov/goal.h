@@ -65,6 +65,14 @@ int ost_goal_count(OstGoal *goal, double norm, double weight);
 /* Local. Ends with OST_END_ITERATIONS. */
 void ost_goal_end_by_iterations(OstGoal *goal);
 
+/* Local. Is the residual at the rounding limit? That is an estimate: one a few times larger may still be all rounding.
+ */
+int ost_goal_at_limit(const OstGoal *goal);
+
+/* Local. The target was missed, though the iteration may have ended with OST_END_REACHED: ends with the reason, once
+ * goal->limit is known. `stall` is what hides further gains, or empty. */
+void ost_goal_explain_end(OstGoal *goal, const char *stall);
+
 /* Local. Returns whether r·z is positive and finite; if not, ends with OST_END_PRECONDITIONER. */
 int ost_goal_accepts(OstGoal *goal, double weight);
 

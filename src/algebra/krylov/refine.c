@@ -17,9 +17,6 @@
 static const double least_gain = 0.5;
 enum { MOST_STALLS = 3, MOST_FACTOR_STALLS = 12 };
 
-/* The rounding limit is an estimate: a residual up to this many times larger may still be all rounding. */
-static const double rounding_slack = 3.0;
-
 /* Below this many times the limit, rounding of the product A u hides further gains. */
 static const double compensated_below = 10.0;
 
@@ -156,19 +153,7 @@ static OstStatus explain_end(Refinement *work)
 {
     OstGoal *goal = work->goal;
     OST_TRY(find_limit(work));
-    if (goal->norm <= rounding_slack * goal->limit) {
-        goal->end = OST_END_ROUNDING;
-        snprintf(goal->words, sizeof goal->words,
-                 "rounding in double precision allows about %.2g here: request no smaller one, or look for what makes "
-                 "the stiffness so uneven",
-                 ost_goal_attainable(goal));
-    } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
-        ost_goal_end_by_iterations(goal);
-    } else if (goal->end == OST_END_REACHED) {
-        goal->end = OST_END_STALLED;
-        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing%s",
-                 goal->convergence.count, goal->compensated ? ": rounding hides the softest motions of the body" : "");
-    }
+    ost_goal_explain_end(goal, goal->compensated ? ": rounding hides the softest motions of the body" : "");
     return OST_SUCCESS;
 }
 
@@ -178,7 +163,7 @@ static int most_stalls(const Refinement *work)
 {
     const OstGoal *goal = work->goal;
     const int changes = work->change > goal->target / goal->start;
-    return work->step && (changes || goal->norm > rounding_slack * goal->limit) ? MOST_FACTOR_STALLS : MOST_STALLS;
+    return work->step && (changes || !ost_goal_at_limit(goal)) ? MOST_FACTOR_STALLS : MOST_STALLS;
 }
 
 /* The correction by `inner`. Near rounding, a correction by factors is improved by a CG step with compensated products.

@@ -106,14 +106,17 @@ static OstStatus count_quadratic(OstMetric *metric, const OstBlockMatrix *linear
 }
 
 /* Builds the levels of the linear tets. */
-static OstStatus build_linear(OstMetric *metric, const OstCoarseSpace *space, OstLevels *levels)
+static OstStatus build_linear(OstMetric *metric, const OstCoarseSpace *space, const OstSolverFacts *facts,
+                              OstLevels *levels)
 {
+    OstSolverGeometry geometry = *space->geometry;
     OstMetricGraph *graph = NULL;
     OstStatus status;
+    geometry.facts = facts;
     metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
     OST_TRY_DONE(ost_scaling_create(space->matrix, &metric->linear_scaling));
-    OST_TRY_DONE(ost_metric_graph_create(space->matrix, space->geometry, &graph));
-    OST_TRY_DONE(build_levels(metric, space->matrix, metric->linear_scaling, space->geometry, &graph, levels));
+    OST_TRY_DONE(ost_metric_graph_create(space->matrix, &geometry, &graph));
+    OST_TRY_DONE(build_levels(metric, space->matrix, metric->linear_scaling, &geometry, &graph, levels));
     OST_TRY_DONE(count_quadratic(metric, space->matrix));
 done:
     ost_metric_graph_destroy(&graph);
@@ -156,7 +159,7 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
     if (skip) {
         OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, levels));
     } else {
-        OST_TRY_DONE(build_linear(metric, space, levels));
+        OST_TRY_DONE(build_linear(metric, space, geometry->facts, levels));
         OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
                                                 &metric->options, quadratic));
     }

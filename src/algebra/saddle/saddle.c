@@ -26,7 +26,7 @@ enum { MOST_RESTARTS = 12 };
 static const double renew_below = 1e-3;
 
 /* A pass that does not reduce the true residual so far is a stall. The rounding limit is an estimate. */
-static const double least_gain = 0.5, rounding_slack = 3.0;
+static const double least_gain = 0.5;
 enum { MOST_STALLS = 3 };
 
 /* A vector of the system: of displacements, and of pressures with room for ghosts. */
@@ -382,22 +382,9 @@ static OstStatus find_limit(Run *run)
 
 static OstStatus explain_end(Run *run)
 {
-    OstGoal *goal = run->goal;
     memcpy(run->wide, run->u, run->n * sizeof(double));
     OST_TRY(find_limit(run));
-    if (goal->norm <= rounding_slack * goal->limit) {
-        goal->end = OST_END_ROUNDING;
-        snprintf(goal->words, sizeof goal->words,
-                 "rounding in double precision allows about %.2g here: request no smaller one, or look for what makes "
-                 "the stiffness so uneven",
-                 ost_goal_attainable(goal));
-    } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
-        ost_goal_end_by_iterations(goal);
-    } else if (goal->end == OST_END_REACHED) {
-        goal->end = OST_END_STALLED;
-        snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing",
-                 goal->convergence.count);
-    }
+    ost_goal_explain_end(run->goal, "");
     return OST_SUCCESS;
 }
 

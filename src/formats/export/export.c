@@ -12,7 +12,7 @@
 static const struct {
     const char *ending;
     OstStatus (*write)(FILE *file, const void *whole);
-} writers[] = {{".msh", ost_msh_write}, {".inp", ost_abaqus_write}};
+} writers[] = {{".msh", ost_msh_write}, {".inp", ost_abaqus_write}, {".vtu", ost_vtu_mesh_write}};
 enum { WRITERS = sizeof writers / sizeof *writers };
 
 static int ends_with(const char *path, const char *ending)
@@ -26,11 +26,12 @@ OstStatus ost_mesh_export_check(OstContext *ctx, const char *path)
     for (int w = 0; w < WRITERS; w++)
         if (ends_with(path, writers[w].ending))
             return OST_SUCCESS;
-    return ends_with(path, ".vtkhdf")
+    return ends_with(path, ".vtkhdf") || ends_with(path, ".hdf")
                ? OST_SUCCESS
                : OST_RAISE(
                      ctx, OST_INVALID_USAGE,
-                     "'%s': a mesh is written as .msh (Gmsh, which converts it further), .inp (Abaqus) or .vtkhdf",
+                     "'%s': a mesh is written as .msh (Gmsh, which converts it further), .inp (Abaqus), .vtu (VTK) or "
+                     ".vtkhdf",
                      path);
 }
 

@@ -7,8 +7,8 @@
 #include <stdio.h>
 
 /* Collective. Writes a mesh with its labels, regions and boundaries in the format of the file's ending: .msh
- * (Gmsh 4.1), .inp (Abaqus), .vtkhdf. Raises OST_INVALID_USAGE for another one. The first two are written by rank 0,
- * which then holds the whole mesh. */
+ * (Gmsh 4.1), .inp (Abaqus), .vtu (VTK; nodes and tets numbered from 1), .vtkhdf. Raises OST_INVALID_USAGE for another
+ * one. All but the last are written by rank 0, which then holds the whole mesh. */
 OstStatus ost_mesh_export(const OstMesh *mesh, const char *path);
 
 /* Local. Is a mesh written to a file of this name? Raises OST_INVALID_USAGE if not. */
@@ -20,5 +20,6 @@ OstStatus ost_mesh_gather(const OstMesh *mesh, OstMeshChunk **whole);
 /* Local. Write a whole mesh. */
 OstStatus ost_msh_write(FILE *file, const void *whole);
 OstStatus ost_abaqus_write(FILE *file, const void *whole);
+OstStatus ost_vtu_mesh_write(FILE *file, const void *whole);
 
 #endif

@@ -46,6 +46,7 @@ void ost_vtk_clear(OstVtkGrid *grid)
     for (int a = 0; a < grid->array_count; a++)
         OST_FREE(grid->array[a].values);
     OST_FREE(grid->array);
+    OST_FREE(grid->name);
     OST_FREE(grid->coordinates);
     OST_FREE(grid->end);
     OST_FREE(grid->connectivity);
@@ -167,6 +168,8 @@ static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal grou
 static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
 {
     const OstVtkArray *region = region_array(grid);
+    for (int n = 0; n < grid->name_count; n++)
+        OST_TRY(ost_cells_name(cells, grid->name[n].dimension, grid->name[n].number, grid->name[n].name));
     for (OstGlobal p = 0; p < grid->points; p++)
         OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
     for (OstGlobal c = 0; c < grid->cells; c++)

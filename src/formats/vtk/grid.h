@@ -18,6 +18,13 @@ typedef struct OstVtkArray {
     double *values; /* tuples × components */
 } OstVtkArray;
 
+/* What the number of a region or boundary is called. */
+typedef struct OstVtkName {
+    int dimension;
+    OstGlobal number;
+    char name[OST_VTK_NAME];
+} OstVtkName;
+
 typedef struct OstVtkGrid {
     OstContext *ctx;
     const char *path;
@@ -30,6 +37,8 @@ typedef struct OstVtkGrid {
     unsigned char *type;
     int array_count;
     OstVtkArray *array;
+    int name_count;
+    OstVtkName *name;
 } OstVtkGrid;
 
 /* Local. Read a file into an empty grid; clear it even after a failure. */

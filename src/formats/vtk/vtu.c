@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/vtk/xml.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <math.h>
@@ -57,6 +58,47 @@ static OstStatus begin_file(Vtu *vtu, const OstXmlTag *tag)
     vtu->store.swapped = order && (strcmp(order, "LittleEndian") == 0) != little;
     vtu->store.header_bytes = header && strcmp(header, "UInt64") == 0 ? 8 : 4;
     vtu->store.compressed = packed && packed[0];
+    return OST_SUCCESS;
+}
+
+/* A line "region 1: wood" of the comment. */
+static OstStatus take_name(OstVtkGrid *grid, const char *line, const char *end)
+{
+    static const char *const kind[] = {"point ", "curve ", "surface ", "region "};
+    for (int dimension = 0; dimension <= 3; dimension++) {
+        const size_t length = strlen(kind[dimension]);
+        if ((size_t)(end - line) <= length || memcmp(line, kind[dimension], length) != 0)
+            continue;
+        OstVtkName name = {.dimension = dimension};
+        const char *at = line + length;
+        while (at < end && *at >= '0' && *at <= '9' && name.number < OST_LARGEST_LABEL / 16)
+            name.number = 10 * name.number + (*at++ - '0');
+        if (at == line + length || end - at < 3 || at[0] != ':' || at[1] != ' ' || end - at - 2 >= OST_VTK_NAME)
+            return OST_SUCCESS;
+        memcpy(name.name, at + 2, (size_t)(end - at - 2));
+        OST_TRY(OST_RESIZE(grid->ctx, &grid->name, grid->name_count + 1));
+        grid->name[grid->name_count++] = name;
+        return OST_SUCCESS;
+    }
+    return OST_SUCCESS;
+}
+
+/* The comment that Orthostat writes at the head has the names of regions and boundaries. */
+static OstStatus read_names(OstMshCursor *cursor, OstVtkGrid *grid)
+{
+    static const char start[] = "<!--\n";
+    const size_t length = sizeof start - 1;
+    const char *at = cursor->next;
+    while (at < cursor->end && isspace((unsigned char)*at))
+        at++;
+    if ((size_t)(cursor->end - at) < length || memcmp(at, start, length) != 0)
+        return OST_SUCCESS;
+    const char *end = memmem(at, (size_t)(cursor->end - at), "-->", 3);
+    for (at += length; end && at < end;) {
+        const char *line_end = memchr(at, '\n', (size_t)(end - at));
+        OST_TRY(take_name(grid, at, line_end ? line_end : end));
+        at = line_end ? line_end + 1 : end;
+    }
     return OST_SUCCESS;
 }
 
@@ -210,6 +252,7 @@ OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid)
     if (!found || strcmp(tag.name, "VTKFile") != 0)
         return OST_RAISE_MSH(cursor, "<VTKFile type=\"UnstructuredGrid\"> is expected");
     OST_TRY(begin_file(&vtu, &tag));
+    OST_TRY(read_names(cursor, grid));
     for (;;) {
         OST_TRY(ost_xml_next(cursor, &tag, &found));
         if (!found || strcmp(tag.name, "AppendedData") == 0)

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "mesh/check/check.h"
 #include "mesh/distribution/partition.h"
+#include "mesh/distribution/weld.h"
 
 static OstStatus label_all(OstMeshChunk *chunk)
 {
@@ -59,6 +60,17 @@ static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
     return ost_halo_create(ctx, mesh->owned_nodes, 0, 0, NULL, &mesh->halo);
 }
 
+static OstStatus weld(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part)
+{
+    double *stiffness = NULL;
+    OstStatus status = OST_NEW(chunk->ctx, &stiffness, chunk->tet_count);
+    OST_THEN(tets->stiffness(tets->data, chunk, stiffness));
+    status = ost_agree(chunk->ctx, status);
+    OST_THEN(ost_parts_weld(chunk, slab, stiffness, part));
+    OST_FREE(stiffness);
+    return status;
+}
+
 static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
@@ -67,11 +79,13 @@ static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tet
     int *part = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
-    if (tets)
+    if (tets && tets->fill)
         OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
     OST_TRY_DONE(ost_partition(slab, metric, part));
     OST_FREE(metric);
+    if (tets && tets->stiffness)
+        OST_TRY_DONE(weld(chunk, slab, tets, part));
     take_names(chunk, mesh);
     OST_TRY_DONE(ost_mesh_redistribute(chunk, slab, part, mesh));
 done:

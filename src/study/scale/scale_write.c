@@ -29,23 +29,10 @@
 
 /* --- CSV: a line for a run --- */
 
-static void write_text(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
-}
-
 /* An empty field where there is no number. */
 static void write_number(FILE *file, int known, double number)
 {
-    fputc(',', file);
-    if (known && isfinite(number))
-        fprintf(file, "%.17g", number);
+    ost_csv_number(file, known ? number : NAN);
 }
 
 static OstStatus write_csv(FILE *file, const void *content)
@@ -68,7 +55,7 @@ static OstStatus write_csv(FILE *file, const void *content)
         ost_scale_sent(run, &messages, &bytes);
         fprintf(file, "%d,%.17g,%d,%d,%s,", run->ranks, run->target, run->is_strong, run->is_weak,
                 ost_scale_state_word[run->state]);
-        write_text(file, run->reason);
+        ost_csv_text(file, run->reason);
         fprintf(file, ",%d", run->crowded);
 #define CELL(name, make_json) write_number(file, done, (double)run->name);
 #define COUNT_CELL(name)                      \

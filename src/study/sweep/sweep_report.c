@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+enum { WIDEST_KEY = 18 };
 
 /* A value as a number, where it is one. */
 static int read_number(const char *text, double *number)
@@ -22,8 +25,11 @@ void ost_sweep_print(const OstSweep *sweep)
     if (ost_rank(sweep->ctx) != 0)
         return;
     printf("%s: %d run%s\n", sweep->path, sweep->run_count, sweep->run_count == 1 ? "" : "s");
-    for (int k = 0; k < sweep->key_count; k++)
-        printf("  %18.18s", sweep->key[k].key);
+    for (int k = 0; k < sweep->key_count; k++) { /* of a long key its end, in which keys differ */
+        const char *key = sweep->key[k].key;
+        const size_t length = strlen(key);
+        printf("  %18s", length > WIDEST_KEY ? key + length - WIDEST_KEY : key);
+    }
     printf(" %14s %14s %9s %7s", "largest |u|", "strain energy", "off by", "Newton");
     for (int w = 0; w < sweep->watch_count; w++)
         printf(" %14.14s", sweep->watch[w]);
@@ -48,30 +54,18 @@ void ost_sweep_print(const OstSweep *sweep)
     }
 }
 
-/* In quotes; quotes within the text are doubled. */
-static void write_text(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
-}
-
 static OstStatus write_rows(FILE *file, const void *content)
 {
     const OstSweep *sweep = content;
     for (int k = 0; k < sweep->key_count; k++) {
-        write_text(file, sweep->key[k].key);
+        ost_csv_text(file, sweep->key[k].key);
         fputc(',', file);
     }
     fputs("answered,largest_displacement,strain_energy,relative_error,unknowns,newton_iterations,iterations,seconds",
           file);
     for (int w = 0; w < sweep->watch_count; w++) {
         fputc(',', file);
-        write_text(file, sweep->watch[w]);
+        ost_csv_text(file, sweep->watch[w]);
     }
     fputc('\n', file);
     for (int r = 0; r < sweep->run_count; r++) {
@@ -81,24 +75,20 @@ static OstStatus write_rows(FILE *file, const void *content)
             if (read_number(run->value[k], &number))
                 fputs(run->value[k], file);
             else
-                write_text(file, run->value[k]);
+                ost_csv_text(file, run->value[k]);
             fputc(',', file);
         }
         if (run->failure) {
             fputs("0,,,,,,", file);
             fprintf(file, ",%.6g", run->seconds);
         } else {
-            fprintf(file, "1,%.17g,%.17g,", run->largest_displacement, run->strain_energy);
-            if (isfinite(run->relative_error))
-                fprintf(file, "%.17g", run->relative_error);
+            fprintf(file, "1,%.17g,%.17g", run->largest_displacement, run->strain_energy);
+            ost_csv_number(file, run->relative_error);
             fprintf(file, ",%lld,%d,%d,%.6g", (long long)run->unknowns, run->newton_iterations, run->iterations,
                     run->seconds);
         }
         for (int w = 0; w < sweep->watch_count; w++)
-            if (run->failure || !isfinite(run->watched[w]))
-                fputc(',', file);
-            else
-                fprintf(file, ",%.17g", run->watched[w]);
+            ost_csv_number(file, run->failure ? NAN : run->watched[w]);
         fputc('\n', file);
     }
     return OST_SUCCESS;

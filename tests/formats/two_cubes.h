@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_TESTS_FORMATS_TWO_CUBES_H
+#define ORTHOSTAT_TESTS_FORMATS_TWO_CUBES_H
+
+#include "mesh/mesh_data.h"
+#include "support.h"
+
+/* The stored meshes: two cubes, [0, 2] × [0, 1]². */
+
+static double centre_x(const OstMeshChunk *chunk, OstLocal tet)
+{
+    const OstGlobal *nodes = chunk->tet_nodes + (size_t)tet * (size_t)chunk->nodes_per_tet;
+    double x = 0.0;
+    for (int v = 0; v < 4; v++)
+        x += chunk->coordinates[3 * nodes[v]] / 4.0;
+    return x;
+}
+
+static double volume_of(const OstMeshChunk *chunk, const OstGlobal *nodes)
+{
+    double e[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int d = 0; d < 3; d++)
+            e[i][d] = chunk->coordinates[3 * nodes[i + 1] + d] - chunk->coordinates[3 * nodes[0] + d];
+    return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+            e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+           6.0;
+}
+
+/* Tets fill both cubes. Those of each are in the region of its name, if there is one. */
+static void check_cubes(const OstMeshChunk *chunk, const char *left, const char *right)
+{
+    double volume[2] = {0.0, 0.0};
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const double x = centre_x(chunk, t);
+        volume[x > 1.0] += volume_of(chunk, chunk->tet_nodes + (size_t)t * (size_t)chunk->nodes_per_tet);
+        if (left)
+            assert_string_equal(chunk->regions.name[chunk->tet_region[t]], x > 1.0 ? right : left);
+    }
+    assert_close(volume[0], 1.0, 1e-12);
+    assert_close(volume[1], 1.0, 1e-12);
+}
+
+#endif
