@@ -479,29 +479,6 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     return status;
 }
 
-/* What is known before a solve. */
-static void open_report(const OstSolver *solver, OstSolveReport *report)
-{
-    memset(report, 0, sizeof *report);
-    report->plan = solver->plan;
-    report->nonzeros = solver->nonzeros;
-    report->steps = solver->steps;
-    memcpy(report->step, solver->step, sizeof solver->step);
-}
-
-OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
-{
-    open_report(solver, report);
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds();
-    const double setup = solver->setup_seconds;
-    const OstStatus status = solve(solver, f, u, report);
-    report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
-    ost_ledger_leave(solver->ctx);
-    return status;
-}
-
 /* f and u have been divided by `size`: so are g and p. */
 static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                              OstSolveReport *report)
@@ -534,17 +511,33 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
     return status;
 }
 
-OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
-                                 OstSolveReport *report)
+/* `saddle`: NULL without a mixed form. */
+static OstStatus solve_in_time(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                               OstSolveReport *report)
 {
-    open_report(solver, report);
+    memset(report, 0, sizeof *report);
+    report->plan = solver->plan;
+    report->nonzeros = solver->nonzeros;
+    report->steps = solver->steps;
+    memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     const double start = ost_seconds(), setup = solver->setup_seconds;
-    const OstStatus status = solve_mixed(solver, saddle, f, u, report);
+    const OstStatus status = saddle ? solve_mixed(solver, saddle, f, u, report) : solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
+}
+
+OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    return solve_in_time(solver, NULL, f, u, report);
+}
+
+OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                                 OstSolveReport *report)
+{
+    return solve_in_time(solver, saddle, f, u, report);
 }
 
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,
