@@ -20,6 +20,7 @@ void ost_complement_clear(OstComplement *complement)
     ost_halo_destroy(&complement->face_halo);
     OST_FREE(complement->support);
     OST_FREE(complement->projector);
+    OST_FREE(complement->turned);
 }
 
 int ost_complement_per_tet(const OstComplement *complement)
@@ -170,12 +171,28 @@ OstStatus ost_complement_import(const OstComplement *complement, double *values)
     return ost_halo_import(complement->face_halo, 3 * sizeof *values, values + 3 * (size_t)complement->edges.count);
 }
 
+static OstStatus find_turns(OstComplement *complement)
+{
+    const OstMesh *mesh = complement->mesh;
+    if (mesh->nodes_per_tet != 10)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(mesh->ctx, &complement->turned, mesh->tet_count));
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+        for (int e = 0; e < 6; e++)
+            if (ost_complement_turn(mesh, nodes[ost_tet_edge[e][0]], nodes[ost_tet_edge[e][1]]) < 0.0)
+                complement->turned[tet] |= (unsigned char)(1U << e);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_complement_create(const OstMesh *mesh, const OstSupports *supports, OstComplement *complement)
 {
     *complement = (OstComplement){.mesh = mesh};
     OstStatus status = ost_edge_table_build(mesh, &complement->edges);
     if (status == OST_SUCCESS && mesh->nodes_per_tet == 10)
         status = ost_face_table_build(mesh, &complement->edges, &complement->faces);
+    OST_THEN(find_turns(complement));
     OST_TRY(ost_agree(mesh->ctx, status));
     complement->count = complement->edges.count + complement->faces.count;
     complement->owned_edges = complement->edges.start[mesh->owned_nodes];

@@ -22,7 +22,8 @@ typedef struct OstComplement {
     struct OstHalo *edge_halo, *face_halo;
     OstLocal *support; /* count: index of its projector, or -1: it is free */
     OstLocal support_count;
-    double *projector; /* 9 for each */
+    double *projector;     /* 9 for each */
+    unsigned char *turned; /* of each quadratic tet: bit e, if edge e of it is taken from b to a; else NULL */
 } OstComplement;
 
 /* Collective. A function is constrained in the directions in which all nodes of a face of the surface are, if it does
@@ -48,6 +49,12 @@ static inline int ost_complement_owns(const OstComplement *complement, OstLocal 
 static inline double ost_complement_turn(const OstMesh *mesh, OstLocal a, OstLocal b)
 {
     return mesh->nodes_per_tet == 10 && mesh->node_number[a] > mesh->node_number[b] ? -1.0 : 1.0;
+}
+
+/* Local. The same of edge e of a tet. */
+static inline double ost_complement_turn_of(const OstComplement *complement, OstLocal tet, int e)
+{
+    return complement->turned && complement->turned[tet] >> e & 1 ? -1.0 : 1.0;
 }
 
 /* Collective. Gives ghosts their owners' values, 3 numbers a function. */

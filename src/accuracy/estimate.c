@@ -14,11 +14,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Of |e|_A²: steps end where the last gain is below the first share, or below the second if gains have not fallen by
- * the third in two steps (as those of nearly incompressible linear tets, which lock), and where what is to come changes
- * the sum by less than the fourth. Gains are taken to fall by no less than the ratio. */
-static const double small_gain = 0.2, lasting_gain = 0.05, fallen = 0.4, settled = 0.03, largest_ratio = 0.75;
-enum { most_steps = 24 };
+/* Steps end when what is to come is below the first share of |e|_A². Gains of pairs of steps are taken to fall by no
+ * less than the ratio. On linear tets that lock they fall, and then stay for long: there the last one is to be below
+ * the second share, too. */
+static const double small_rest = 0.25, small_gain = 0.115, largest_ratio = 0.75;
+
+/* The share where errors of other loads gave a start, and what one pair of steps may add to that to be the last. */
+static const double small_rest_of_start = 0.05, little_new = 0.03;
+
+enum { most_pairs = 12 };
 
 struct OstEstimate {
     const OstProblem *problem;
@@ -101,6 +105,8 @@ typedef struct Search {
     double *r, *z, *p, *q, *e;
     double *u, *force; /* of nodes: a displacement, and forces on it */
     double longer;     /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double energy;     /* of this rank's tets, under u; NAN: not known */
+    int turns;         /* directions found so far */
     int failed;        /* is the preconditioner, or the stiffness, not positive definite? */
 } Search;
 
@@ -157,19 +163,20 @@ static OstStatus multiply(Search *search)
     return take_rows(search, search->q);
 }
 
-/* z = B r */
+/* z = B r. The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid
+ * cycle takes as long as several products with A. On quadratic tets, where that is most of the time, the first pair of
+ * steps is without. */
 static OstStatus precondition(Search *search)
 {
     const OstComplement *complement = &search->estimate->complement;
     const double *r = search->r + search->rows;
     double *z = search->z + search->rows;
-    double residual = 0.0;
     int found = 1;
-    for (size_t i = 0; i < search->rows; i++)
-        residual += search->r[i] * search->r[i];
-    OST_TRY(ost_sum(search->estimate->problem->ctx, 1, &residual));
-    if (residual > 0.0) /* linear tets begin without one */
+    const int first = complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = search->turns++;
+    if (turn >= first && (turn - first) % 2 == 0)
         OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
+    else
+        memset(search->z, 0, search->rows * sizeof *search->z);
     search->failed = !found;
     for (size_t k = 0; k < (size_t)complement->count; k++)
         if (ost_complement_owns(complement, (OstLocal)k))
@@ -208,35 +215,61 @@ static OstStatus turn(Search *search, double gain, double *weight)
     return OST_SUCCESS;
 }
 
-/* What all steps after this one would add to |e|_A², if gains go on falling as from the last to this. */
+/* What all pairs of steps after this one would add to |e|_A², if gains go on falling as from the last to this. */
 static double gains_to_come(double gain, double last)
 {
     const double ratio = last > 0.0 ? fmin(gain / last, largest_ratio) : 0.0;
     return gain * ratio / (1.0 - ratio);
 }
 
-/* Steps until |e|_A² with what is to come settles; `start` is that of the part of e that was found before. */
+/* Two steps, of which at most one takes a multigrid cycle. `of_step`: what the last one added. */
+static OstStatus take_pair(Search *search, double *weight, double *of_step, double *gain)
+{
+    *gain = 0.0;
+    for (int k = 0; k < 2 && !search->failed; k++) {
+        OST_TRY(turn(search, *of_step, weight));
+        if (search->failed || !(*weight > 0.0))
+            break;
+        OST_TRY(go_on(search, *weight, of_step));
+        *gain += *of_step;
+    }
+    return OST_SUCCESS;
+}
+
+/* Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found before. */
 static OstStatus iterate(Search *search, double start, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    double weight = 0.0, gain = 0.0, last = 0.0, sum = start;
+    const int is_quadratic = search->estimate->problem->mesh->nodes_per_tet == 10;
+    double weight = 0.0, of_step = 0.0, gain = 0.0, sum = start;
     *square = start;
-    OST_TRY(turn(search, 0.0, &weight));
-    for (int k = 0; k < most_steps && weight > 0.0 && !search->failed; k++) {
-        const double before_last = last, before = *square;
-        last = gain;
-        OST_TRY(go_on(search, weight, &gain));
+    search->turns = 0;
+    for (int k = 1; k <= most_pairs && !search->failed; k++) {
+        const double last = gain;
+        OST_TRY(take_pair(search, &weight, &of_step, &gain));
         sum += gain;
-        *square = sum + gains_to_come(gain, last);
-        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", k + 1, sqrt(sum),
-                sqrt(*square - sum));
-        const double small = gain < fallen * before_last ? small_gain : lasting_gain;
-        if (search->failed ||
-            ((k > 0 || start > 0.0) && gain <= small * sum && fabs(*square - before) <= settled * *square))
+        const double to_come = gains_to_come(gain, last);
+        *square = sum + to_come;
+        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k, sqrt(sum),
+                sqrt(to_come));
+        const int falls = to_come <= (start > 0.0 ? small_rest_of_start : small_rest) * *square &&
+                          (is_quadratic || gain <= small_gain * sum);
+        const int known = start > 0.0 && gain <= little_new * sum;
+        if (!(gain > 0.0) || (k > 1 ? falls : known))
             break;
-        OST_TRY(turn(search, gain, &weight));
     }
     search->longer = sum > 0.0 ? *square / sum : 1.0;
+    return OST_SUCCESS;
+}
+
+/* What is left on the elements' own unknowns, once more: few steps have little of a displacement far from where its
+ * error is made. */
+static OstStatus settle(Search *search)
+{
+    int found = 0;
+    OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
+    for (size_t i = 0; i < search->rows && found; i++)
+        search->e[i] += search->z[i];
     return OST_SUCCESS;
 }
 
@@ -256,8 +289,9 @@ static OstStatus find_residual(Search *search, double t, const double *u)
     const OstEstimate *estimate = search->estimate;
     const OstProblem *problem = estimate->problem;
     const OstComplement *complement = &estimate->complement;
-    double *of_functions = search->r + search->rows, *own = NULL;
-    ost_operator_force(&estimate->stiffness, t, u, search->force, of_functions);
+    double *of_functions = search->r + search->rows;
+    OST_TRY(ost_agree(problem->ctx,
+                      ost_operator_force(&estimate->stiffness, t, u, search->force, of_functions, &search->energy)));
     for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
         of_functions[i] = -of_functions[i];
     ost_surplus_loads_add(&estimate->loads, problem, complement, t, u, of_functions);
@@ -265,17 +299,7 @@ static OstStatus find_residual(Search *search, double t, const double *u)
         if (!ost_complement_owns(complement, (OstLocal)k))
             memset(of_functions + 3 * k, 0, 3 * sizeof *of_functions);
     ost_complement_project(complement, of_functions);
-    OstStatus status = OST_SUCCESS;
-    if (problem->mesh->nodes_per_tet == 4 && !problem->field->region_formula) /* the same quadrature: r is 0 */
-        return OST_SUCCESS;
-    OST_THEN(OST_NEW(problem->ctx, &own, 3 * (size_t)problem->mesh->owned_nodes));
-    OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation,
-                                   ost_problem_eigen_share(problem, t), u, own, NULL));
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes && status == OST_SUCCESS; i++)
-        search->force[i] = own[i] - search->force[i];
-    OST_FREE(own);
-    status = ost_agree(problem->ctx, status);
-    return status == OST_SUCCESS ? take_rows(search, search->r) : status;
+    return take_rows(search, search->r);
 }
 
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
@@ -291,7 +315,12 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
         most[1] = fmax(most[1], ost_norm3(better));
     }
     OST_TRY(ost_max(problem->ctx, 2, most));
-    OST_TRY(ost_problem_energy(problem, t, u, &energy));
+    if (isnan(search->energy)) {
+        OST_TRY(ost_problem_energy(problem, t, u, &energy));
+    } else {
+        energy = search->energy;
+        OST_TRY(ost_sum(problem->ctx, 1, &energy));
+    }
     found->energy_norm = sqrt(square);
     found->relative = square > 0.0 ? sqrt(square / (square + 2.0 * energy)) : 0.0;
     found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
@@ -338,7 +367,9 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
     OST_THEN(has_earlier ? iterate_from(&search, &square) : iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.failed) {
-        status = compare(&search, t, u, square, found);
+        if (surplus)
+            status = settle(&search);
+        OST_THEN(compare(&search, t, u, square, found));
         if (tet_error)
             OST_THEN(share(&search, square, tet_error));
         if (surplus)

@@ -9,7 +9,11 @@
 #include "element/shape_functions.h"
 #include "problem/boundary_conditions.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Mid-edge nodes are on their edges within this share of the coordinates. */
+static const double straight = 1e-12;
 
 /* --- integrals over one face, and over one tet --- */
 
@@ -91,17 +95,52 @@ static OstStatus load_faces(const OstComplement *complement, OstLocal count, int
     return OST_SUCCESS;
 }
 
+static void add_to_tet(const OstComplement *complement, OstLocal tet, double weight, const double *values,
+                       const double density[3], double *force)
+{
+    OstLocal function[OST_MAX_FUNCTIONS];
+    ost_complement_of_tet(complement, tet, function);
+    for (int k = 0; k < ost_complement_per_tet(complement); k++) {
+        const double turn = k < 6 ? ost_complement_turn_of(complement, tet, k) : 1.0;
+        add(complement, function[k], turn * weight * values[k], density, force);
+    }
+}
+
+static int is_straight(const OstMesh *mesh, const OstLocal *nodes)
+{
+    const double *x = mesh->coordinates;
+    for (int e = 0; e < 6 && mesh->nodes_per_tet == 10; e++) {
+        const double *a = x + 3 * (size_t)nodes[ost_tet_edge[e][0]], *b = x + 3 * (size_t)nodes[ost_tet_edge[e][1]];
+        for (int i = 0; i < 3; i++)
+            if (fabs(x[3 * (size_t)nodes[4 + e] + (size_t)i] - 0.5 * (a[i] + b[i])) > straight * fabs(a[i] + b[i]))
+                return 0;
+    }
+    return 1;
+}
+
+/* A uniform force per volume on a straight tet: the means of the functions are 1/5 on an edge of linear tets, 0 on one
+ * of quadratic tets, and 27/120 on a face. */
+static void load_tet_evenly(const OstComplement *complement, OstLocal tet, const double density[3], double *force)
+{
+    static const double linear[6] = {0.2, 0.2, 0.2, 0.2, 0.2, 0.2};
+    static const double quadratic[OST_MAX_FUNCTIONS] = {[6] = 0.225, 0.225, 0.225, 0.225};
+    const OstMesh *mesh = complement->mesh;
+    const double volume = fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
+    add_to_tet(complement, tet, volume, mesh->nodes_per_tet == 10 ? quadratic : linear, density, force);
+}
+
 /* A force per volume: `vector`, or the closed form's. */
 static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const double vector[3],
                           const OstClosedForm *exact, double *force)
 {
     const OstMesh *mesh = complement->mesh;
     const int n = mesh->nodes_per_tet;
-    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-    OstLocal function[OST_MAX_FUNCTIONS];
     double x[3 * OST_MAX_TET_NODES], shape[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
-    ost_complement_of_tet(complement, tet, function);
-    ost_gather3(n, nodes, mesh->coordinates, x);
+    if (!exact && is_straight(mesh, ost_mesh_nodes_of(mesh, tet))) {
+        load_tet_evenly(complement, tet, vector, force);
+        return OST_SUCCESS;
+    }
+    ost_gather3(n, ost_mesh_nodes_of(mesh, tet), mesh->coordinates, x);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
         double values[OST_MAX_FUNCTIONS], place[3], density[3] = {vector[0], vector[1], vector[2]};
@@ -112,11 +151,7 @@ static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const d
             OST_TRY(exact->body_force(exact->data, place, density));
         }
         ost_complement_values(n == 10, point->at, values);
-        for (int k = 0; k < ost_complement_per_tet(complement); k++) {
-            const int *edge = ost_tet_edge[k < 6 ? k : 0];
-            const double turn = k < 6 ? ost_complement_turn(mesh, nodes[edge[0]], nodes[edge[1]]) : 1.0;
-            add(complement, function[k], turn * weight * values[k], density, force);
-        }
+        add_to_tet(complement, tet, weight, values, density, force);
     }
     return OST_SUCCESS;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
+#include "accuracy/straight.h"
 #include "assembly/batch.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -10,6 +11,7 @@
 #include "element/shape_functions.h"
 #include "element/strain_batch.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
@@ -21,6 +23,7 @@ typedef struct Cells {
     const OstQuadrature *rule;
     int points; /* at which C is needed */
     int state;  /* forces of a state, which may have a pressure; else those of a small displacement */
+    int straight;
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
     const double *turned_by; /* as the operator's; then its displacements */
@@ -38,6 +41,7 @@ static void clear_cells(const OstOperator *operator, int exactly, double eigen_s
     cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
     cells->state = exactly;
     ost_elasticity_clear(&cells->batch.elasticity);
+    cells->batch.elasticity.stretch_suffices = cells->nodes == 4 && !exactly && !operator->turned_by;
     cells->batch.elasticity.eigen_share = eigen_share;
 }
 
@@ -69,15 +73,17 @@ static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Ce
         memcpy(batch->node[slot], nodes, (size_t)cells->nodes * sizeof *nodes);
         ost_complement_of_tet(operator->complement, tet, cells->function[slot]);
         for (int k = 0; k < cells->functions; k++)
-            cells->turn[k][slot] =
-                k < 6 ? ost_complement_turn(mesh, nodes[ost_tet_edge[k][0]], nodes[ost_tet_edge[k][1]]) : 1.0;
+            cells->turn[k][slot] = k < 6 ? ost_complement_turn_of(operator->complement, tet, k) : 1.0;
     }
     ost_batch_gather_vectors(batch, cells->nodes, mesh->coordinates, batch->x);
+    cells->straight = cells->nodes == 4 || ost_straight_all(batch->x);
     if (cells->turned_by)
         ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
     if (field->region_formula && cells->points > 0)
         find_places(cells, places);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
+    if (batch->elasticity.about_line)
+        ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
 }
 
 static void gather_functions(const Cells *cells, const double *values, OstSimd *gathered)
@@ -90,16 +96,20 @@ static void gather_functions(const Cells *cells, const double *values, OstSimd *
         }
 }
 
-static void scatter(const OstOperator *operator, const Cells * cells, const OstSimd *at_nodes,
-                    const OstSimd *at_functions, double *force, double *of_functions)
+static void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const OstSimd *at_nodes, double *force)
 {
-    const OstLocal owned = operator->problem->mesh->owned_nodes;
-    for (int slot = 0; slot < cells->batch.count; slot++) {
-        for (int a = 0; a < cells->nodes; a++) {
-            const OstLocal node = cells->batch.node[slot][a];
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int a = 0; a < nodes; a++) {
+            const OstLocal node = batch->node[slot][a];
             for (int i = 0; i < 3 && node < owned; i++)
                 force[3 * (size_t)node + (size_t)i] += at_nodes[3 * a + i][slot];
         }
+}
+
+static void add_to_functions(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
+                             double *of_functions)
+{
+    for (int slot = 0; slot < cells->batch.count; slot++)
         for (int k = 0; k < cells->functions; k++) {
             const OstLocal function = cells->function[slot][k];
             if (!ost_complement_owns(operator->complement, function))
@@ -107,7 +117,6 @@ static void scatter(const OstOperator *operator, const Cells * cells, const OstS
             for (int i = 0; i < 3; i++)
                 of_functions[3 * (size_t)function + (size_t)i] += cells->turn[k][slot] * at_functions[3 * k + i][slot];
         }
-    }
 }
 
 /* The gradients at a point, with its volume. */
@@ -148,7 +157,10 @@ static void find_stress(const Cells *cells, OstFormulation formulation, int q, c
     OstSimd elastic[6], stress[6];
     OstPolar polar;
     find_strain(cells, formulation, q, slope, &polar, elastic);
-    ost_simd_stress(elasticity->c[at], elastic, stress);
+    if (elasticity->by_stretch)
+        ost_stretch_stress(elasticity->stretch_tensor, elasticity->shear, elastic, stress);
+    else
+        ost_simd_stress(elasticity->c[at], elastic, stress);
     for (int p = 0; p < 6 && elasticity->by_mean; p++)
         stress[p] += *mean * elasticity->m[at][p];
     if (elasticity->mixed && cells->state) {
@@ -312,6 +324,14 @@ static void forces_of_linear(const Cells *cells, const OstElement *element, cons
         add_along(sum, point.gradient[a], at_nodes + 3 * a);
 }
 
+/* Has the stress no part but C times the strain of linear theory? */
+static int is_plain(const Cells *cells, OstFormulation formulation)
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    return formulation == OST_FORMULATION_LINEAR && !cells->turned_by && !elasticity->by_mean &&
+           !(cells->state && (elasticity->mixed || elasticity->eigenstrained));
+}
+
 /* Forces of a batch by the quickest way; w may be NULL. */
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
@@ -320,41 +340,114 @@ static void find_forces(const Cells *cells, const OstElement *element, OstFormul
                           formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
     if (is_simple)
         forces_of_linear(cells, element, u, w, at_nodes, at_functions);
+    else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
+        ost_straight_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
         forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
 }
 
-static void sum_forces(const OstOperator *operator, OstFormulation formulation, double eigen_share, const double *u,
-                       const double *w, double *force, double *of_functions)
+/* The part of the work of a batch's nodal forces that is this rank's. */
+static double work_of(const Cells *cells, OstLocal owned_tets, const OstSimd *moved, const OstSimd *at_nodes)
+{
+    OstSimd work = {0};
+    double sum = 0.0;
+    for (int n = 0; n < 3 * cells->nodes; n++)
+        work += (moved[n] - moved[n % 3]) * at_nodes[n];
+    for (int slot = 0; slot < cells->batch.count; slot++)
+        sum += cells->batch.tet[slot] < owned_tets ? work[slot] : 0.0;
+    return sum;
+}
+
+/* Adds the forces of linear theory by the elements' own quadrature. */
+static void add_own(const OstOperator *operator, const Cells * cells, const OstElement *element, const double *u,
+                    double *force)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS];
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = cells->batch.elasticity.eigen_share;
+    ost_batch_gather(&batch, element, mesh, operator->problem->field, cells->batch.count, cells->batch.tet);
+    ost_batch_gather_vectors(&batch, cells->nodes, u, moved);
+    element->force(batch.x, &batch.elasticity, moved, at_nodes);
+    add_to_nodes(&batch, cells->nodes, mesh->owned_nodes, at_nodes, force);
+}
+
+/* What the forces are wanted for. */
+typedef struct Sum {
+    OstFormulation formulation;
+    double eigen_share;
+    const double *u, *w; /* w: NULL for a state */
+    int missing;         /* on nodes: what the elements' own quadrature has more, by linear theory */
+    double work;         /* found: of the nodal forces on u */
+    double *force, *of_functions;
+} Sum;
+
+static void sum_forces(const OstOperator *operator, Sum * sum)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
-    memset(of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * of_functions);
-    clear_cells(operator, !w, eigen_share, &cells);
+    memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
+    memset(sum->of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * sum->of_functions);
+    clear_cells(operator, !sum->w, sum->eigen_share, &cells);
+    sum->work = 0.0;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
         gather(operator, first, mesh->tet_count, &cells);
-        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
-        if (w)
-            gather_functions(&cells, w, more);
-        find_forces(&cells, element, formulation, moved, w ? more : NULL, at_nodes, at_functions);
-        scatter(operator, & cells, at_nodes, at_functions, force, of_functions);
+        ost_batch_gather_vectors(&cells.batch, cells.nodes, sum->u, moved);
+        if (sum->w)
+            gather_functions(&cells, sum->w, more);
+        find_forces(&cells, element, sum->formulation, moved, sum->w ? more : NULL, at_nodes, at_functions);
+        add_to_functions(operator, & cells, at_functions, sum->of_functions);
+        if (!sum->w)
+            sum->work += work_of(&cells, mesh->owned_tets, moved, at_nodes);
+        if (sum->missing && cells.straight && cells.batch.elasticity.points == 1)
+            continue; /* both integrate without error */
+        for (int n = 0; n < 3 * cells.nodes && sum->missing; n++)
+            at_nodes[n] = -at_nodes[n];
+        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, sum->force);
+        if (sum->missing)
+            add_own(operator, & cells, element, sum->u, sum->force);
     }
 }
 
-void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions)
+OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
+                             double *of_functions, double *energy)
 {
     const OstProblem *problem = operator->problem;
     const OstOperator unturned = {problem, operator->complement, NULL};
-    sum_forces(&unturned, problem->formulation, ost_problem_eigen_share(problem, t), u, NULL, force, of_functions);
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    double *own = NULL;
+    const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
+    Sum sum = {.formulation = problem->formulation,
+               .eigen_share = ost_problem_eigen_share(problem, t),
+               .u = u,
+               .missing = is_linear,
+               .force = missing,
+               .of_functions = of_functions};
+    sum_forces(&unturned, &sum);
+    const int tells = is_linear && !problem->pressures && !problem->supports->spring && sum.eigen_share == 0.0;
+    *energy = tells ? 0.5 * sum.work : NAN;
+    if (is_linear)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(problem->ctx, &own, numbers));
+    OstStatus status =
+        ost_internal_force_of(problem->mesh, problem->field, problem->formulation, sum.eigen_share, u, own, NULL);
+    for (size_t i = 0; i < numbers && status == OST_SUCCESS; i++)
+        missing[i] = own[i] - missing[i];
+    OST_FREE(own);
+    return status;
 }
 
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
                         double *of_functions)
 {
-    sum_forces(operator, OST_FORMULATION_LINEAR, 0.0, u, w, force, of_functions);
+    sum_forces(operator, &(Sum){.formulation = OST_FORMULATION_LINEAR,
+                                .u = u,
+                                .w = w,
+                                .force = force,
+                                .of_functions = of_functions});
 }
 
 void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy)
@@ -477,11 +570,14 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
     Cells cells;
     memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
     clear_cells(operator, 0, 0.0, &cells);
+    cells.batch.elasticity.stretch_suffices = 0;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);
         if (cells.nodes == 4 && cells.batch.elasticity.points == 1)
             add_linear_blocks(&cells, element, block);
+        else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
+            ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else
             add_blocks(&cells, element, block);
         if (cells.turned_by)

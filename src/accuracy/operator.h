@@ -14,8 +14,11 @@ typedef struct OstOperator {
         *turned_by; /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
 } OstOperator;
 
-/* Local. The internal forces at t of the displacement u of the nodes. */
-void ost_operator_force(const OstOperator *operator, double t, const double *u, double *force, double *of_functions);
+/* Local. The internal forces on the functions at t of the displacement u of the nodes. On the nodes: by how much those
+ * of the elements' own quadrature are larger (3 × owned_nodes). energy: of this rank's tets, or NAN where the forces do
+ * not tell. */
+OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
+                             double *of_functions, double *energy);
 
 /* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body.
  * (What the stress adds to it is left out: so it is definite.) */

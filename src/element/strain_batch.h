@@ -48,6 +48,27 @@ static inline void ost_simd_stress(const OstSimd *c, const OstSimd strain[6], Os
     }
 }
 
+/* The same of the stable family, from its stretch tensor A (elasticity.h): C strain = (1 - 2 shear) A (A : strain) + 2
+ * shear A strain A. */
+static inline void ost_stretch_stress(const OstSimd a[6], double shear, const OstSimd strain[6], OstSimd stress[6])
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    OstSimd half[9], bulk = {0};
+    for (int p = 0; p < 6; p++)
+        bulk += (1.0 - 2.0 * shear) * a[p] * strain[p];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            half[3 * i + j] = (OstSimd){0};
+            for (int k = 0; k < 3; k++) /* engineering shear */
+                half[3 * i + j] += (k == j ? 2.0 : 1.0) * shear * a[place[i][k]] * strain[place[k][j]];
+        }
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
+        stress[p] = bulk * a[p] + half[3 * i] * a[place[0][j]] + half[3 * i + 1] * a[place[1][j]] +
+                    half[3 * i + 2] * a[place[2][j]];
+    }
+}
+
 /* force = B_a' stress, with B_a the node's three columns of B. */
 static inline void ost_force_of_stress(const OstSimd g[3], const OstSimd stress[6], OstSimd force[3])
 {

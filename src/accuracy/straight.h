@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_STRAIGHT_H
+#define ORTHOSTAT_ACCURACY_STRAIGHT_H
+
+#include "accuracy/complement.h"
+
+/* Quadratic tets with straight edges, by linear theory: gradients of barycentric coordinates are constants there, and
+ * strains are polynomials of degree 2. Curved ones are taken for straight, but for what a linear displacement needs,
+ * which has a uniform strain in them too: good enough for the stiffness, not for the forces of a state. */
+
+/* Local. Is each tet of the batch straight? x: 10 nodes. */
+int ost_straight_all(const OstSimd *x);
+
+/* Local. Forces of a displacement u of the nodes, and w of the functions, which are taken in the edges' own order; w
+ * may be NULL. `rule` has the points of C if it varies. */
+void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
+                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions);
+
+/* Local. The functions' own 3×3 blocks of the stiffness with a uniform C. */
+void ost_straight_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd block[OST_MAX_FUNCTIONS][9]);
+
+#endif
