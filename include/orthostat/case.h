@@ -24,6 +24,10 @@ OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const
  * stands in messages, and files that the case names are relative to its folder; there need be no such file. */
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **out);
 
+/* Collective. The same, changed as by ost_case_read_with. */
+OstStatus ost_case_parse_with(OstContext *ctx, const char *path, const char *text, int count,
+                              const char *const *settings, OstCase **out);
+
 void ost_case_destroy(OstCase **c);
 
 /* Local. The load cases (`cases`): how many, 0 if there are none; and one of them by number from 0, which is a case of

@@ -8,7 +8,7 @@
 docs/python.md shows what there is. Functions and methods marked collective are called by all ranks, in the same order.
 """
 from ._location import VERSION as __version__
-from .case import Case, LoadCases, Scene, solve
+from .case import Case, LoadCases, Scene, Sweep, solve, sweep
 from .context import Context
 from .errors import (CheckFailed, FileFailed, InvalidInput, LibraryFailed, LimitExceeded, NotConverged, OrthostatError,
                      OrthostatWarning, OutOfMemory)
@@ -18,5 +18,5 @@ from .problem import Analysis, Path, Problem
 from .result import Result
 
 __all__ = ["Analysis", "Case", "CheckFailed", "Context", "FileFailed", "InvalidInput", "LibraryFailed", "LimitExceeded",
-           "LoadCases",           "Material", "Mesh", "MeshArrays", "MeshFile", "NotConverged", "OrthostatError", "OrthostatWarning",
-           "OutOfMemory", "Path", "Problem", "Result", "Scene", "solve"]
+           "LoadCases", "Material", "Mesh", "MeshArrays", "MeshFile", "NotConverged", "OrthostatError", "OrthostatWarning",
+           "OutOfMemory", "Path", "Problem", "Result", "Scene", "Sweep", "solve", "sweep"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cases, and the scenes they make."""
+import itertools
 import json
 import math
 import os
@@ -31,12 +32,18 @@ def _text_of(sections):
     return "{" + ",\n".join(f"{json.dumps(key)}: {json.dumps(_plain(value))}" for key, value in sections.items()) + "\n}\n"
 
 
+def _value(value):
+    """A value of a setting as the case's text."""
+    value = _plain(value)
+    return value if isinstance(value, str) else "free" if value is None else json.dumps(value)
+
+
 class Case:
     """A case, read from a file, from text, or from a dict of the same keys.
 
     source: a path; a text (a str with a line break or ": "); or a dict, in which arrays of numpy may stand for lists,
     and None for the case's word `free`.
-    settings: of a file, {key: value}, changed as by the program's --set KEY=VALUE.
+    settings: {key: value}, changes as by the program's --set KEY=VALUE.
     name: what messages call a text or a dict; files that it names are relative to the folder of this name.
     """
 
@@ -44,12 +51,11 @@ class Case:
         self.context = context_of(comm)
         box = self.context.box("OstCase")
         source = _text_of(source) if isinstance(source, dict) else source
+        texts = [ffi.new("char[]", f"{key}={_value(value)}".encode()) for key, value in (settings or {}).items()]
         if isinstance(source, str) and ("\n" in source or ": " in source):
-            if settings:
-                raise ValueError("settings are for files; a text or a dict is changed before it is handed over")
-            status = lib.ost_case_parse(self.context.pointer, os.fspath(name).encode(), source.encode(), box)
+            status = lib.ost_case_parse_with(self.context.pointer, os.fspath(name).encode(), source.encode(), len(texts),
+                                             texts, box)
         else:
-            texts = [ffi.new("char[]", f"{key}={value}".encode()) for key, value in (settings or {}).items()]
             status = lib.ost_case_read_with(self.context.pointer, os.fspath(source).encode(), len(texts), texts, box)
         self.context.check(status)
         self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_case_destroy)
@@ -195,6 +201,43 @@ class LoadCases:
         except OrthostatError as error:
             error.args = (f"load case '{self.cases[number][0]}': {error.args[0]}",)
             raise
+
+
+class Sweep:
+    """A case for several values of some of its keys, each combined with each: `for values, result in sweep` solves one
+    after another, with `values` a dict of the keys. After a failure, which has `values` too, one may go on."""
+
+    def __init__(self, source, over, mesh=None, comm=None, **limits):
+        self.source, self.mesh, self.comm, self.limits = source, mesh, comm, limits
+        over = {key: list(values) for key, values in over.items()}
+        self.all = [dict(zip(over, values)) for values in itertools.product(*over.values())]
+        self.done = 0
+
+    def __len__(self):
+        return len(self.all)
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        """Collective. Solves for the next values."""
+        if self.done == len(self.all):
+            raise StopIteration
+        values = self.all[self.done]
+        self.done += 1
+        try:
+            return values, Case(self.source, comm=self.comm, settings=values).solve(self.mesh, **self.limits)
+        except OrthostatError as error:
+            error.values = values
+            error.args = (f"{', '.join(f'{key}={_value(value)}' for key, value in values.items())}: {error.args[0]}",)
+            raise
+
+
+def sweep(source, over, mesh=None, comm=None, **limits):
+    """Collective. Solves a case, given as for Case, over values of its keys: see Sweep.
+
+    over: {key: values}, keys as for settings; the first varies slowest."""
+    return Sweep(source, over, mesh, comm, **limits)
 
 
 def _solve_all(solves):

@@ -403,7 +403,14 @@ done:
 
 OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, OstCase **c)
 {
-    return ost_case_make(ctx, path, &(OstCaseText){.bytes = text, .size = strlen(text)}, c);
+    return ost_case_parse_with(ctx, path, text, 0, NULL, c);
+}
+
+OstStatus ost_case_parse_with(OstContext *ctx, const char *path, const char *text, int count,
+                              const char *const *settings, OstCase **c)
+{
+    const OstCaseText whole = {.bytes = text, .size = strlen(text), .settings = count, .setting = settings};
+    return ost_case_make(ctx, path, &whole, c);
 }
 
 OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **c)

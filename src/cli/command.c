@@ -17,8 +17,13 @@ static const struct argp_option common_options[] = {
 
 enum { SET = 0x100, LOAD_CASE };
 
+#define SET_OPTION                                                                                                    \
+    {                                                                                                                 \
+        "set", SET, "KEY=VALUE", 0, "Change the case before it is used: loads.0.pressure=2e5; as often as needed", -2 \
+    }
+static const struct argp_option set_options[] = {SET_OPTION, {0}};
 static const struct argp_option case_options[] = {
-    {"set", SET, "KEY=VALUE", 0, "Change the case before it is used: loads.0.pressure=2e5; as often as needed", -2},
+    SET_OPTION,
     {"case", LOAD_CASE, "NAME", 0, "Take the one of its load cases that has this name", -2},
     {0},
 };
@@ -42,12 +47,17 @@ static error_t take_change(int key, char *value, struct argp_state *state)
     }
 }
 
-static const struct argp case_argp = {.options = case_options, .parser = take_change};
+/* What a command takes of what changes a case, with its options. */
+typedef enum { TAKES_NO_CASE, TAKES_SETTINGS, TAKES_CASE } Takes;
+static const struct argp change_argp[] = {
+    [TAKES_SETTINGS] = {.options = set_options, .parser = take_change},
+    [TAKES_CASE] = {.options = case_options, .parser = take_change},
+};
 
 typedef struct Common {
     OstContext *ctx;
     void *input; /* of the command's own parser */
-    int takes_case;
+    Takes takes;
 } Common;
 
 static error_t parse_common(int key, char *value, struct argp_state *state)
@@ -57,7 +67,7 @@ static error_t parse_common(int key, char *value, struct argp_state *state)
     switch (key) {
     case ARGP_KEY_INIT:
         state->child_inputs[0] = common->input;
-        if (common->takes_case)
+        if (common->takes != TAKES_NO_CASE)
             state->child_inputs[1] = common->input;
         return 0;
     case 'q':
@@ -141,12 +151,12 @@ static int is_known(const char *word, size_t length, const char *const names[MOS
 }
 
 /* A long option that the command does not have, but whose name is near to one that it has: says so. */
-static int refuses_option(OstContext *ctx, const struct argp *argp, int takes_case, int argc, char **argv)
+static int refuses_option(OstContext *ctx, const struct argp *argp, Takes takes, int argc, char **argv)
 {
     const char *names[MOST_OPTIONS] = {"help", "usage"};
     int count = 2;
     add_names(common_options, names, &count);
-    add_names(takes_case ? case_options : NULL, names, &count);
+    add_names(change_argp[takes].options, names, &count);
     add_names(argp->options, names, &count);
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
         char word[64];
@@ -164,18 +174,19 @@ static int refuses_option(OstContext *ctx, const struct argp *argp, int takes_ca
     return 0;
 }
 
-static int run(OstContext *ctx, int takes_case, const struct argp *argp, int argc, char **argv, void *input,
+static int run(OstContext *ctx, Takes takes, const struct argp *argp, int argc, char **argv, void *input,
                OstStatus (*work)(OstContext *ctx, void *input))
 {
-    const struct argp_child children[] = {{argp, 0, NULL, 0}, {takes_case ? &case_argp : NULL, 0, NULL, 0}, {0}};
+    const struct argp_child children[] = {
+        {argp, 0, NULL, 0}, {takes == TAKES_NO_CASE ? NULL : &change_argp[takes], 0, NULL, 0}, {0}};
     const struct argp whole = {common_options, parse_common, NULL, NULL, children, NULL, NULL};
-    Common common = {ctx, input, takes_case};
+    Common common = {ctx, input, takes};
     if (asks_for_help(argc, argv)) {
         if (ost_rank(ctx) == 0)
             argp_help(&whole, stdout, ARGP_HELP_USAGE | ARGP_HELP_LONG | ARGP_HELP_DOC, argv[0]);
         return 0;
     }
-    if (refuses_option(ctx, argp, takes_case, argc, argv))
+    if (refuses_option(ctx, argp, takes, argc, argv))
         return ost_status_exit_code(OST_INVALID_USAGE);
     const unsigned flags = ARGP_NO_EXIT | ARGP_NO_HELP | (ost_rank(ctx) == 0 ? 0U : (unsigned)ARGP_NO_ERRS);
     if (argp_parse(&whole, argc, argv, flags, NULL, &common) != 0)
@@ -193,11 +204,17 @@ static int run(OstContext *ctx, int takes_case, const struct argp *argp, int arg
 int ost_cli_run(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
                 OstStatus (*work)(OstContext *ctx, void *input))
 {
-    return run(ctx, 0, argp, argc, argv, input, work);
+    return run(ctx, TAKES_NO_CASE, argp, argc, argv, input, work);
 }
 
 int ost_cli_run_on_case(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
                         OstStatus (*work)(OstContext *ctx, void *input))
 {
-    return run(ctx, 1, argp, argc, argv, input, work);
+    return run(ctx, TAKES_CASE, argp, argc, argv, input, work);
+}
+
+int ost_cli_run_on_cases(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                         OstStatus (*work)(OstContext *ctx, void *input))
+{
+    return run(ctx, TAKES_SETTINGS, argp, argc, argv, input, work);
 }

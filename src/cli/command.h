@@ -41,6 +41,10 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state);
 int ost_cli_run_on_case(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
                         OstStatus (*work)(OstContext *ctx, void *input));
 
+/* Collective. The same of a command that takes several cases, none of which has load cases: with --set alone. */
+int ost_cli_run_on_cases(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
+                         OstStatus (*work)(OstContext *ctx, void *input));
+
 /* Collective. The case, as the arguments change it, or the one of its load cases that they name. ost_cli_read_one
  * refuses several load cases of which none is named. */
 OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c);

@@ -91,6 +91,8 @@ static OstStatus read_over(OstContext *ctx, const char *over, OstSweepKey *key)
         }
         return OST_SUCCESS;
     }
+    if (strchr(values, ':'))
+        return raise_over(ctx, over);
     for (int ended = 0; !ended;) {
         const size_t length = strcspn(values, ",");
         if (length == 0)

@@ -28,7 +28,8 @@ static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
     {"hard", 'H', 0, OPTION_HIDDEN, 0, 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
-    {"picture", 'p', "FOLDER", 0, "Draw how far each case is from its formula here, as verify.png (and write verify.json)", 0},
+    {"picture", 'p', "FOLDER", 0,
+     "Draw how far each case is from its formula here, as verify.png (and write verify.json)", 0},
     {0},
 };
 
@@ -148,12 +149,13 @@ typedef struct PicturePaths {
 } PicturePaths;
 
 /* No report may replace a file of a case. */
-static OstStatus check_paths(OstContext *ctx, const CaseList *list, int count, const char *const *paths)
+static OstStatus check_paths(OstContext *ctx, const OstArguments *arguments, const CaseList *list, int count,
+                             const char *const *paths)
 {
     OstStatus status = OST_SUCCESS;
     for (int i = 0; i < list->count && status == OST_SUCCESS; i++) {
         OstCase *c = NULL;
-        status = ost_case_read(ctx, list->path[i], &c);
+        status = ost_case_read_with(ctx, list->path[i], arguments->settings, arguments->setting, &c);
         if (status == OST_SUCCESS)
             status = ost_check_outputs(c, count, paths);
         ost_case_destroy(&c);
@@ -169,7 +171,7 @@ static OstStatus choose_destinations(OstContext *ctx, const OstArguments *argume
     const char *const drawn[] = {beside->readings, beside->picture};
     OstStatus made = OST_SUCCESS;
     if (arguments->text['j'])
-        OST_TRY(check_paths(ctx, list, 1, &arguments->text['j']));
+        OST_TRY(check_paths(ctx, arguments, list, 1, &arguments->text['j']));
     if (!folder)
         return OST_SUCCESS;
     const int length = snprintf(beside->readings, OST_LONGEST_PATH, "%s/verify.json", folder);
@@ -179,7 +181,7 @@ static OstStatus choose_destinations(OstContext *ctx, const OstArguments *argume
     if (ost_rank(ctx) == 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
         made = OST_RAISE(ctx, OST_FILE_FAILED, "cannot make the folder '%s': %s", folder, strerror(errno));
     OST_TRY(ost_agree(ctx, made));
-    return check_paths(ctx, list, 2, drawn);
+    return check_paths(ctx, arguments, list, 2, drawn);
 }
 
 /* --- the runs --- */
@@ -191,7 +193,7 @@ static OstStatus run_all(OstContext *ctx, const OstArguments *arguments, const C
     const char *json = arguments->text['j'], *folder = arguments->text['p'];
     const int prints = ost_log_level(ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json);
     for (int i = 0; i < list->count; i++) {
-        OST_TRY(ost_verify_case(ctx, list->path[i], quick, &reports[i]));
+        OST_TRY(ost_verify_case(ctx, list->path[i], arguments->settings, arguments->setting, quick, &reports[i]));
         if (prints)
             ost_verify_print(reports[i], ost_log_level(ctx) == OST_LOG_VERBOSE);
     }
@@ -230,6 +232,6 @@ done:
 int ost_cli_verify(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {.all_passed = 1};
-    const int exit_code = ost_cli_run(ctx, &verify_argp, argc, argv, &arguments, verify);
+    const int exit_code = ost_cli_run_on_cases(ctx, &verify_argp, argc, argv, &arguments, verify);
     return exit_code == 0 && !arguments.all_passed ? ost_status_exit_code(OST_CHECK_FAILED) : exit_code;
 }

@@ -63,18 +63,19 @@ void ost_forget_warnings(OstContext *ctx)
     ctx->warnings = 0;
 }
 
-/* Not booked to the ledger, and left out where memory is short: the warning is printed all the same. */
-static void keep_warning(OstContext *ctx, const char *text)
+/* Is it new? Not booked to the ledger, and left out where memory is short: the warning is printed all the same. */
+static int keep_warning(OstContext *ctx, const char *text)
 {
     for (int i = 0; i < ctx->warnings; i++)
         if (strcmp(ctx->warning[i], text) == 0)
-            return;
+            return 0;
     char **grown = realloc(ctx->warning, ((size_t)ctx->warnings + 1) * sizeof *grown);
     if (!grown)
-        return;
+        return 1;
     ctx->warning = grown;
     grown[ctx->warnings] = strdup(text);
     ctx->warnings += grown[ctx->warnings] != NULL;
+    return 1;
 }
 
 void ost_warn(OstContext *ctx, const char *format, ...)
@@ -86,10 +87,10 @@ void ost_warn(OstContext *ctx, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    keep_warning(ctx, text);
+    const int is_new = keep_warning(ctx, text);
     if (ctx->hear)
         ctx->hear(ctx->listener, text);
-    if (ctx->level == OST_LOG_QUIET)
+    if (ctx->level == OST_LOG_QUIET || !is_new) /* ten load cases say it once */
         return;
     ost_progress(ctx, "", -1.0);
     fprintf(stderr, "orthostat: warning: %s\n", text);

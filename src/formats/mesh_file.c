@@ -117,7 +117,7 @@ int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
     return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
+static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
     *chunk = NULL;
@@ -137,34 +137,12 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
     return status;
 }
 
-/* The mean of a tet's vertices. Directions are turned as the first vertex's before: a fibre has no sense. */
-static void mean_of_vertices(const OstFileField *field, const OstGlobal *nodes, OstFieldUse use, double *mean)
+OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
-    const size_t width = (size_t)field->width;
-    const double *first = field->values + width * (size_t)nodes[0];
-    memset(mean, 0, width * sizeof *mean);
-    for (int v = 0; v < 4; v++) {
-        const double *value = field->values + width * (size_t)nodes[v];
-        double along = 0.0;
-        for (size_t k = 0; k < width && use == OST_FIELD_OF_DIRECTIONS; k++)
-            along += value[k] * first[k];
-        for (size_t k = 0; k < width; k++)
-            mean[k] += (along < 0.0 ? -0.25 : 0.25) * value[k];
-    }
-}
-
-static OstStatus move_to_tets(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field)
-{
-    double *mean = NULL;
-    if (!field->on_nodes)
-        return OST_SUCCESS;
-    OST_TRY(OST_NEW(chunk->ctx, &mean, (size_t)chunk->tet_count * (size_t)field->width));
-    for (size_t t = 0; t < (size_t)chunk->tet_count; t++)
-        mean_of_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use,
-                         mean + t * (size_t)field->width);
-    OST_FREE(field->values);
-    field->values = mean;
-    return OST_SUCCESS;
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    const OstStatus status = read_file(ctx, path, chunk, materials);
+    ost_ledger_leave(ctx);
+    return status;
 }
 
 /* Rank 0 has all tets. */
@@ -176,20 +154,19 @@ static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, 
     if (status == OST_SUCCESS && !field.found)
         status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the elements, or on the nodes", path,
                            name);
-    OST_THEN(move_to_tets(chunk, use, &field));
+    OST_THEN(ost_tet_field_mean(chunk, use, &field));
     OST_THEN(ost_tet_field_add(chunk, path, name, field.width, field.values));
     OST_FREE(field.values);
     return status;
 }
 
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
-                                   OstMeshChunk *chunk)
+static OstStatus read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use, OstMeshChunk *chunk)
 {
     const OstMeshFormat *format = find_format(path);
     if (!format)
         return ost_mesh_file_check_name(ctx, path);
     if (format->parallel)
-        return ost_vtkhdf_read_field(ctx, path, name, chunk);
+        return ost_vtkhdf_read_field(ctx, path, name, use, chunk);
     if (!format->read_field)
         return OST_RAISE(
             ctx, OST_INVALID_INPUT,
@@ -198,6 +175,15 @@ OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char
     OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? read_field_alone(ctx, format, path, name, use, chunk) : OST_SUCCESS));
     OST_TRY(broadcast(ctx, &chunk->fields, sizeof chunk->fields));
     return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
+}
+
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+                                   OstMeshChunk *chunk)
+{
+    ost_ledger_enter(ctx, OST_LEDGER_MESH);
+    const OstStatus status = read_field(ctx, path, name, use, chunk);
+    ost_ledger_leave(ctx);
+    return status;
 }
 
 OstStatus ost_chunk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)

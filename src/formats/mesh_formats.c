@@ -12,6 +12,7 @@ const OstMeshFormat ost_mesh_formats[] = {
     {".msh", 0, ost_msh_read, NULL, ost_msh_read_field},
     {".msh.gz", 0, ost_msh_read, NULL, ost_msh_read_field},
     {".vtkhdf", 1, NULL, NULL, NULL},
+    {".hdf", 1, NULL, NULL, NULL}, /* a VTKHDF file as ParaView 5.11 knows it */
     {".vtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".vtk", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".inp", 0, ost_abaqus_read, NULL, NULL},
@@ -27,7 +28,7 @@ const OstMeshFormat ost_mesh_formats[] = {
 const int ost_mesh_format_count = sizeof ost_mesh_formats / sizeof *ost_mesh_formats;
 
 /* The way from other formats to one that is read. */
-typedef enum { BY_MESHIO, BY_GMSH, MESH_SOLID, MESH_SURFACE, BY_PARAVIEW, BY_EXPORT } Way;
+typedef enum { BY_MESHIO, BY_GMSH, MESH_SOLID, MESH_SURFACE, BY_PARAVIEW, BY_EXPORT, IS_CASE } Way;
 
 static const char *const way_words[] = {
     [BY_MESHIO] = "convert it: meshio convert %s %.*s.vtu (Debian: python3-meshio; or pip install meshio)",
@@ -35,6 +36,7 @@ static const char *const way_words[] = {
     [MESH_SOLID] = "mesh it: gmsh -3 %s -o %.*s.msh",
     [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
     [BY_PARAVIEW] = "open %s in ParaView, and save it as %.*s.vtu (File, Save Data)",
+    [IS_CASE] = "is it a case? Then 'orthostat check %s' reads it, with its mesh",
     [BY_EXPORT] = "export %s from its program as %.*s.inp (Abaqus) or .bdf (Nastran)",
 };
 
@@ -42,6 +44,8 @@ static const struct {
     const char *ending, *what;
     Way way;
 } others[] = {
+    {".yaml", "YAML", IS_CASE},
+    {".yml", "YAML", IS_CASE},
     {".exo", "Exodus", BY_MESHIO},
     {".ex2", "Exodus", BY_MESHIO},
     {".e", "Exodus", BY_MESHIO},

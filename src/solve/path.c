@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "solve/linear.h"
 #include "solve/path_data.h"
 
 #include <math.h>
 #include <string.h>
+
+/* A displacement of this share of the body's size is rounding, where no load makes it. */
+static const double least_share = 1e-12;
 
 static OstStatus check_times(OstContext *ctx, int count, const double *times)
 {
@@ -149,6 +153,50 @@ static int loads_turn(const OstPath *path, double t)
     return turn;
 }
 
+/* Does nothing act at t: no load, no eigenstrain, no displacement but zero? `zero` and `given` have room for 3 numbers
+ * a node. */
+static OstStatus find_idle(const OstPath *path, double t, const double *zero, double *given, int *idle)
+{
+    const OstProblem *problem = path->problem;
+    const OstMesh *mesh = problem->mesh;
+    const int swells = ost_field_is_eigenstrained(problem->field);
+    double most = swells ? fabs(ost_problem_eigen_share(problem, t)) : 0.0;
+    OST_TRY(ost_problem_displacement(problem, t, zero, given));
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
+        most = fmax(most, fabs(given[i]));
+    ost_problem_load(problem, t, zero, given);
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        most = fmax(most, fabs(given[i]));
+    OST_TRY(ost_max(path->ctx, 1, &most));
+    *idle = most == 0.0;
+    return OST_SUCCESS;
+}
+
+/* Where nothing acts, and what is left of the displacement is rounding, the body is at rest: errors relative to such
+ * an answer would mean nothing. */
+static OstStatus come_to_rest(OstPath *path, double t, int *rests)
+{
+    const OstMesh *mesh = path->problem->mesh;
+    const size_t count = 3 * (size_t)mesh->node_count;
+    double low[3], high[3], most = 0.0, *zero = NULL, *given = NULL;
+    *rests = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, fabs(path->state.displacement[i]));
+    OST_TRY(ost_max(path->ctx, 1, &most));
+    OST_TRY(ost_mesh_bounds(mesh, low, high));
+    if (most > least_share * fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]))
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(path->ctx, &zero, count);
+    OST_THEN(OST_NEW(path->ctx, &given, count));
+    status = ost_agree(path->ctx, status);
+    OST_THEN(find_idle(path, t, zero, given, rests));
+    if (status == OST_SUCCESS && *rests)
+        memset(path->state.displacement, 0, ost_newton_state_size(path->problem) * sizeof *path->state.displacement);
+    OST_FREE(zero);
+    OST_FREE(given);
+    return status;
+}
+
 /* Every step has its own method, so that it depends on the state alone. */
 static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolvedFor *solved_for)
 {
@@ -161,10 +209,14 @@ static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolve
     if (loads_turn(path, t))
         path->state.step = 0.0; /* the tangent gives another */
     OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
+    int rests = 0;
+    OST_THEN(come_to_rest(path, t, &rests));
     if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
         result->newton = path->judged;
         const OstStatus filled = ost_newton_fill(newton, &path->state, result, solved_for);
         status = filled == OST_SUCCESS ? status : filled;
+        if (rests)
+            result->solve.error_estimate = result->solve.energy_error = 0.0;
     }
     ost_newton_destroy(&newton);
     return status;

@@ -55,10 +55,12 @@ typedef struct OstVerifyReport {
     int passed;
 } OstVerifyReport;
 
-/* Collective. Runs a case; `quick` stops at the levels that the case marks. Where a run does not converge, or its
- * result fails its own checks, the report says that the case failed. Raises only for files that cannot be read or used.
+/* Collective. Runs a case, changed by settings KEY=VALUE (ost_case_read_with); `quick` stops at the levels that the
+ * case marks. Where a run does not converge, or its result fails its own checks, the report says that the case failed.
+ * Raises only for files that cannot be read or used.
  */
-OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerifyReport **report);
+OstStatus ost_verify_case(OstContext *ctx, const char *path, int settings, const char *const *setting, int quick,
+                          OstVerifyReport **report);
 void ost_verify_report_destroy(OstVerifyReport **report);
 
 /* Collective. One quantity of an answer. */

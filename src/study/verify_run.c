@@ -249,7 +249,8 @@ static OstStatus create_report(OstContext *ctx, const char *path, OstVerifyRepor
     return OST_SUCCESS;
 }
 
-OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerifyReport **out)
+OstStatus ost_verify_case(OstContext *ctx, const char *path, int settings, const char *const *setting, int quick,
+                          OstVerifyReport **out)
 {
     OstVerifyReport *report = NULL;
     OstExact exact;
@@ -258,7 +259,7 @@ OstStatus ost_verify_case(OstContext *ctx, const char *path, int quick, OstVerif
     OstStatus status = ost_agree(ctx, create_report(ctx, path, &report));
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_case_read(ctx, path, &report->c));
+    OST_TRY_DONE(ost_case_read_with(ctx, path, settings, setting, &report->c));
     OST_TRY_DONE(ost_agree(ctx, ost_exact_create(report->c, &exact)));
     OST_TRY_DONE(take_failure(report, run_all_meshes(report, &exact, quick)));
     OST_TRY_DONE(ost_agree(ctx, conclude(report)));

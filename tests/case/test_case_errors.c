@@ -33,6 +33,10 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
+    assert_refused(LOAD("on: {all: true}, force: [1, 0, 0]"),
+                   "4:23: unknown key 'force' in loads[0]; did you mean 'total_force'? ...");
+    assert_refused("mesh: plank.msh\n", "1:7: mesh: found 'plank.msh', expected a mapping with the keys tube, block, "
+                                        "sector, octant, file, refine, merge; of a file: {file: NAME}");
     assert_refused("mesh: {tube: {axis: y, bananas: 1}}\n",
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),

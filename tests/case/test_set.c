@@ -66,6 +66,23 @@ static void short_names_of_numbers_are_understood(void **state)
     ost_case_destroy(&c);
 }
 
+/* E3 is the modulus of the axis. */
+static void moduli_along_and_across_an_axis_are_understood(void **state)
+{
+    (void)state;
+    static const char text[] = "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
+                               "materials: [{region: all, youngs_modulus: {plane: 2, axis: 5}, poissons_ratio: 0.3, "
+                               "fibre: [0, 0, 1]}]\n";
+    static const char *const settings[] = {"materials.all.E3=7", "materials.all.E1=3"};
+    ost_case_destroy(&c);
+    assert_success(ost_case_make(
+        ctx, "bar.yaml", &(OstCaseText){.bytes = text, .size = strlen(text), .settings = 2, .setting = settings}, &c));
+    assert_close(c->materials[0].material.constants.youngs_modulus[2], 7.0, 0.0);
+    assert_close(c->materials[0].material.constants.youngs_modulus[0], 3.0, 0.0);
+    assert_close(c->materials[0].material.constants.youngs_modulus[1], 3.0, 0.0);
+    ost_case_destroy(&c);
+}
+
 static void what_is_not_there_is_added(void **state)
 {
     (void)state;
@@ -229,6 +246,7 @@ static void wrong_load_cases_are_refused(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(numbers_are_set_by_their_path),
     cmocka_unit_test(short_names_of_numbers_are_understood),
+    cmocka_unit_test(moduli_along_and_across_an_axis_are_understood),
     cmocka_unit_test(what_is_not_there_is_added),
     cmocka_unit_test(several_changes_are_made_in_their_order),
     cmocka_unit_test(wrong_settings_are_refused_in_words),

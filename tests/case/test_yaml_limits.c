@@ -8,6 +8,8 @@ static void text_that_is_not_yaml_is_refused_with_its_place(void **state)
     assert_refused("", "1:1: the file is empty; a case needs a mesh at least");
     assert_refused("# only a comment\n", "1:1: the file is empty; a case needs a mesh at least");
     assert_refused("mesh: {block\n", "2:1: not YAML: ...");
+    assert_refused("title: a beam: the first\n", "1:14: not YAML: mapping values are not allowed in this context (a "
+                                                 "colon within a text? put the text between quotes)");
     assert_refused("mesh:\n\tblock: 1\n",
                    "2:1: not YAML: while scanning for the next token, found character that cannot "
                    "start any token (a tab? YAML indents by blanks)");

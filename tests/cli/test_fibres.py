@@ -172,6 +172,18 @@ same(answer(text(ABOUT_E1 + ", axes: {field: {e1: direction}}", TWO_CUBES)),
 turning = answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES))
 for ranks in fewer([3]):
     same(answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES), ranks), turning, f"a field of fibres on {ranks} ranks")
+
+# A result of its own as the mesh: its displacements, on points, as fibres; in a .vtkhdf file ranks' pieces share points.
+with open(os.path.join(folder, "bent.yaml"), "w") as stream:
+    stream.write(text("youngs_modulus: 1000, poissons_ratio: 0.3", TWO_CUBES, 2))
+for name, ranks in (("bent.vtu", 1), ("bent-1.vtkhdf", 1), ("bent-3.vtkhdf", 3)):
+    done = run("solve", "bent.yaml", "-q", "-o", name, ranks=ranks, folder=folder)
+    check(done.exit_code == 0, done.errors)
+along = answer(text(MUSCLE + ", fibre: {field: displacement}", "file: bent.vtu", 2))
+for name, ranks in (("bent-1.vtkhdf", 1), ("bent-3.vtkhdf", 1), ("bent-1.vtkhdf", 4), ("bent-3.vtkhdf", 2)):
+    same(answer(text(MUSCLE + ", fibre: {field: displacement}", "file: " + name, 2), ranks), along,
+         f"displacements of {name} as fibres on {ranks} ranks")
+refused(text(MUSCLE + ", fibre: {field: nowhere}", "file: bent-3.vtkhdf"), "there is no field 'nowhere' on the cells, or on the points")
 refused(text(MUSCLE + ", fibre: {field: modulus}", TWO_CUBES), "it has 1 numbers a tet, expected 3")
 refused(text("youngs_modulus: {field: fibre}, poissons_ratio: 0.3", TWO_CUBES), "it has 3 numbers a tet, expected 1")
 refused(text("youngs_modulus: {field: modulos}, poissons_ratio: 0.3", TWO_CUBES), "there is no field 'modulos'")

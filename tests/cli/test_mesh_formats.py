@@ -29,7 +29,10 @@ def answer(mesh, clamp, ranks=1):
         stream.write(CASE.format(mesh=mesh, clamp=clamp))
     done = run("solve", path, "-q", "--json", "-", "--output", os.path.join(folder, "out.vtkhdf"), ranks=ranks)
     check(done.exit_code == 0, f"{mesh}: {done.errors}")
-    watched = json.loads(done.output)["watched"]
+    report = json.loads(done.output)
+    watched, reading = report["watched"], [a for a in report["ledger"]["accounts"] if a["name"] == "mesh"][0]
+    check(reading["entries"] == 1 and reading["seconds"] > 0 and reading["bytes"] >= 24 * report["vertices"],
+          f"{mesh}: what is read is not booked to the mesh: {reading}")
     return [watched["end"]["value"], watched["energy"]["value"]]
 
 
@@ -45,6 +48,10 @@ for order, source in (("linear", "gmsh2-binary"), ("quadratic", "gmsh41-quadrati
             check(all(abs(a - b) < 1e-7 * abs(b) for a, b in zip(found, expected)), f"{name}: {found}, expected {expected}")
 
 # --- as programs write them ---
+
+
+def stored(name):
+    return os.path.join(STORED, name)
 
 
 def write(name, text):
@@ -100,6 +107,14 @@ done = run("check", "stray.yaml", folder=folder)
 check(done.exit_code == 2 and "stray.yaml:3:" in done.errors and "boundary 'foot'" in done.errors and
       "on no tet" in done.errors, done.errors)
 
+# A text that was cut off is told so; a case is no mesh.
+text = open(stored("gmsh-linear.unv")).read()
+cut = text[:text.index("\n", len(text) // 3) - 2]
+done = run("mesh", write("cut.unv", cut), folder=folder)
+check(done.exit_code == 2 and "cut.unv:" in done.errors and "is it complete?" in done.errors, done.errors)
+done = run("mesh", "case.yaml", folder=folder)
+check(done.exit_code == 2 and "orthostat check case.yaml" in done.errors, done.errors)
+
 # --- inspect ---
 
 
@@ -107,10 +122,6 @@ def inspect(*arguments, ranks=1):
     done = run("mesh", *arguments, "--json", "-", ranks=ranks, folder=folder)
     check(done.exit_code == 0, f"mesh {arguments}: {done.errors}")
     return json.loads(done.output)
-
-
-def stored(name):
-    return os.path.join(STORED, name)
 
 
 for ranks in fewer([1, 2, 4]):
@@ -130,7 +141,7 @@ check("48 linear tets" in said and "Clamp" in said and "least" in said, said)
 # --- convert, there and back ---
 
 for ranks in fewer([1, 3]):
-    for ending in ("msh", "inp", "vtu", "vtkhdf"):
+    for ending in ("msh", "inp", "vtu", "vtkhdf", "hdf"):
         new = f"new-{ranks}.{ending}"
         inspect(stored("cae-quadratic.inp"), new, ranks=ranks)
         again = inspect(new)

@@ -59,6 +59,12 @@ check(drawn.exit_code == 0, drawn.errors)
 with open(os.path.join(folder, "bar.png"), "rb") as stream:
     check(stream.read(8) == b"\x89PNG\r\n\x1a\n", "no picture")
 
+# Of two long keys the heads of columns say which is which; what all runs warn of is said once.
+long = run("sweep", "bar.yaml", "--over", "materials.all.youngs_modulus.1=2000", "--over", "materials.all.youngs_modulus.2=4000,5000",
+           "--set", "watch.end.displacement.nearest=[4, 1, 0.75]", folder=folder)
+check("youngs_modulus.1" in long.output and "youngs_modulus.2" in long.output, long.output)
+check(long.exit_code == 0 and long.errors.count("'end' is taken at") == 1, long.errors)
+
 # --- what fails, and what is refused ---
 failed = run("sweep", "bar.yaml", "--over", "materials.0.poissons_ratio=0.3,0.6", "--json", "bar.json", folder=folder)
 check(failed.exit_code == 1 and "1 of 2 runs have no answer" in failed.errors and "no answer" in failed.output, failed.errors)
@@ -69,6 +75,7 @@ for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
                          (("--over", "materials.wod.E1=1,2"), "materials has no entry 'wod'"),
                          (("--over", "loads.0.value.x"), "--over takes KEY=a,b,c or KEY=from:to:count"),
                          (("--over", "loads.0.value.x=1,,2"), "--over takes KEY=a,b,c"),
+                         (("--over", "loads.0.value.x=1:2"), "KEY=from:to:count"),
                          (("--over", "loads.0.value.x=1:2:9999", "--over", "loads.0.value.y=1:2:9999"), "at most 10000"),
                          (("--picture", "-"), "a picture cannot go to standard output"),
                          (("--csv", "bar.yaml"), "would be written over the case itself")):

@@ -58,7 +58,10 @@ def a_uniform_stretch_has_the_formula(folder):
     close(of_file.displacement, of_text.displacement, 1e-9)
     finer = orthostat.Case(file, settings={"title": "finer", "element.order": 2})
     assert finer.title == "finer" and finer.solve().unknowns > of_file.unknowns
-    raises(ValueError, "settings are for files", orthostat.Case, BAR, settings={"title": "x"})
+    changed = orthostat.Case(BAR, settings={"title": "x", "materials.0.youngs_modulus": np.array([20.0, 0.8, 0.5])})
+    assert changed.title == "x"
+    close(changed.solve().watch["end"].value, 0.004, 1e-6)
+    raises(orthostat.InvalidInput, "did you mean 'title'", orthostat.Case, BAR, settings={"titel": "x"})
     result.write(os.path.join(folder, "bar.vtkhdf"), fields=["displacement", "stress"])
     assert open(os.path.join(folder, "bar.vtkhdf"), "rb").read(8) == b"\x89HDF\r\n\x1a\n"
 
@@ -307,6 +310,25 @@ def paths_and_accuracies_are_followed(folder):
     assert stopped.result.error.relative > 1e-3
 
 
+def sweeps_combine_values(folder):
+    sweep = orthostat.sweep(BAR, {"materials.0.E1": np.array([10.0, 20.0]), "loads.0.total_force.x": [0.02, 0.03, 0.04]})
+    assert len(sweep) == 6
+    found = [(values, result.watch["end"].value) for values, result in sweep]
+    assert [list(values.values()) for values, _ in found] == [[e, f] for e in (10, 20) for f in (0.02, 0.03, 0.04)]
+    for values, end in found:
+        close(end, 4 * values["loads.0.total_force.x"] / values["materials.0.E1"], 1e-6)
+    sweep = orthostat.sweep(BAR, {"materials.0.E1": [10, -1, 20]})
+    close(next(sweep)[1].watch["end"].value, 0.008, 1e-6)
+    failure = raises(orthostat.InvalidInput, "materials.0.E1=-1: ", next, sweep)
+    assert failure.values == {"materials.0.E1": -1}
+    close(next(sweep)[1].watch["end"].value, 0.004, 1e-6)  # a failure ends no sweep
+    raises(StopIteration, "", next, sweep)
+    for values, results in orthostat.sweep({**BAR, "cases": [{"name": "as-is"}, {"name": "more", "loads": BAR["loads"]}]},
+                                           {"element.order": [1, 2]}):
+        close(results["more"].watch["end"].value, 2 * results["as-is"].watch["end"].value, 1e-6)
+        assert results["more"].mesh.nodes_per_tet == (4 if values["element.order"] == 1 else 10)
+
+
 def communicators_are_handed_over(folder):
     try:
         from mpi4py import MPI
@@ -342,7 +364,7 @@ def main():
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
                  many_loads_share_one_hierarchy, load_cases_share_a_stiffness, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
-                 poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, communicators_are_handed_over,
+                 poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, sweeps_combine_values, communicators_are_handed_over,
                  materials_have_their_matrices):
         try:
             test(folder)

@@ -221,16 +221,18 @@ static void a_load_that_turns_takes_the_body_back(void **state)
 {
     (void)state;
     Made made = make(BEAM ON "loads:\n  - {on: {boundary: xmax}, total_force: [0, 0, 8], "
-                             "time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {times: [0.25, 0.5, 0.75]}\n");
+                             "time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {steps: 4}\n");
     OstPath *path = NULL;
-    OstResult *step[3] = {NULL};
+    OstResult *step[4] = {NULL};
     assert_success(ost_scene_path(made.scene, &path));
-    for (int i = 0; i < 3; i++)
-        assert_success(ost_path_advance(path, 0, &step[i]));
+    for (int i = 0; i < 4; i++)
+        assert_success(ost_path_advance(path, 1U << OST_FIELD_ERROR, &step[i]));
     assert_true(farthest(3 * (size_t)step[0]->mesh->node_count, step[2]->displacement, step[0]->displacement) < 1e-6);
     assert_true(ost_path_step(path, 2)->newton_iterations <= ost_path_step(path, 0)->newton_iterations);
     assert_int_equal(step[2]->newton.jumps, 0);
-    for (int i = 0; i < 3; i++)
+    assert_true(step[3]->newton.used && step[3]->largest_displacement == 0.0); /* at rest, to the last bit */
+    assert_true(step[3]->answer.relative == 0.0 && step[3]->verdict.count == 0);
+    for (int i = 0; i < 4; i++)
         ost_result_destroy(&step[i]);
     ost_path_destroy(&path);
     destroy(&made);

@@ -1,4 +1,5 @@
 """Answers compared with closed-form solutions, on coarse meshes; and mistakes that verification is there to catch."""
+import json
 import os
 import sys
 
@@ -43,6 +44,15 @@ def mistakes_fail(folder):
     fails_when(folder, "given-displacement", "[0.02, free, free]", "[0.0200001, free, free]")
 
 
+def settings_change_case_and_formula():
+    finished = run("verify", "--quick", "axial-pull", "--set", "materials.0.E1=2000", "--json", "-")
+    check(finished.exit_code == 0, finished.errors)
+    elongation = json.loads(finished.output)["cases"][0]["quantities"][0]["steps"][0]["levels"][0]
+    check(abs(elongation["expected"] - 0.01) < 1e-12 and abs(elongation["obtained"] - 0.01) < 1e-10, elongation)
+    finished = run("verify", "--quick", "axial-pull", "--set", "verify.quantities.elongation.expected=0.011")
+    check(finished.exit_code == 1 and "FAIL" in finished.output, finished.output)
+
+
 def main():
     folder = new_folder()
     if SANITIZED:  # the release build's test_all.py runs all; mistakes are about numbers
@@ -50,6 +60,7 @@ def main():
     else:
         mistakes_fail(folder)
 
+    settings_change_case_and_formula()
     # What is not a case of this kind is refused.
     check(run("verify", "--quick", "no-such-case").exit_code == 2, "a case that is not there")
     check(run("verify", os.path.join(CASES, "tube", "radial.yaml")).exit_code == 2, "a case without a verify section")

@@ -136,6 +136,12 @@ static int begins_alike(const char *word, const char *other)
     return alike >= 4 && 4 * alike >= 3 * strlen(word);
 }
 
+/* Is it a part of the other, as force is of total_force? */
+static int is_part(const char *word, const char *other)
+{
+    return strlen(word) >= 4 && strstr(other, word) != NULL;
+}
+
 const char *ost_nearest_word(const char *word, const char *const *words, int count)
 {
     const char *nearest = NULL;
@@ -149,6 +155,9 @@ const char *ost_nearest_word(const char *word, const char *const *words, int cou
     }
     for (int w = 0; w < count && !nearest; w++)
         if (begins_alike(word, words[w]))
+            nearest = words[w];
+    for (int w = 0; w < count && !nearest; w++)
+        if (is_part(word, words[w]) || is_part(words[w], word))
             nearest = words[w];
     return nearest;
 }

@@ -82,13 +82,24 @@ static OstStatus take_pair(const OstYaml *yaml, const OstYamlNode *mapping, cons
     return OST_SUCCESS;
 }
 
+/* Does a name with an ending stand where a mapping with the key 'file' is expected? */
+static int is_file_name(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int count)
+{
+    int has_file = 0;
+    for (int k = 0; k < count; k++)
+        has_file |= strcmp(keys[k].name, "file") == 0;
+    return has_file && node->kind == OST_YAML_SCALAR && strchr(scalar_text(yaml, node), '.') != NULL;
+}
+
 OstStatus ost_yaml_mapping(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey *keys, int count)
 {
     char place[OST_YAML_PLACE_SIZE];
     const OstYamlNode *mapping = ost_yaml_follow(yaml, node);
     if (mapping->kind != OST_YAML_MAPPING) {
-        char list[OST_YAML_LIST_SIZE];
-        return ost_yaml_raise_type(yaml, node, "a mapping with the keys", list_keys(keys, count, list, sizeof list));
+        char list[OST_YAML_LIST_SIZE], more[OST_YAML_LIST_SIZE + 64];
+        snprintf(more, sizeof more, "%s%s", list_keys(keys, count, list, sizeof list),
+                 is_file_name(yaml, mapping, keys, count) ? "; of a file: {file: NAME}" : "");
+        return ost_yaml_raise_type(yaml, node, "a mapping with the keys", more);
     }
     const OstYamlNode *key = mapping + 1;
     for (uint32_t pair = 0; pair < mapping->value; pair++) {

@@ -139,11 +139,15 @@ static const char *keys_meant(const Setting *setting, const OstYamlNode *mapping
     static const char *const stated[] = {"pressure",   "total_force",  "point_force", "traction",  "gravity",
                                          "body_force", "displacement", "spring",      "foundation"};
     const char *step = setting->step;
-    const int is_material = value_of(setting, mapping, "youngs_modulus") != NULL;
+    const OstYamlNode *modulus = value_of(setting, mapping, "youngs_modulus");
+    const int is_material = modulus != NULL;
     keys[0] = 0;
     if (value_of(setting, mapping, step))
         return NULL;
-    if (is_material && step[0] == 'E' && step[1] >= '1' && step[1] <= '3' && !step[2])
+    if (is_material && step[0] == 'E' && step[1] >= '1' && step[1] <= '3' && !step[2] &&
+        value_of(setting, ost_yaml_follow(setting->yaml, modulus), "axis"))
+        snprintf(keys, LONGEST_STEP, "youngs_modulus.%s", step[1] == '3' ? "axis" : "plane");
+    else if (is_material && step[0] == 'E' && step[1] >= '1' && step[1] <= '3' && !step[2])
         snprintf(keys, LONGEST_STEP, "youngs_modulus.%c", step[1] - 1);
     else if (is_material && strcmp(step, "E") == 0)
         snprintf(keys, LONGEST_STEP, "youngs_modulus");

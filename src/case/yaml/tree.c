@@ -67,7 +67,9 @@ static OstStatus raise_syntax(const Walk *walk, const yaml_parser_t *parser)
     }
     snprintf(problem, sizeof problem, "not YAML: %s%s%s%s", parser->context ? parser->context : "",
              parser->context ? ", " : "", what,
-             strstr(what, "cannot start any token") ? " (a tab? YAML indents by blanks)" : "");
+             strstr(what, "cannot start any token")      ? " (a tab? YAML indents by blanks)"
+             : strstr(what, "mapping values are not al") ? " (a colon within a text? put the text between quotes)"
+                                                         : "");
     return raise_at(walk, parser->problem_mark, problem);
 }
 

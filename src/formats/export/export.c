@@ -26,7 +26,7 @@ OstStatus ost_mesh_export_check(OstContext *ctx, const char *path)
     for (int w = 0; w < WRITERS; w++)
         if (ends_with(path, writers[w].ending))
             return OST_SUCCESS;
-    return ends_with(path, ".vtkhdf")
+    return ends_with(path, ".vtkhdf") || ends_with(path, ".hdf")
                ? OST_SUCCESS
                : OST_RAISE(
                      ctx, OST_INVALID_USAGE,

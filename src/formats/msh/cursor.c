@@ -16,7 +16,14 @@
 #include <zlib.h>
 
 /* gzip packs meshes to a fifth, regular ones to a twentieth. A damaged file may claim a thousandth. */
-enum { LARGEST_RATIO = 50, FIRST_ROOM = 1 << 16, LARGEST_PIECE = 1 << 30, WORD_SHOWN = 60, PLACE_SIZE = 4200 };
+enum {
+    LARGEST_RATIO = 50,
+    FIRST_ROOM = 1 << 16,
+    LARGEST_PIECE = 1 << 30,
+    WORD_SHOWN = 60,
+    PLACE_SIZE = 4200,
+    LONGEST_FORMAT = 512
+};
 
 static OstStatus raise_unpacking(const OstMshCursor *cursor, gzFile file)
 {
@@ -75,9 +82,16 @@ void ost_msh_close(OstMshCursor *cursor)
     *cursor = (OstMshCursor){0};
 }
 
+/* A text that was cut off ends without a line end; some messages say so themselves. */
+static int is_cut_off(const OstMshCursor *cursor, const char *message)
+{
+    return !cursor->binary && cursor->end > cursor->bytes && cursor->end[-1] != '\n' &&
+           !memchr(cursor->place, '\n', (size_t)(cursor->end - cursor->place)) && !strstr(message, "the file ends");
+}
+
 OstStatus ost_msh_raise(const OstMshCursor *cursor, const char *file, int line, const char *format, ...)
 {
-    char place[PLACE_SIZE];
+    char place[PLACE_SIZE], longer[LONGEST_FORMAT];
     OstGlobal lines = 1;
     va_list arguments;
     for (const char *c = cursor->bytes; c < cursor->place; c++)
@@ -86,8 +100,10 @@ OstStatus ost_msh_raise(const OstMshCursor *cursor, const char *file, int line, 
         snprintf(place, sizeof place, "%s, near byte %td", cursor->path, cursor->place - cursor->bytes);
     else
         snprintf(place, sizeof place, "%s:%" PRId64, cursor->path, lines);
+    snprintf(longer, sizeof longer, "%s; the file ends in this line: is it complete?", format);
     va_start(arguments, format);
-    const OstStatus status = ost_file_raise(cursor->ctx, file, line, place, format, arguments);
+    const OstStatus status =
+        ost_file_raise(cursor->ctx, file, line, place, is_cut_off(cursor, format) ? longer : format, arguments);
     va_end(arguments);
     return status;
 }

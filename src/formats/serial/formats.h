@@ -23,7 +23,7 @@ typedef enum { OST_FIELD_OF_NUMBERS, OST_FIELD_OF_DIRECTIONS } OstFieldUse;
 
 /* Collective. Adds to the chunk that was read from the file a field, by its name, as further columns of its
  * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh file states none. A tet takes the mean of its vertices
- * where the field is on nodes: $NodeData of .msh, PointData of .vtu. */
+ * where the field is on nodes: $NodeData of .msh, PointData of .vtu, .vtk and .vtkhdf. */
 OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
                                    OstMeshChunk *chunk);
 
@@ -32,6 +32,9 @@ typedef struct OstFileField {
     int found, on_nodes, width;
     double *values; /* tets or nodes × width */
 } OstFileField;
+
+/* Local. A field on nodes becomes one on tets: the mean of their vertices. */
+OstStatus ost_tet_field_mean(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field);
 
 /* Local. Refuses a field of another number of numbers a tet; adds the columns of one to a chunk. */
 OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width);

@@ -35,3 +35,33 @@ OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *n
     fields->first[fields->count] = (int)after;
     return OST_SUCCESS;
 }
+
+/* The mean of a tet's vertices. Directions are turned as the first vertex's before: a fibre has no sense. */
+static void mean_of_vertices(const OstFileField *field, const OstGlobal *nodes, OstFieldUse use, double *mean)
+{
+    const size_t width = (size_t)field->width;
+    const double *first = field->values + width * (size_t)nodes[0];
+    memset(mean, 0, width * sizeof *mean);
+    for (int v = 0; v < 4; v++) {
+        const double *value = field->values + width * (size_t)nodes[v];
+        double along = 0.0;
+        for (size_t k = 0; k < width && use == OST_FIELD_OF_DIRECTIONS; k++)
+            along += value[k] * first[k];
+        for (size_t k = 0; k < width; k++)
+            mean[k] += (along < 0.0 ? -0.25 : 0.25) * value[k];
+    }
+}
+
+OstStatus ost_tet_field_mean(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field)
+{
+    double *mean = NULL;
+    if (!field->on_nodes)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(chunk->ctx, &mean, (size_t)chunk->tet_count * (size_t)field->width));
+    for (size_t t = 0; t < (size_t)chunk->tet_count; t++)
+        mean_of_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use,
+                         mean + t * (size_t)field->width);
+    OST_FREE(field->values);
+    field->values = mean;
+    return OST_SUCCESS;
+}

@@ -335,46 +335,100 @@ done:
     return status;
 }
 
-/* --- a field on the tets --- */
+/* --- a field on the tets, or on their points --- */
 
-static const char cell_data[] = "/VTKHDF/CellData/";
 enum { LONGEST_NAME = 256 };
 
-static OstStatus try_field(OstContext *ctx, const char *path, const char *name)
+/* Where a field may be; both names are asked for in a dry run. */
+static const char *const data_group[] = {"/VTKHDF/CellData/", "/VTKHDF/PointData/"};
+
+static void name_in(int on_points, const char *field, char name[LONGEST_NAME])
 {
-    OstHdf5 h5 = {.file = H5I_INVALID_HID};
-    OstStatus status = ost_hdf5_open(ctx, path, &h5);
-    OST_THEN(ost_hdf5_try_rows(&h5, name, H5T_NATIVE_DOUBLE));
-    ost_hdf5_close(&h5);
-    return status;
+    snprintf(name, LONGEST_NAME, "%s%s", data_group[on_points], field);
 }
 
-static OstStatus read_field(const OstHdf5 *h5, const char *name, OstMeshChunk *chunk)
-{
-    OstGlobal rows = 0;
-    int width = 0;
-    double *values = NULL;
-    if (!ost_hdf5_has(h5, name))
-        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the cells", h5->path,
-                         name + strlen(cell_data));
-    OST_TRY(ost_hdf5_shape(h5, name, &rows, &width));
-    OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, name + strlen(cell_data), width));
-    OST_TRY(OST_NEW(chunk->ctx, &values, (size_t)chunk->tet_count * (size_t)width));
-    OstStatus status = ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, width, chunk->global_tets, chunk->first_tet,
-                                          chunk->tet_count, values);
-    OST_THEN(ost_tet_field_add(chunk, h5->path, name + strlen(cell_data), width, values));
-    OST_FREE(values);
-    return status;
-}
-
-OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstMeshChunk *chunk)
+static OstStatus try_field(OstContext *ctx, const char *path, const char *field)
 {
     OstHdf5 h5 = {.file = H5I_INVALID_HID};
     char name[LONGEST_NAME];
-    snprintf(name, sizeof name, "%s%s", cell_data, field);
-    OST_TRY(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, try_field, name)));
     OstStatus status = ost_hdf5_open(ctx, path, &h5);
-    OST_THEN(read_field(&h5, name, chunk));
+    for (int on_points = 0; on_points < 2; on_points++) {
+        name_in(on_points, field, name);
+        OST_THEN(ost_hdf5_try_rows(&h5, name, H5T_NATIVE_DOUBLE));
+    }
     ost_hdf5_close(&h5);
+    return status;
+}
+
+/* The reader's tets again, of which the chunk has the nodes, with the file's points counted from the first that one of
+ * them uses; of these points the field. */
+static OstStatus read_of_points(Reader *reader, const char *name, OstFileField *field)
+{
+    OstMeshChunk *tets = reader->chunk;
+    OstGlobal first = INT64_MAX, last = -1;
+    OST_TRY(read_counts(reader));
+    OST_TRY(read_connectivity(reader));
+    const size_t count = (size_t)tets->tet_count * (size_t)tets->nodes_per_tet;
+    for (size_t i = 0; i < count; i++) {
+        first = tets->tet_nodes[i] < first ? tets->tet_nodes[i] : first;
+        last = tets->tet_nodes[i] > last ? tets->tet_nodes[i] : last;
+    }
+    first = count > 0 ? first : 0;
+    if (last - first >= INT32_MAX)
+        return OST_RAISE(tets->ctx, OST_LIMIT_EXCEEDED,
+                         "%s: a rank's tets lie among more than 2^31 - 1 points; use more ranks", reader->h5.path);
+    for (size_t i = 0; i < count; i++)
+        tets->tet_nodes[i] -= first;
+    OST_TRY(OST_NEW(tets->ctx, &field->values, (size_t)(last + 1 - first) * (size_t)field->width));
+    return ost_hdf5_read_rows(&reader->h5, name, H5T_NATIVE_DOUBLE, field->width, reader->points.total, first,
+                              (OstLocal)(last + 1 - first), field->values);
+}
+
+static OstStatus read_of_tets(const OstHdf5 *h5, const char *name, const OstMeshChunk *chunk, OstFileField *field)
+{
+    OST_TRY(OST_NEW(chunk->ctx, &field->values, (size_t)chunk->tet_count * (size_t)field->width));
+    return ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, field->width, chunk->global_tets, chunk->first_tet,
+                              chunk->tet_count, field->values);
+}
+
+static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, OstMeshChunk *chunk)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    OstGlobal rows = 0;
+    OstFileField field = {0};
+    char name[LONGEST_NAME];
+    for (; !field.found && field.on_nodes < 2; field.on_nodes++) {
+        name_in(field.on_nodes, word, name);
+        field.found = ost_hdf5_has(h5, name);
+    }
+    field.on_nodes--;
+    if (!field.found)
+        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the cells, or on the points",
+                         h5->path, word);
+    OST_TRY(ost_hdf5_shape(h5, name, &rows, &field.width));
+    OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, word, field.width));
+    OstStatus status = field.on_nodes ? read_of_points(reader, name, &field) : read_of_tets(h5, name, chunk, &field);
+    OST_THEN(ost_tet_field_mean(reader->chunk, use, &field));
+    OST_THEN(ost_tet_field_add(chunk, h5->path, word, field.width, field.values));
+    OST_FREE(field.values);
+    return status;
+}
+
+OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstFieldUse use,
+                                OstMeshChunk *chunk)
+{
+    Reader reader = {.h5.file = H5I_INVALID_HID};
+    OST_TRY(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, try_field, field)));
+    OstStatus status = OST_NEW(ctx, &reader.chunk, 1);
+    OST_THEN(ost_hdf5_open(ctx, path, &reader.h5));
+    if (status == OST_SUCCESS) {
+        reader.chunk->ctx = ctx;
+        reader.chunk->nodes_per_tet = chunk->nodes_per_tet;
+        status = read_field(&reader, field, use, chunk);
+    }
+    ost_hdf5_close(&reader.h5);
+    ost_file_points_free(&reader.points);
+    OST_FREE(reader.tet_start);
+    ost_chunk_destroy(&reader.chunk);
     return ost_agree(ctx, status);
 }

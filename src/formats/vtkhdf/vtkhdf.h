@@ -18,7 +18,8 @@ OstStatus ost_vtkhdf_write(OstContext *ctx, const char *path, const OstMesh *mes
  * share are merged by their labels or, in a file of another program without labels, by bitwise equal coordinates. */
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 
-/* Collective. Adds a field on the cells to the chunk that ost_vtkhdf_read made of the file. */
-OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstMeshChunk *chunk);
+/* Collective. Adds a field on the cells, or on the points, to the chunk that ost_vtkhdf_read made of the file. */
+OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstFieldUse use,
+                                OstMeshChunk *chunk);
 
 #endif

@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+enum { WIDEST_KEY = 18 };
 
 /* A value as a number, where it is one. */
 static int read_number(const char *text, double *number)
@@ -22,8 +25,11 @@ void ost_sweep_print(const OstSweep *sweep)
     if (ost_rank(sweep->ctx) != 0)
         return;
     printf("%s: %d run%s\n", sweep->path, sweep->run_count, sweep->run_count == 1 ? "" : "s");
-    for (int k = 0; k < sweep->key_count; k++)
-        printf("  %18.18s", sweep->key[k].key);
+    for (int k = 0; k < sweep->key_count; k++) { /* of a long key its end, in which keys differ */
+        const char *key = sweep->key[k].key;
+        const size_t length = strlen(key);
+        printf("  %18s", length > WIDEST_KEY ? key + length - WIDEST_KEY : key);
+    }
     printf(" %14s %14s %9s %7s", "largest |u|", "strain energy", "off by", "Newton");
     for (int w = 0; w < sweep->watch_count; w++)
         printf(" %14.14s", sweep->watch[w]);
