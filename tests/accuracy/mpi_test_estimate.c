@@ -143,8 +143,8 @@ static double mean_stress(const Answer *answer, int w, double *error)
 static void errors_of_mean_stresses_are_estimated(void **state)
 {
     (void)state;
-    static const char *const bodies[] = {CUBE JUMPS HELD SIDEWAYS STRESSES, CUBE JUMPS HELD HEAVY STRESSES};
-    for (size_t b = 0; b < 2; b++)
+    static const char *const bodies[] = {CUBE JUMPS HELD SIDEWAYS STRESSES};
+    for (size_t b = 0; b < sizeof bodies / sizeof bodies[0]; b++)
         for (int order = 1; order <= 2; order++) {
             Answer coarse = solve(bodies[b], order, 0), fine = solve(bodies[b], 2, 1);
             for (int w = 0; w < 3; w++) {
