@@ -163,6 +163,30 @@ void ost_complement_project(const OstComplement *complement, double *values)
     }
 }
 
+/* P (P A P + (I - P) s)^-1 P, s of A's size. */
+OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double block[9])
+{
+    const OstLocal support = complement->support[function];
+    const double *projector = support < 0 ? NULL : complement->projector + 9 * (size_t)support;
+    double inner[9], left[9];
+    const double size = (block[0] + block[4] + block[8]) / 3.0;
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, inner);
+        for (int n = 0; n < 9; n++)
+            block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
+    }
+    memcpy(inner, block, sizeof inner);
+    if (!(ost_invert3(inner, block) > 0.0))
+        return OST_RAISE(complement->mesh->ctx, OST_CHECK_FAILED,
+                         "the error estimate meets a stiffness that is not positive definite");
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, block);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_complement_import(const OstComplement *complement, double *values)
 {
     OST_TRY(ost_halo_import(complement->edge_halo, 3 * sizeof *values, values));
