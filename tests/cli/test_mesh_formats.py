@@ -117,6 +117,8 @@ text = open(stored("gmsh-linear.unv")).read()
 cut = text[:text.index("\n", len(text) // 3) - 2]
 done = run("mesh", write("cut.unv", cut), folder=folder)
 check(done.exit_code == 2 and "cut.unv:" in done.errors and "is it complete?" in done.errors, done.errors)
+done = run("mesh", "a body.su2", folder=folder)
+check("meshio convert a\\ body.su2 a\\ body.vtu" in done.errors, done.errors)
 done = run("mesh", "case.yaml", folder=folder)
 check(done.exit_code == 2 and "orthostat check case.yaml" in done.errors, done.errors)
 
