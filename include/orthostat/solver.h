@@ -46,9 +46,10 @@ typedef struct OstSolverOptions {
     double smoother_ratio;         /* Chebyshev covers [lambda / ratio, 1.1 lambda] */
     int coarsest_unknowns;         /* stop coarsening below this many */
     int most_levels;               /* stop coarsening at this many; the last one is then factored, however large */
-    double factor_memory;          /* bytes a factorisation may take over all ranks; 0: what is free */
-    unsigned given;                /* OST_GIVEN_* */
-    int precise;                   /* 1: coarse levels in twice single precision; 2: the finest too. The solver sets it */
+    int load_steps;       /* Newton's method takes at least so many to the whole load; 0: no more than it needs */
+    double factor_memory; /* bytes a factorisation may take over all ranks; 0: what is free */
+    unsigned given;       /* OST_GIVEN_* */
+    int precise;          /* 1: coarse levels in twice single precision; 2: the finest too. The solver sets it */
 } OstSolverOptions;
 
 /* What can be seen of a system before it is solved; 0 where it is not known. */

@@ -145,14 +145,12 @@ static OstStatus constrain_faces(OstComplement *complement, const OstSupports *s
 static OstStatus find_constraints(OstComplement *complement, const OstSupports *supports)
 {
     OstContext *ctx = complement->mesh->ctx;
-    OstSurface *surface = NULL;
+    const OstSurface *surface = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &complement->support, complement->count)));
     for (OstLocal k = 0; k < complement->count; k++)
         complement->support[k] = -1;
-    OST_TRY(ost_surface_create(complement->mesh, &surface));
-    const OstStatus status = constrain_faces(complement, supports, surface);
-    ost_surface_destroy(&surface);
-    return ost_agree(ctx, status);
+    OST_TRY(ost_mesh_surface(complement->mesh, &surface));
+    return ost_agree(ctx, constrain_faces(complement, supports, surface));
 }
 
 void ost_complement_project(const OstComplement *complement, double *values)
@@ -163,6 +161,30 @@ void ost_complement_project(const OstComplement *complement, double *values)
         if (complement->support[k] >= 0)
             ost_apply3(complement->projector + 9 * (size_t)complement->support[k], given, value);
     }
+}
+
+/* P (P A P + (I - P) s)^-1 P, s of A's size. */
+OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double block[9])
+{
+    const OstLocal support = complement->support[function];
+    const double *projector = support < 0 ? NULL : complement->projector + 9 * (size_t)support;
+    double inner[9], left[9];
+    const double size = (block[0] + block[4] + block[8]) / 3.0;
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, inner);
+        for (int n = 0; n < 9; n++)
+            block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
+    }
+    memcpy(inner, block, sizeof inner);
+    if (!(ost_invert3(inner, block) > 0.0))
+        return OST_RAISE(complement->mesh->ctx, OST_CHECK_FAILED,
+                         "the error estimate meets a stiffness that is not positive definite");
+    if (projector) {
+        ost_multiply3(projector, block, left);
+        ost_multiply3(left, projector, block);
+    }
+    return OST_SUCCESS;
 }
 
 OstStatus ost_complement_import(const OstComplement *complement, double *values)

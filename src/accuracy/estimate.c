@@ -328,12 +328,14 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     return OST_SUCCESS;
 }
 
-static OstStatus share(Search *search, double square, double *tet_error)
+static OstStatus share(Search *search, double square, double *tet_error, double *stress)
 {
     const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
     OST_TRY(ost_complement_import(&search->estimate->complement, search->e + search->rows));
-    ost_operator_energy(&search->estimate->stiffness, search->u, search->e + search->rows, tet_error);
+    ost_operator_energy(&search->estimate->stiffness, search->u, search->e + search->rows, tet_error, stress);
+    for (size_t i = 0; i < 6 * (size_t)problem->mesh->owned_tets && stress; i++)
+        stress[i] *= search->longer;
     for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
         sum += tet_error[tet];
     OST_TRY(ost_sum(problem->ctx, 1, &sum));
@@ -354,7 +356,7 @@ static OstStatus hand_out(Search *search, double *surplus)
 }
 
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
-                            double *tet_error, double *surplus)
+                            const OstSurplus *surplus)
 {
     Search search = {0};
     double square = 0.0;
@@ -367,13 +369,13 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
     OST_THEN(has_earlier ? iterate_from(&search, &square) : iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.failed) {
-        if (surplus)
+        if (surplus->displacement)
             status = settle(&search);
         OST_THEN(compare(&search, t, u, square, found));
-        if (tet_error)
-            OST_THEN(share(&search, square, tet_error));
-        if (surplus)
-            OST_THEN(hand_out(&search, surplus));
+        if (surplus->tet_error)
+            OST_THEN(share(&search, square, surplus->tet_error, surplus->stress));
+        if (surplus->displacement)
+            OST_THEN(hand_out(&search, surplus->displacement));
     }
     close_search(&search);
     return status;
@@ -465,7 +467,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
     if (search.failed)
         goto done;
     OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));
-    OST_TRY_DONE(share(&search, square, of_adjoint));
+    OST_TRY_DONE(share(&search, square, of_adjoint, NULL));
     OST_TRY_DONE(work_on(&search, t, u, error));
     if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
         *error = -*error;

@@ -27,14 +27,20 @@ OstStatus ost_estimate_take_loading(OstEstimate *estimate);
 /* Collective. Other loadings follow: what is found for one starts the search for the next. For linear theory alone. */
 OstStatus ost_estimate_remember(OstEstimate *estimate);
 
+/* What is asked of an error e beside its size; each may be NULL. e is lengthened by what the steps that were not taken
+ * would add. */
+typedef struct OstSurplus {
+    double *tet_error;    /* owned_tets: each tet's share of the squared error in the norm of the energy */
+    double *displacement; /* 3 × owned_nodes: e at the nodes */
+    double *stress;       /* 6 × owned_tets: the mean of its stress over the tet; of linear theory */
+} OstSurplus;
+
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
- * stiffness at u. tet_error: owned_tets numbers, each tet's share of the squared error in the norm of the energy; or
- * NULL. surplus: e at the owned nodes (3 numbers each), lengthened by what the steps that were not taken would add; or
- * NULL. u need not solve the problem's equations well: what is missing there does not count. found->known is 0 where
- * the loads are not known as functions of place (a problem made of nodal forces), and where the solver has no
+ * stiffness at u. u need not solve the problem's equations well: what is missing there does not count. found->known is
+ * 0 where the loads are not known as functions of place (a problem made of nodal forces), and where the solver has no
  * preconditioner that is positive definite. */
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
-                            double *tet_error, double *surplus);
+                            const OstSurplus *surplus);
 
 /* Collective. By how much the exact value of a quantity of interest is larger than that of u, by the adjoint problem: z
  * is the displacement whose load (or given motion) is that of the quantity, e_z its surplus, and the error is the work

@@ -450,7 +450,23 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const dou
                                 .of_functions = of_functions});
 }
 
-void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy)
+/* The mean stress of each tet, by the work of the nodal forces on linear displacements. */
+static void take_stress(const Cells *cells, const OstSimd *at_nodes, const double *coordinates, double *stress)
+{
+    for (int slot = 0; slot < cells->batch.count; slot++) {
+        double *of_tet = stress + 6 * (size_t)cells->batch.tet[slot];
+        const double volume = fabs(ost_tet_volume(coordinates, cells->batch.node[slot]));
+        for (int p = 0; p < 6; p++) {
+            const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
+            of_tet[p] = 0.0;
+            for (int a = 0; a < cells->nodes; a++)
+                of_tet[p] += at_nodes[3 * a + i][slot] * (cells->batch.x[3 * a + j][slot] - cells->batch.x[j][slot]);
+            of_tet[p] /= volume;
+        }
+    }
+}
+
+void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy, double *stress)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -463,6 +479,8 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
         ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
         gather_functions(&cells, w, more);
         find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+        if (stress)
+            take_stress(&cells, at_nodes, mesh->coordinates, stress);
         for (int n = 0; n < 3 * cells.nodes; n++)
             sum += (moved[n] - moved[n % 3]) * at_nodes[n];
         for (int n = 0; n < 3 * cells.functions; n++)
@@ -541,27 +559,6 @@ static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd b
     }
 }
 
-/* P (P A P + (I - P) s)^-1 P, s of A's size. */
-static OstStatus invert(OstContext *ctx, const double *projector, double block[9])
-{
-    double inner[9], left[9];
-    const double size = (block[0] + block[4] + block[8]) / 3.0;
-    if (projector) {
-        ost_multiply3(projector, block, left);
-        ost_multiply3(left, projector, inner);
-        for (int n = 0; n < 9; n++)
-            block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
-    }
-    memcpy(inner, block, sizeof inner);
-    if (!(ost_invert3(inner, block) > 0.0))
-        return OST_RAISE(ctx, OST_CHECK_FAILED, "the error estimate meets a stiffness that is not positive definite");
-    if (projector) {
-        ost_multiply3(projector, block, left);
-        ost_multiply3(left, projector, block);
-    }
-    return OST_SUCCESS;
-}
-
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
 {
     const OstMesh *mesh = operator->problem->mesh;
@@ -587,11 +584,8 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
                 for (int n = 0; n < 9; n++)
                     inverse[9 * (size_t)cells.function[slot][k] + (size_t)n] += block[k][n][slot];
     }
-    for (OstLocal k = 0; k < complement->count; k++) {
-        const OstLocal support = complement->support[k];
+    for (OstLocal k = 0; k < complement->count; k++)
         if (ost_complement_owns(complement, k))
-            OST_TRY(invert(mesh->ctx, support < 0 ? NULL : complement->projector + 9 * (size_t)support,
-                           inverse + 9 * (size_t)k));
-    }
+            OST_TRY(ost_complement_invert(complement, k, inverse + 9 * (size_t)k));
     return OST_SUCCESS;
 }

@@ -29,7 +29,9 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const dou
  * 9 numbers for each function. */
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
 
-/* Local. Of each owned tet, twice the strain energy of a displacement. */
-void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy);
+/* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers), or NULL.
+ */
+void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy,
+                         double *stress);
 
 #endif

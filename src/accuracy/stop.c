@@ -41,8 +41,8 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
     }
     OST_TRY(ost_problem_displacement(stop->problem, 1.0, u, stop->displacement));
     ost_ledger_enter(ctx, OST_EFFECT_ERROR_ESTIMATE);
-    const OstStatus status = ost_estimate_find(stop->estimate, stop->solver, 1.0, stop->displacement, stop->answer,
-                                               stop->tet_error, stop->surplus);
+    const OstStatus status =
+        ost_estimate_find(stop->estimate, stop->solver, 1.0, stop->displacement, stop->answer, &stop->surplus);
     ost_ledger_leave(ctx);
     *next = next_error(stop, error);
     ost_log(ctx, OST_LOG_VERBOSE, "solver: error of the equations %.2e, of the discretisation %.2e: on to %.2e", error,
@@ -51,15 +51,14 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
 }
 
 OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, OstEstimate *estimate,
-                              double *tet_error, double *surplus, OstAnswerError *answer, OstSolveStop *stop)
+                              const OstSurplus *surplus, OstAnswerError *answer, OstSolveStop *stop)
 {
     *stop = (OstSolveStop){.stop = {.ask = ask, .data = stop, .first = largest_error, .relative = 1},
                            .problem = problem,
                            .solver = solver,
                            .estimate = estimate,
                            .share = share,
-                           .tet_error = tet_error,
-                           .surplus = surplus,
+                           .surplus = *surplus,
                            .answer = answer};
     ost_ledger_enter(problem->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status =

@@ -15,17 +15,15 @@ typedef struct OstSolveStop {
     OstEstimate *own;       /* the same where it was made here; else NULL */
     double share;           /* of the discretisation error */
     double *displacement;   /* 3 × node_count */
-    double *tet_error;      /* of the last estimate: owned_tets; the caller's, or NULL */
-    double *surplus;        /* likewise: 3 × owned_nodes */
+    OstSurplus surplus;     /* of the last estimate; the caller's */
     OstAnswerError *answer; /* the last estimate; the caller's */
     int settled;            /* the discretisation error is known */
 } OstSolveStop;
 
-/* Collective. For solves at t = 1; `estimate` is one for the problem, or NULL; `tet_error`, `surplus` and `answer` are
- * filled by the solve. The stop does not move.
- */
+/* Collective. For solves at t = 1; `estimate` is one for the problem, or NULL; what `surplus` names and `answer`
+ * are filled by the solve. The stop does not move. */
 OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, double share, OstEstimate *estimate,
-                              double *tet_error, double *surplus, OstAnswerError *answer, OstSolveStop *stop);
+                              const OstSurplus *surplus, OstAnswerError *answer, OstSolveStop *stop);
 void ost_solve_stop_close(OstSolveStop *stop);
 
 /* Local. The next solve goes on from where one was stopped, to this error. */

@@ -67,6 +67,7 @@ OstStatus ost_solver_check_options(OstContext *ctx, const OstSolverOptions *opti
     OST_TRY(check_number(ctx, "smoother_degree", options->smoother_degree, 0.0, 20.0));
     OST_TRY(check_number(ctx, "smoother_ratio", options->smoother_ratio, 1.0, 1e6));
     OST_TRY(check_number(ctx, "coarsest_unknowns", options->coarsest_unknowns, 0.0, INT_MAX));
+    OST_TRY(check_number(ctx, "load_steps", options->load_steps, -1.0, 1000.0));
     OST_TRY(check_number(ctx, "most_levels", options->most_levels, 0.0, OST_MAX_LEVELS));
     if (!(options->algebraic_fraction >= 0.0 && options->algebraic_fraction <= 0.5))
         return OST_RAISE(ctx, OST_INVALID_INPUT, "solver option algebraic_fraction is %g; expected 0 (off) to 0.5",

@@ -126,7 +126,21 @@ static OstStatus read_method(const OstYaml *yaml, const OstYamlKey *key, OstMeth
     return OST_SUCCESS;
 }
 
-enum { METHOD, ITERATIONS, PATIENCE, AGGREGATE, COARSE, BLOCK, DEGREE, RATIO, COARSEST, LEVELS, MEMORY, SOLVER_KEYS };
+enum {
+    METHOD,
+    ITERATIONS,
+    PATIENCE,
+    AGGREGATE,
+    COARSE,
+    BLOCK,
+    DEGREE,
+    RATIO,
+    COARSEST,
+    LEVELS,
+    STEPS,
+    MEMORY,
+    SOLVER_KEYS
+};
 
 /* Which settings the case fixes, so that plan and strategies keep them. */
 static unsigned fixed_settings(const OstYamlKey *keys)
@@ -149,6 +163,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
         [RATIO] = {.name = "smoother_ratio"},
         [COARSEST] = {.name = "coarsest_unknowns"},
         [LEVELS] = {.name = "most_levels"},
+        [STEPS] = {.name = "load_steps"},
         [MEMORY] = {.name = "factor_memory"},
     };
     OstSolverOptions *solver = &c->solver;
@@ -184,6 +199,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     OST_TRY(read_count(yaml, &keys[DEGREE], 20, &solver->smoother_degree));
     OST_TRY(read_count(yaml, &keys[COARSEST], 1000000, &solver->coarsest_unknowns));
     OST_TRY(read_count(yaml, &keys[LEVELS], OST_MAX_LEVELS, &solver->most_levels));
+    OST_TRY(read_count(yaml, &keys[STEPS], 1000, &solver->load_steps));
     solver->given = fixed_settings(keys);
     return OST_SUCCESS;
 }

@@ -18,7 +18,7 @@ typedef struct Arguments {
     int calibrate;
 } Arguments;
 
-enum { ORDERS = 256, REFINEMENTS, TOLERANCES, ACCURACIES, CALIBRATE };
+enum { ORDERS = 256, REFINEMENTS, TOLERANCES, ACCURACIES, FORMULATIONS, LOAD_STEPS, CALIBRATE };
 
 static const struct argp_option options[] = {
     {"max-time", 't', "SECONDS", 0, "Skip runs that would take the total beyond this time (default: 600)", 0},
@@ -27,6 +27,12 @@ static const struct argp_option options[] = {
     {"tolerances", TOLERANCES, "LIST", 0, "Relative residuals to solve to (default: 1e-2,1e-4,1e-8)", 0},
     {"accuracies", ACCURACIES, "LIST", 0,
      "Errors in the norm of the energy to solve to adaptively; - for none (default: 0.1,0.03)", 0},
+    {"formulations", FORMULATIONS, "LIST", 0,
+     "Where rotations are large: other ways to take them, from linear, consistent, classical; - for none (default: "
+     "all)",
+     0},
+    {"load-steps", LOAD_STEPS, "LIST", 0,
+     "Where rotations are large: at least so many load steps; - for none (default: 4,16)", 0},
     {"csv", 'c', "FILE", 0, "Write the list as CSV here; - for standard output", 0},
     {"json", 'j', "FILE", 0, "Write everything as JSON here; - for standard output", 0},
     {"picture", 'p', "FILE", 0, "Draw error against seconds here (.png, .svg or .pdf)", 0},
@@ -58,6 +64,28 @@ static error_t read_list(struct argp_state *state, const char *name, const char 
     argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_COST_MOST_VALUES,
                text);
     return EINVAL;
+}
+
+/* "linear,classical"; - for none. */
+static error_t read_formulations(struct argp_state *state, const char *text, OstCostVariants *variants)
+{
+    variants->formulation_count = 0;
+    for (const char *at = strcmp(text, "-") == 0 ? "" : text; *at;) {
+        const size_t length = strcspn(at, ",");
+        int which = OST_FORMULATION_CLASSICAL;
+        while (which >= 0 && (strlen(ost_cost_formulation_word[which]) != length ||
+                              strncmp(at, ost_cost_formulation_word[which], length) != 0))
+            which--;
+        if (which < 0 || variants->formulation_count == OST_COST_MOST_VALUES) {
+            argp_error(state,
+                       "--formulations takes linear, consistent and classical, with commas between them, found '%s'",
+                       text);
+            return EINVAL;
+        }
+        variants->formulation[variants->formulation_count++] = (OstFormulation)which;
+        at += length + (at[length] == ',');
+    }
+    return 0;
 }
 
 static error_t read_max_time(struct argp_state *state, const char *text, OstCostVariants *variants)
@@ -97,6 +125,13 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         v->accuracy_count = 0;
         return strcmp(value, "-") == 0 ? 0
                                        : read_list(state, "accuracies", value, &v->accuracy_count, NULL, v->accuracy);
+    case FORMULATIONS:
+        return read_formulations(state, value, v);
+    case LOAD_STEPS:
+        v->load_step_count = 0;
+        return strcmp(value, "-") == 0
+                   ? 0
+                   : read_list(state, "load-steps", value, &v->load_step_count, v->load_steps, NULL);
     default:
         return ost_cli_take(key, value, state);
     }
@@ -178,6 +213,12 @@ done:
 int ost_cli_cost(OstContext *ctx, int argc, char **argv)
 {
     Arguments arguments = {.variants = ost_cost_default_variants(), .calibrate = 0};
+    arguments.variants.formulation_count = 3;
+    for (int f = 0; f < 3; f++)
+        arguments.variants.formulation[f] = (OstFormulation)f;
+    arguments.variants.load_step_count = 2;
+    arguments.variants.load_steps[0] = 4;
+    arguments.variants.load_steps[1] = 16;
     arguments.variants.accuracy_count = 2;
     arguments.variants.accuracy[0] = 0.1;
     arguments.variants.accuracy[1] = 0.03;

@@ -54,6 +54,7 @@ struct OstResult {
     double *rotation;              /* 9 × owned_tets: of each tet's mean F, where rotations are large; or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
+    double *stress_surplus;        /* 6 × owned_tets: what it adds to the mean stress, or NULL */
     OstInterestError interest;     /* of the quantity that the case asks about */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;

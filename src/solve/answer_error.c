@@ -40,6 +40,17 @@ static OstStatus find_worst(const OstResult *result, double *share, OstAnswerErr
     return OST_MPI(ctx, MPI_Bcast(answer->place, 3, MPI_DOUBLE, most.rank, ost_comm(ctx)));
 }
 
+/* Is a mean stress watched, and has the error one? That of a mixed form has no pressure. */
+static int watches_stress(const OstProblem *problem)
+{
+    int any = 0;
+    for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++) {
+        const OstWatch *watch = &problem->scene->c->watches[w];
+        any |= watch->kind == OST_WATCH_STRESS && watch->region && watch->take == OST_TAKE_MEAN;
+    }
+    return any && !problem->pressures;
+}
+
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
 {
     const OstMesh *mesh = result->mesh;
@@ -49,6 +60,8 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
         status = OST_NEW(result->ctx, &result->tet_error, mesh->owned_tets);
     if (is_watched && !result->surplus)
         OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->owned_nodes));
+    if (watches_stress(problem) && !result->stress_surplus)
+        OST_THEN(OST_NEW(result->ctx, &result->stress_surplus, 6 * (size_t)mesh->owned_tets));
     return ost_agree(result->ctx, status);
 }
 
@@ -98,7 +111,7 @@ static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimat
     OST_TRY_DONE(ost_agree(ctx, status));
     if (!result->answer.known) /* the solve may have been stopped by it */
         OST_TRY_DONE(ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &result->answer,
-                                       result->tet_error, result->surplus));
+                                       &(OstSurplus){result->tet_error, result->surplus, result->stress_surplus}));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known && asks_of_quantity(analysis->problem))
@@ -106,6 +119,7 @@ static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimat
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
+        OST_FREE(result->stress_surplus);
     }
     for (OstLocal tet = 0; tet < result->mesh->owned_tets && result->answer.known; tet++)
         result->tet_error[tet] = sqrt(fmax(result->tet_error[tet], 0.0));

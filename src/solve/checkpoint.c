@@ -43,6 +43,7 @@ static uint64_t hash_options(const OstSolverOptions *options)
                               options->smoother_ratio,
                               options->coarsest_unknowns,
                               options->most_levels,
+                              options->load_steps,
                               options->factor_memory,
                               options->given};
     return ost_hash(OST_HASH_START, sizeof numbers, numbers);

@@ -289,12 +289,13 @@ static OstStatus renew_hierarchy(OstNewton *newton, const OstNewtonState *state)
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
+    const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
     OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
     while (state->t < to) {
         const double left = to - state->t;
-        const double steps = fmax(ceil(left / state->step - 1e-6), 1.0);
+        const double steps = fmax(ceil(left / fmin(state->step, longest) - 1e-6), 1.0);
         const double step = left / steps;
         const double t = steps > 1.0 ? state->t + step : to;
         const int may_cut = step > least_step * span;

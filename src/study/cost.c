@@ -5,10 +5,12 @@
 #include "core/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char *const ost_cost_state_word[] = {"waiting", "done", "not run", "failed"};
+const char *const ost_cost_formulation_word[] = {"linear", "consistent", "classical"};
 
 const double ost_cost_target[OST_COST_TARGETS] = {0.1, 0.03, 0.01, 0.003, 0.001};
 
@@ -23,14 +25,28 @@ OstCostVariants ost_cost_default_variants(void)
                              .max_seconds = 600.0};
 }
 
+typedef enum Kind { PLAIN, FORMULATION, LOAD_STEPS, ADAPTIVE } Kind;
+
+static Kind kind_of(const OstCostRun *run)
+{
+    return run->accuracy != 0.0 ? ADAPTIVE : run->load_steps > 0 ? LOAD_STEPS : run->other ? FORMULATION : PLAIN;
+}
+
 /* By refinement, then order, then tolerance with the tightest first: cheap runs come early, and the tight ones, from
- * which references are made, before the loose ones. Adaptive runs come last, coarse ones first. */
+ * which references are made, before the loose ones. Then other formulations, load steps, and adaptive runs, coarse ones
+ * first. */
 static int compare_runs(const void *a, const void *b)
 {
     const OstCostRun *x = a;
     const OstCostRun *y = b;
+    if (kind_of(x) != kind_of(y))
+        return (int)kind_of(x) - (int)kind_of(y);
     if (x->accuracy != y->accuracy)
-        return x->accuracy == 0.0 || (y->accuracy != 0.0 && x->accuracy > y->accuracy) ? -1 : 1;
+        return x->accuracy > y->accuracy ? -1 : 1;
+    if (x->load_steps != y->load_steps)
+        return x->load_steps - y->load_steps;
+    if (x->formulation != y->formulation)
+        return (int)x->formulation - (int)y->formulation;
     if (x->refinement != y->refinement)
         return x->refinement - y->refinement;
     if (x->order != y->order)
@@ -57,21 +73,54 @@ static OstStatus check_variants(OstContext *ctx, const OstCostVariants *v)
         if (!(v->accuracy[i] > 0.0 && v->accuracy[i] < 1.0))
             return OST_RAISE(ctx, OST_INVALID_INPUT, "an accuracy is a number above 0 and below 1, not %g",
                              v->accuracy[i]);
+    for (int i = 0; i < v->load_step_count; i++)
+        if (v->load_steps[i] < 1 || v->load_steps[i] > 1000)
+            return OST_RAISE(ctx, OST_INVALID_INPUT, "load steps are 1 to 1000, not %d", v->load_steps[i]);
     return OST_SUCCESS;
+}
+
+/* Each order on the coarsest mesh at the tightest tolerance, by other formulations than the case's, and in more load
+ * steps. */
+static void list_large_rotations(const OstCost *cost, int *count)
+{
+    const OstCostVariants *v = &cost->variants;
+    OstCostRun run = {.refinement = v->refinement[0], .tolerance = v->tolerance[0]};
+    for (int r = 1; r < v->refinement_count; r++)
+        run.refinement = v->refinement[r] < run.refinement ? v->refinement[r] : run.refinement;
+    for (int t = 1; t < v->tolerance_count; t++)
+        run.tolerance = fmin(run.tolerance, v->tolerance[t]);
+    for (int o = 0; o < v->order_count; o++) {
+        run.order = v->order[o];
+        for (int f = 0; f < v->formulation_count; f++)
+            if (v->formulation[f] != cost->c->formulation) {
+                cost->run[*count] = run;
+                cost->run[*count].other = 1;
+                cost->run[(*count)++].formulation = v->formulation[f];
+            }
+        for (int s = 0; s < v->load_step_count; s++) {
+            cost->run[*count] = run;
+            cost->run[(*count)++].load_steps = v->load_steps[s];
+        }
+    }
 }
 
 /* A combination that occurs twice runs once. */
 static OstStatus list_runs(OstCost *cost)
 {
     const OstCostVariants *v = &cost->variants;
-    OST_TRY(
-        OST_NEW(cost->ctx, &cost->run, v->order_count * v->refinement_count * v->tolerance_count + v->accuracy_count));
+    const int is_large = cost->c->large_rotation != OST_LARGE_ROTATION_OFF;
+    OST_TRY(OST_NEW(cost->ctx, &cost->run,
+                    v->order_count *
+                            (v->refinement_count * v->tolerance_count + v->formulation_count + v->load_step_count) +
+                        v->accuracy_count));
     int count = 0;
     for (int o = 0; o < v->order_count; o++)
         for (int r = 0; r < v->refinement_count; r++)
             for (int t = 0; t < v->tolerance_count; t++)
                 cost->run[count++] =
                     (OstCostRun){.order = v->order[o], .refinement = v->refinement[r], .tolerance = v->tolerance[t]};
+    if (is_large)
+        list_large_rotations(cost, &count);
     for (int i = 0; i < v->accuracy_count; i++)
         cost->run[count++] = (OstCostRun){.refinement = -1, .accuracy = v->accuracy[i]};
     qsort(cost->run, (size_t)count, sizeof *cost->run, compare_runs);
@@ -103,6 +152,16 @@ static void list_quantities(OstCost *cost)
         cost->watch[w] = c->watches[w];
         add_quantity(cost, c->watches[w].name, &cost->watch[w]);
     }
+}
+
+void ost_cost_describe(const OstCostRun *run, char *text, size_t size)
+{
+    text[0] = 0;
+    if (run->other)
+        snprintf(text, size, run->formulation == OST_FORMULATION_LINEAR ? "linear theory" : "%s formulation",
+                 ost_cost_formulation_word[run->formulation]);
+    else if (run->load_steps > 0)
+        snprintf(text, size, "at least %d load step%s", run->load_steps, run->load_steps == 1 ? "" : "s");
 }
 
 OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, OstCost **cost)

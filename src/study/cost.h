@@ -7,24 +7,26 @@
 #include "study/watch.h"
 
 /* What accuracy costs: one case, solved with every combination of element order, uniform refinement and solver
- * tolerance, and adaptively to several accuracies; each run's error against a reference and as it was estimated, its
- * seconds and its memory. */
+ * tolerance, and adaptively to several accuracies; where rotations are large, also by other formulations and in more
+ * load steps. Each run's error against a reference and as it was estimated, its seconds and its memory. */
 
 enum {
     OST_COST_MOST_REFINEMENTS = 8,
     OST_COST_MOST_VALUES = 16,
-    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_VALUES + OST_COST_MOST_VALUES,
+    OST_COST_MOST_RUNS = 2 * (OST_COST_MOST_REFINEMENTS + 1) * OST_COST_MOST_VALUES + 7 * OST_COST_MOST_VALUES,
     OST_COST_REASON_SIZE = OST_ERROR_TEXT_SIZE
 };
 
 typedef struct OstCostVariants {
-    int order_count, refinement_count, tolerance_count, accuracy_count;
+    int order_count, refinement_count, tolerance_count, accuracy_count, formulation_count, load_step_count;
     int order[OST_COST_MOST_VALUES];
     int refinement[OST_COST_MOST_VALUES];
     double tolerance[OST_COST_MOST_VALUES];
     double accuracy[OST_COST_MOST_VALUES]; /* asked of adaptive runs: relative errors in the norm of the energy */
-    double max_seconds;                    /* for all runs together */
-    double max_bytes;                      /* of our own arrays, over all ranks; 0: no bound */
+    OstFormulation formulation[OST_COST_MOST_VALUES]; /* beside the case's own, where rotations are large */
+    int load_steps[OST_COST_MOST_VALUES];             /* the least number of them there */
+    double max_seconds;                               /* for all runs together */
+    double max_bytes;                                 /* of our own arrays, over all ranks; 0: no bound */
 } OstCostVariants;
 
 typedef enum { OST_COST_WAITING, OST_COST_DONE, OST_COST_NOT_RUN, OST_COST_FAILED } OstCostState;
@@ -34,6 +36,10 @@ typedef struct OstCostRun {
     double tolerance; /* of the relative residual */
     double accuracy;  /* of an adaptive run, which has no tolerance, refinement -1 and its last mesh's order; else 0 */
     int levels;       /* meshes that it went through */
+    OstFormulation formulation; /* in place of the case's, if `other` */
+    int other;
+    int load_steps;         /* at least so many; 0: as many as are needed */
+    OstNewtonReport newton; /* found */
     OstCostState state;
     char reason[OST_COST_REASON_SIZE]; /* NOT_RUN, FAILED; DONE: why an accuracy was not met, or empty */
     double predicted_seconds;          /* from earlier runs; 0: not known */
@@ -79,7 +85,8 @@ struct OstCost {
     double seconds;  /* of the whole study */
 };
 
-/* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8; no adaptive runs. */
+/* Local. Orders 1 and 2, no to two refinements, tolerances 1e-2, 1e-4 and 1e-8; no adaptive runs, formulations and load
+ * steps. */
 OstCostVariants ost_cost_default_variants(void);
 
 /* Collective. Lists the runs; the case must outlive the study. Raises OST_INVALID_INPUT for a value out of range. */
@@ -92,6 +99,16 @@ OstStatus ost_cost_run(OstCost *cost);
 
 /* Collective. One run: mesh, assembly, solve, estimate of the error. No fields are recovered or written. */
 OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run);
+
+/* Local. Is it one of the combinations of order, refinement and tolerance, and nothing more? References are theirs. */
+static inline int ost_cost_is_plain(const OstCostRun *run)
+{
+    return run->accuracy == 0.0 && !run->other && run->load_steps == 0;
+}
+
+/* Local. What else a run is: another formulation, load steps; or nothing. */
+void ost_cost_describe(const OstCostRun *run, char *text, size_t size);
+extern const char *const ost_cost_formulation_word[]; /* by OstFormulation */
 
 /* Local. Chooses the references and fills the errors. ost_cost_run ends with it. */
 void ost_cost_judge(OstCost *cost);

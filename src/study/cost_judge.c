@@ -16,7 +16,7 @@ static OstAnswers collect(const OstCost *cost, int quantity, int order, int *ref
     OstAnswers answers = {.order = order, .refinement = refinement, .value = value};
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
-        if (run->state != OST_COST_DONE || run->accuracy != 0.0 || run->order != order)
+        if (run->state != OST_COST_DONE || !ost_cost_is_plain(run) || run->order != order)
             continue;
         if (answers.count > 0 && refinement[answers.count - 1] == run->refinement)
             continue; /* the same refinement, less tightly solved */
@@ -64,7 +64,7 @@ static void choose_reference(OstCost *cost, int quantity)
 static double error_of(const OstCostReference *reference, const OstCostRun *run, int quantity)
 {
     const int is_reference =
-        run->accuracy == 0.0 && run->order == reference->order && run->refinement == reference->finest;
+        ost_cost_is_plain(run) && run->order == reference->order && run->refinement == reference->finest;
     if (run->state != OST_COST_DONE || reference->kind == OST_REFERENCE_NONE || reference->size <= 0.0)
         return NAN;
     if (reference->kind == OST_REFERENCE_FINEST && is_reference)
@@ -78,8 +78,8 @@ static double least_left(const OstCost *cost, const OstCostRun *run, int quantit
     const OstCostReference *reference = &cost->quantity[quantity].reference;
     double left = 0.0;
     for (const OstCostRun *coarse = cost->run; coarse < run; coarse++) {
-        if (run->accuracy != 0.0 || coarse->state != OST_COST_DONE || coarse->order != run->order ||
-            coarse->tolerance != run->tolerance || coarse->refinement >= run->refinement)
+        if (!ost_cost_is_plain(run) || !ost_cost_is_plain(coarse) || coarse->state != OST_COST_DONE ||
+            coarse->order != run->order || coarse->tolerance != run->tolerance || coarse->refinement >= run->refinement)
             continue;
         const double change = fabs(run->watched[quantity].value - coarse->watched[quantity].value);
         const double reduction = pow(ost_best_rate_factor(run->order), run->refinement - coarse->refinement);
@@ -88,12 +88,14 @@ static double least_left(const OstCost *cost, const OstCostRun *run, int quantit
     return run->state == OST_COST_DONE && reference->size > 0.0 ? left / reference->size : 0.0;
 }
 
-/* Of a linear body under loads the squared error in the norm of the energy is twice what the strain energy lacks. */
+/* Not where another formulation has another limit. Of a linear body under loads the squared error in the norm of the
+ * energy is twice what the strain energy lacks. */
 static double norm_of(const OstCost *cost, const OstCostRun *run)
 {
     for (int q = 0; q < cost->quantity_count; q++) {
         const OstWatch *watch = cost->quantity[q].watch;
-        if (watch && watch->kind == OST_WATCH_STRAIN_ENERGY && run->error[q] > cost->quantity[q].reference.uncertainty)
+        if (!run->other && watch && watch->kind == OST_WATCH_STRAIN_ENERGY &&
+            run->error[q] > cost->quantity[q].reference.uncertainty)
             return sqrt(run->error[q]);
     }
     return NAN;
@@ -118,7 +120,7 @@ static const OstCostRun *finest_of(const OstCost *cost, int quantity, int order,
     const OstCostRun *finest = NULL;
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
-        if (run->state == OST_COST_DONE && run->accuracy == 0.0 && run->order == order && run->refinement < below &&
+        if (run->state == OST_COST_DONE && ost_cost_is_plain(run) && run->order == order && run->refinement < below &&
             run->error[quantity] > 0.0 && (!finest || run->refinement > finest->refinement))
             finest = run;
     }

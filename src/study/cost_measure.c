@@ -24,6 +24,7 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     run->tets = scene->mesh->global_tets;
     run->iterations = result->solve.iterations;
     run->residual = result->solve.relative_residual;
+    run->newton = result->newton;
     run->order = scene->mesh->nodes_per_tet == 10 ? 2 : 1;
     run->estimate = result->answer.known ? result->answer.relative : NAN;
     for (int w = 0; w < cost->c->watch_count && !cost->placed; w++)

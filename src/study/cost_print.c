@@ -79,11 +79,25 @@ static void print_setting(const OstCostRun *run)
         printf("  adaptively to %6.2g %%", 100.0 * run->accuracy);
 }
 
+/* What else the run is, and how Newton's method went. */
+static void print_more(const OstCostRun *run)
+{
+    char more[64];
+    ost_cost_describe(run, more, sizeof more);
+    printf("%s%s", more[0] ? "  " : "", more);
+    if (run->newton.used)
+        printf("%s%d load step%s, %d Newton iterations", more[0] ? ": " : "  ", run->newton.load_steps,
+               run->newton.load_steps == 1 ? "" : "s", run->newton.iterations);
+}
+
 static void print_run(const OstCost *cost, const OstCostRun *run)
 {
     char cell[CELL_SIZE];
     print_setting(run);
     if (run->state != OST_COST_DONE) {
+        char more[64];
+        ost_cost_describe(run, more, sizeof more);
+        printf("%s%s", more[0] ? "  " : "", more);
         printf("     %s%s%s%s\n", ost_cost_state_word[run->state], run->state == OST_COST_NOT_RUN ? " (" : ": ",
                run->reason, run->state == OST_COST_NOT_RUN ? ")" : "");
         return;
@@ -100,7 +114,9 @@ static void print_run(const OstCost *cost, const OstCostRun *run)
         print_seconds(run->phase[p]);
     print_seconds(run->phase[OST_STAGE_REST]);
     print_seconds(run->seconds);
-    printf(" %8.1f MiB\n", run->bytes / mebibyte);
+    printf(" %8.1f MiB", run->bytes / mebibyte);
+    print_more(run);
+    printf("\n");
     if (run->reason[0])
         printf("      %s\n", run->reason);
 }
@@ -149,8 +165,11 @@ static void print_cheapest_for(const OstCost *cost, int quantity, double target)
         return;
     }
     const OstCostRun *run = &cost->run[cheapest];
+    char more[64];
+    ost_cost_describe(run, more, sizeof more);
     if (run->accuracy == 0.0)
-        printf("order %d, refinement %d, tolerance %.0e ", run->order, run->refinement, run->tolerance);
+        printf("order %d, refinement %d, tolerance %.0e%s%s ", run->order, run->refinement, run->tolerance,
+               more[0] ? ", " : "", more);
     else
         printf("adaptively to %-4.2g %%: %d meshes, order %d ", 100.0 * run->accuracy, run->levels, run->order);
     print_seconds(run->seconds);

@@ -24,7 +24,7 @@ static const OstCostRun *find_model(const OstCost *cost, const OstCostRun *run)
     const OstCostRun *best = NULL;
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *other = &cost->run[i];
-        if (other->state != OST_COST_DONE || other->accuracy != 0.0 || other->order > run->order)
+        if (other->state != OST_COST_DONE || !ost_cost_is_plain(other) || other->order > run->order)
             continue;
         if (!best || other->order > best->order ||
             (other->order == best->order && other->refinement > best->refinement)) {
@@ -45,8 +45,8 @@ static double growth_to(const OstCost *cost, const OstCostRun *model)
     double growth = least_growth;
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *other = &cost->run[i];
-        if (other->state == OST_COST_DONE && other->order == model->order && other->tolerance == model->tolerance &&
-            other->refinement + 1 == model->refinement && other->seconds > 0.0)
+        if (other->state == OST_COST_DONE && ost_cost_is_plain(other) && other->order == model->order &&
+            other->tolerance == model->tolerance && other->refinement + 1 == model->refinement && other->seconds > 0.0)
             growth = model->seconds / other->seconds;
     }
     return fmin(fmax(growth, least_growth), most_growth);
@@ -102,14 +102,16 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
 
 static void announce(const OstCost *cost, const OstCostRun *run, int number)
 {
-    char line[160], about[32] = "";
+    char line[200], about[32] = "", more[64];
+    ost_cost_describe(run, more, sizeof more);
     if (run->predicted_seconds > 0.0)
         describe_seconds(run->predicted_seconds, about, sizeof about);
     if (run->accuracy != 0.0)
         snprintf(line, sizeof line, "run %d of %d: adaptively to %g", number + 1, cost->run_count, run->accuracy);
     else
-        snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s", number + 1,
-                 cost->run_count, run->order, run->refinement, run->tolerance, about[0] ? ", " : "", about);
+        snprintf(line, sizeof line, "run %d of %d: order %d, refinement %d, tolerance %g%s%s%s%s", number + 1,
+                 cost->run_count, run->order, run->refinement, run->tolerance, more[0] ? ", " : "", more,
+                 about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
     ost_progress_task(cost->ctx, line, (double)number / cost->run_count);
 }
@@ -128,6 +130,26 @@ static void vary(const OstCostRun *run, OstCase *variant)
     variant->refinement = run->refinement;
     variant->solver.relative_residual = run->tolerance;
     variant->solver.algebraic_fraction = 0.0;
+    if (run->load_steps > 0)
+        variant->solver.load_steps = run->load_steps;
+    if (run->other && run->formulation == OST_FORMULATION_LINEAR)
+        variant->large_rotation = OST_LARGE_ROTATION_OFF;
+    else if (run->other)
+        variant->formulation = run->formulation;
+}
+
+/* Drops runs of large rotations that wait where no run has found any. */
+static void drop_large_rotations(OstCost *cost)
+{
+    int kept = 0, any = 0;
+    for (int i = 0; i < cost->run_count; i++)
+        any |= cost->run[i].newton.used;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        if (any || run->state != OST_COST_WAITING || ost_cost_is_plain(run) || run->accuracy != 0.0)
+            cost->run[kept++] = *run;
+    }
+    cost->run_count = kept;
 }
 
 OstStatus ost_cost_run(OstCost *cost)
@@ -137,6 +159,10 @@ OstStatus ost_cost_run(OstCost *cost)
     OstStatus last_failure = OST_SUCCESS;
     int done = 0;
     for (int i = 0; i < cost->run_count; i++) {
+        if (!ost_cost_is_plain(&cost->run[i]))
+            drop_large_rotations(cost);
+        if (i == cost->run_count)
+            break;
         OstCostRun *run = &cost->run[i];
         int affordable = 0;
         OST_TRY(fits(cost, run, start, &affordable));

@@ -26,10 +26,21 @@ static void write_number(FILE *file, int known, double number)
     ost_csv_number(file, known ? number : NAN);
 }
 
+/* By which a run was solved, or is to be. */
+static const char *formulation_of(const OstCost *cost, const OstCostRun *run)
+{
+    const int is_linear =
+        run->state == OST_COST_DONE ? !run->newton.used : cost->c->large_rotation == OST_LARGE_ROTATION_OFF;
+    const OstFormulation large = run->other ? run->formulation : cost->c->formulation;
+    return ost_cost_formulation_word[is_linear ? OST_FORMULATION_LINEAR : large];
+}
+
 static void write_heading(FILE *file, const OstCost *cost)
 {
 #define HEADING(name, make_json) "," #name
-    fputs("order,refinement,tolerance,accuracy,state,reason,predicted_seconds" RUN_NUMBER_TABLE(HEADING), file);
+    fputs("order,refinement,tolerance,accuracy,formulation,least_load_steps,load_steps,newton_iterations,state,reason,"
+          "predicted_seconds" RUN_NUMBER_TABLE(HEADING),
+          file);
 #undef HEADING
     for (int p = 0; p < OST_STAGES; p++)
         fprintf(file, ",%s_seconds", ost_stage_label[p]);
@@ -50,8 +61,12 @@ static void write_heading(FILE *file, const OstCost *cost)
 static void write_run(FILE *file, const OstCost *cost, const OstCostRun *run)
 {
     const int done = run->state == OST_COST_DONE;
-    fprintf(file, "%d,%d,%g,%g,%s,", run->order, run->refinement, run->tolerance, run->accuracy,
-            ost_cost_state_word[run->state]);
+    fprintf(file, "%d,%d,%g,%g,%s", run->order, run->refinement, run->tolerance, run->accuracy,
+            formulation_of(cost, run));
+    write_number(file, run->load_steps > 0, run->load_steps);
+    write_number(file, run->newton.used, run->newton.load_steps);
+    write_number(file, run->newton.used, run->newton.iterations);
+    fprintf(file, ",%s,", ost_cost_state_word[run->state]);
     ost_csv_text(file, run->reason);
     write_number(file, run->predicted_seconds > 0.0, run->predicted_seconds);
 #define CELL(name, make_json) write_number(file, done, (double)run->name);
@@ -167,10 +182,13 @@ static json_t *answers_json(const OstCost *cost, const OstCostRun *run)
 
 static json_t *run_json(const OstCost *cost, const OstCostRun *run)
 {
+    char more[64];
+    ost_cost_describe(run, more, sizeof more);
     json_t *item =
-        json_pack("{s:i, s:i, s:f, s:f, s:s, s:s, s:f}", "order", run->order, "refinement", run->refinement,
-                  "tolerance", run->tolerance, "accuracy", run->accuracy, "state", ost_cost_state_word[run->state],
-                  "reason", run->reason, "predicted_seconds", run->predicted_seconds);
+        json_pack("{s:i, s:i, s:f, s:f, s:s, s:i, s:s, s:s, s:s, s:f}", "order", run->order, "refinement",
+                  run->refinement, "tolerance", run->tolerance, "accuracy", run->accuracy, "formulation",
+                  formulation_of(cost, run), "least_load_steps", run->load_steps, "more", more, "state",
+                  ost_cost_state_word[run->state], "reason", run->reason, "predicted_seconds", run->predicted_seconds);
     if (run->state != OST_COST_DONE)
         return item;
     json_t *phases = json_object();
@@ -182,6 +200,8 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
     json_object_set_new(item, "phase_seconds", phases);
     json_object_set_new(item, "bytes", json_real(run->bytes));
     json_object_set_new(item, "levels", json_integer(run->levels));
+    json_object_set_new(item, "load_steps", json_integer(run->newton.load_steps));
+    json_object_set_new(item, "newton_iterations", json_integer(run->newton.iterations));
     json_object_set_new(item, "estimate", ost_json_number(run->estimate));
     json_object_set_new(item, "true_norm", ost_json_number(run->true_norm));
     json_object_set_new(item, "answers", answers_json(cost, run));

@@ -13,6 +13,7 @@
 /* What is found of the tets of a region, on this rank and then on all. */
 typedef struct Over {
     double sum, volume; /* value times volume */
+    double more;        /* what the estimate adds to the sum */
     double best;        /* the least value, or the largest one's negative */
     OstGlobal tet;      /* the lowest label of those that have it, but for rounding */
     double place[3];
@@ -29,16 +30,35 @@ static OstStatus value_of(const OstResult *result, const OstWatch *watch, OstLoc
     return ost_stress_measure(result, tet, result->stress + 6 * (size_t)tet, (OstStressMeasure)watch->component, value);
 }
 
+/* What the estimate adds to the value: of linear theory, and of measures that are linear, as the error's stress varies
+ * far more than its mean. */
+static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstLocal tet, double value, double *more)
+{
+    double stress[6];
+    *more = NAN;
+    const int is_linear =
+        watch->component < (int)OST_STRESS_MEASURE_VON_MISES || watch->component == (int)OST_STRESS_MEASURE_PRESSURE;
+    if (!result->stress_surplus || result->formulation != OST_FORMULATION_LINEAR || !is_linear)
+        return OST_SUCCESS;
+    for (size_t p = 0; p < 6; p++)
+        stress[p] = result->stress[6 * (size_t)tet + p] + result->stress_surplus[6 * (size_t)tet + p];
+    OST_TRY(ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, more));
+    *more -= value;
+    return OST_SUCCESS;
+}
+
 static OstStatus go_over(const OstResult *result, const OstWatch *watch, double sign, Over *over)
 {
     const OstMesh *mesh = result->mesh;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
-        double value;
+        double value, more;
         if (!is_in(watch, mesh, tet))
             continue;
         OST_TRY(value_of(result, watch, tet, &value));
+        OST_TRY(surplus_of(result, watch, tet, value, &more));
         const double volume = fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
         over->sum += volume * value;
+        over->more += volume * more;
         over->volume += volume;
         over->best = fmin(over->best, sign * value);
         over->size = fmax(over->size, ost_von_mises(result->stress + 6 * (size_t)tet));
@@ -80,14 +100,16 @@ static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWa
     const double sign = watch->take == OST_TAKE_LARGEST ? -1.0 : 1.0;
     Over over = {.best = INFINITY};
     OST_TRY(ost_agree(ctx, go_over(result, watch, sign, &over)));
-    double sums[2] = {over.sum, over.volume};
-    OST_TRY(ost_sum(ctx, 2, sums));
+    double sums[3] = {over.sum, over.volume, over.more};
+    OST_TRY(ost_sum(ctx, 3, sums));
     OST_TRY(ost_min(ctx, 1, &over.best));
     OST_TRY(ost_max(ctx, 1, &over.size));
     watched->scale = over.size;
     watched->value = watch->take == OST_TAKE_MEAN ? sums[0] / sums[1] : sign * over.best;
-    if (watch->take == OST_TAKE_MEAN)
+    if (watch->take == OST_TAKE_MEAN) {
+        watched->error = sums[2] / sums[1];
         return OST_SUCCESS;
+    }
     OST_TRY(ost_agree(ctx, find_place(result, watch, sign, &over)));
     OST_TRY(share_place(ctx, &over));
     watched->placed = 1;

@@ -385,7 +385,7 @@ static void settings_are_read(void **state)
              "out_of_reach: accept, relative_error: 0.001}\n"
              "solver: {method: plain, max_iterations: 77, aggregate_nodes: 41, coarse_aggregate_nodes: 9,\n"
              "         smoother_block_nodes: 6, smoother_degree: 4, smoother_ratio: 30, coarsest_unknowns: 500,\n"
-             "         patience: 88, most_levels: 3, factor_memory: 2}\n"
+             "         patience: 88, most_levels: 3, load_steps: 5, factor_memory: 2}\n"
              "output: {file: a.vtkhdf, fields: [displacement, rank]}\n",
              cube, steel);
     assert_success(read_text(whole, &c));
@@ -403,6 +403,7 @@ static void settings_are_read(void **state)
     assert_int_equal(c->solver.accept_attainable, 1);
     assert_int_equal(c->solver.patience, 88);
     assert_int_equal(c->solver.most_levels, 3);
+    assert_int_equal(c->solver.load_steps, 5);
     assert_close(c->solver.factor_memory, 2097152.0, 0.0);
     assert_int_equal(c->solver.given, OST_GIVEN_AGGREGATE | OST_GIVEN_COARSE_AGGREGATE | OST_GIVEN_BLOCK |
                                           OST_GIVEN_DEGREE | OST_GIVEN_RATIO | OST_GIVEN_COARSEST);

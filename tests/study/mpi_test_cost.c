@@ -86,6 +86,66 @@ static void the_variants_are_listed_once_and_in_order(void **state)
     drop_study();
 }
 
+/* Large rotations: other formulations than the case's and load steps, on the coarsest mesh at the tightest tolerance.
+ */
+static const OstCostVariants large = {
+    .order_count = 1,
+    .refinement_count = 2,
+    .tolerance_count = 2,
+    .formulation_count = 3,
+    .load_step_count = 2,
+    .order = {2},
+    .refinement = {1, 0},
+    .tolerance = {1e-2, 1e-6},
+    .formulation = {OST_FORMULATION_LINEAR, OST_FORMULATION_CONSISTENT, OST_FORMULATION_CLASSICAL},
+    .load_steps = {16, 4},
+    .max_seconds = 1e6};
+
+static OstStatus pretend_to_turn(OstCost *study, const OstCase *variant, OstCostRun *run)
+{
+    run->newton = (OstNewtonReport){.used = variant->large_rotation != OST_LARGE_ROTATION_OFF};
+    if (run->other && run->formulation == OST_FORMULATION_LINEAR)
+        assert_int_equal(variant->large_rotation, OST_LARGE_ROTATION_OFF);
+    else
+        assert_int_equal(variant->formulation, run->other ? run->formulation : OST_FORMULATION_CONSISTENT);
+    assert_int_equal(variant->solver.load_steps, run->load_steps);
+    return pretend(study, variant, run);
+}
+
+static void large_rotations_have_rungs_of_their_own(void **state)
+{
+    (void)state;
+    char more[64];
+    make_study("", &large);
+    cost->measure = pretend_to_turn;
+    assert_success(ost_cost_run(cost));
+    assert_int_equal(cost->run_count, 8);
+    static const char *const expected[] = {"linear theory", "classical formulation", "at least 4 load steps",
+                                           "at least 16 load steps"};
+    for (int i = 0; i < 8; i++) {
+        const OstCostRun *run = &cost->run[i];
+        ost_cost_describe(run, more, sizeof more);
+        assert_string_equal(more, i < 4 ? "" : expected[i - 4]);
+        assert_int_equal(run->state, OST_COST_DONE);
+        assert_true(i < 4 || (run->refinement == 0 && run->tolerance == 1e-6));
+    }
+    drop_study();
+}
+
+/* Nor where no rotation was found to be large. */
+static void small_rotations_have_no_such_rungs(void **state)
+{
+    (void)state;
+    make_study("", &large);
+    cost->measure = pretend;
+    assert_success(ost_cost_run(cost));
+    assert_int_equal(cost->run_count, 4);
+    drop_study();
+    make_study("large_rotation: off\n", &large);
+    assert_int_equal(cost->run_count, 4);
+    drop_study();
+}
+
 static void values_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -99,6 +159,9 @@ static void values_out_of_range_are_refused(void **state)
     variants = ost_cost_default_variants();
     variants.tolerance[2] = 1.0;
     assert_failure(ost_cost_create(c, &variants, &cost), OST_INVALID_INPUT, "below 1, not 1");
+    variants = large;
+    variants.load_steps[1] = 0;
+    assert_failure(ost_cost_create(c, &variants, &cost), OST_INVALID_INPUT, "load steps are 1 to 1000, not 0");
     assert_null(cost);
     ost_case_destroy(&c);
 }
@@ -380,6 +443,8 @@ static void the_ledgers_peak_can_start_again(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_variants_are_listed_once_and_in_order),
+    cmocka_unit_test(large_rotations_have_rungs_of_their_own),
+    cmocka_unit_test(small_rotations_have_no_such_rungs),
     cmocka_unit_test(values_out_of_range_are_refused),
     cmocka_unit_test(time_bounds_what_runs),
     cmocka_unit_test(memory_bounds_what_runs),

@@ -51,6 +51,28 @@ class Cost(unittest.TestCase):
         self.assertEqual(finished.returncode, 2, finished)
         self.assertIn(text, finished.stderr)
 
+    def test_large_rotations_are_priced(self):
+        with open(self.path("bent.yaml"), "w") as stream:
+            stream.write(CASE.replace("-1]", "-10]"))
+        options = ["--orders", "2", "--refinements", "0", "--tolerances", "1e-6", "--accuracies", "-"]
+        finished = run("bent.yaml", *options, "--load-steps", "5", "--csv", "p.csv", "--json", "p.json", folder=self.folder)
+        self.assertEqual(finished.returncode, 0, finished)
+        self.assertIn("at least 5 load steps: ", finished.stdout)
+        with open(self.path("p.csv"), newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual([row["formulation"] for row in rows], ["consistent", "linear", "classical", "consistent"])
+        self.assertEqual([row["least_load_steps"] for row in rows], ["", "", "", "5"])
+        self.assertGreaterEqual(int(rows[3]["load_steps"]), 5)
+        self.assertLess(int(rows[0]["load_steps"]), 5)
+        tips = [float(row["tip"]) for row in rows]
+        self.assertGreater(abs(tips[1]), 1.1 * abs(tips[0]))  # linear theory bends too far
+        self.assertAlmostEqual(tips[3] / tips[0], 1.0, delta=1e-5)  # the state at rest does not depend on the way
+        with open(self.path("p.json")) as stream:
+            runs = json.load(stream)["runs"]
+        self.assertEqual([one["more"] for one in runs],
+                         ["", "linear theory", "classical formulation", "at least 5 load steps"])
+        self.refuse("--formulations takes linear, consistent and classical", "bent.yaml", "--formulations", "cubic")
+
     def test_everything_is_in_the_files(self):
         finished = self.cost(*LADDER, "--csv", "p.csv", "--json", "p.json", ranks=2)
         self.assertEqual(finished.stdout.count("cheapest for an error of"), 1)
