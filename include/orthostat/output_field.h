@@ -33,7 +33,8 @@ OST_API_BEGIN
     X(OST_FIELD_PRINCIPAL_STRAIN, "principal_strain")           \
     X(OST_FIELD_E1, "e1")                                       \
     X(OST_FIELD_E2, "e2")                                       \
-    X(OST_FIELD_E3, "e3")
+    X(OST_FIELD_E3, "e3")                                       \
+    X(OST_FIELD_MIXED_PRESSURE, "mixed_pressure")
 #define OST_OUTPUT_FIELD_ENUM(name, word) name,
 typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
 #undef OST_OUTPUT_FIELD_ENUM

@@ -145,14 +145,12 @@ static OstStatus constrain_faces(OstComplement *complement, const OstSupports *s
 static OstStatus find_constraints(OstComplement *complement, const OstSupports *supports)
 {
     OstContext *ctx = complement->mesh->ctx;
-    OstSurface *surface = NULL;
+    const OstSurface *surface = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &complement->support, complement->count)));
     for (OstLocal k = 0; k < complement->count; k++)
         complement->support[k] = -1;
-    OST_TRY(ost_surface_create(complement->mesh, &surface));
-    const OstStatus status = constrain_faces(complement, supports, surface);
-    ost_surface_destroy(&surface);
-    return ost_agree(ctx, status);
+    OST_TRY(ost_mesh_surface(complement->mesh, &surface));
+    return ost_agree(ctx, constrain_faces(complement, supports, surface));
 }
 
 void ost_complement_project(const OstComplement *complement, double *values)

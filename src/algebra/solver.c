@@ -372,6 +372,8 @@ typedef struct ScaledStop {
     double size;
     double *u; /* with room for 3 × rows */
     size_t n;
+    double *p; /* of a mixed form: its pressures, which are scaled for the user and back; else NULL */
+    size_t m;
     double seconds; /* that the user's took */
 } ScaledStop;
 
@@ -381,11 +383,26 @@ static OstStatus ask_user(void *data, const double *u, double error, double *nex
     const double start = ost_seconds();
     for (size_t i = 0; i < scaled->n; i++)
         scaled->u[i] = scaled->size * u[i];
+    for (size_t i = 0; i < scaled->m; i++)
+        scaled->p[i] *= scaled->size; /* a power of two */
     *next *= scaled->size;
     const OstStatus status = scaled->user->ask(scaled->user->data, scaled->u, scaled->size * error, next);
     *next /= scaled->size;
+    for (size_t i = 0; i < scaled->m; i++)
+        scaled->p[i] /= scaled->size;
     scaled->seconds += ost_seconds() - start;
     return status;
+}
+
+/* `room` for u where the user stops. */
+static void set_stop(ScaledStop *stop, double size, double *room)
+{
+    stop->size = size;
+    if (!stop->user)
+        return;
+    stop->u = room;
+    stop->stop.relative = stop->user->relative;
+    stop->stop.first = stop->user->first / (stop->user->relative ? 1.0 : size);
 }
 
 static void report_goal(const OstGoal *goal, double size, OstSolveReport *report)
@@ -453,11 +470,7 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
         scaled[i] = f[i] / stop.size;
         u[i] = solver->aim.goes_on ? u[i] / stop.size : 0.0;
     }
-    if (stop.user) {
-        stop.u = scaled + n;
-        stop.stop.relative = stop.user->relative;
-        stop.stop.first = stop.user->first / (stop.user->relative ? 1.0 : stop.size);
-    }
+    set_stop(&stop, stop.size, scaled + n);
     const OstStatus status = solve_scaled(solver, scaled, u, &stop, report);
     for (size_t i = 0; i < n; i++)
         u[i] *= stop.size;
@@ -466,38 +479,17 @@ static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveRe
     return status;
 }
 
-/* What is known before a solve. */
-static void open_report(const OstSolver *solver, OstSolveReport *report)
-{
-    memset(report, 0, sizeof *report);
-    report->plan = solver->plan;
-    report->nonzeros = solver->nonzeros;
-    report->steps = solver->steps;
-    memcpy(report->step, solver->step, sizeof solver->step);
-}
-
-OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
-{
-    open_report(solver, report);
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds();
-    const double setup = solver->setup_seconds;
-    const OstStatus status = solve(solver, f, u, report);
-    report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
-    ost_ledger_leave(solver->ctx);
-    return status;
-}
-
 /* f and u have been divided by `size`: so are g and p. */
 static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                              OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows, m = (size_t)saddle->coupling->rows;
+    ScaledStop stop = {
+        .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n, .p = saddle->p, .m = m};
     double *scaled = NULL, size;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
-    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, n + m)));
-    const ScaledStop none = {.size = size};
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n + m : n + m)));
+    set_stop(&stop, size, scaled + n + m);
     const OstSaddle within = {saddle->coupling, scaled + n, saddle->p};
     for (size_t i = 0; i < n; i++) {
         scaled[i] = f[i] / size;
@@ -508,27 +500,44 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
         saddle->p[i] = solver->aim.goes_on ? saddle->p[i] / size : 0.0;
     }
     solver->saddle = &within;
-    const OstStatus status = solve_scaled(solver, scaled, u, &none, report);
+    const OstStatus status = solve_scaled(solver, scaled, u, &stop, report);
     solver->saddle = NULL;
     for (size_t i = 0; i < n; i++)
         u[i] *= size;
     for (size_t i = 0; i < m; i++)
         saddle->p[i] *= size;
     OST_FREE(scaled);
+    report->solve_seconds = -stop.seconds;
     return status;
+}
+
+/* `saddle`: NULL without a mixed form. */
+static OstStatus solve_in_time(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                               OstSolveReport *report)
+{
+    memset(report, 0, sizeof *report);
+    report->plan = solver->plan;
+    report->nonzeros = solver->nonzeros;
+    report->steps = solver->steps;
+    memcpy(report->step, solver->step, sizeof solver->step);
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    const double start = ost_seconds(), setup = solver->setup_seconds;
+    const OstStatus status = saddle ? solve_mixed(solver, saddle, f, u, report) : solve(solver, f, u, report);
+    report->setup_seconds = solver->setup_seconds;
+    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
+{
+    return solve_in_time(solver, NULL, f, u, report);
 }
 
 OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                                  OstSolveReport *report)
 {
-    open_report(solver, report);
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds(), setup = solver->setup_seconds;
-    const OstStatus status = solve_mixed(solver, saddle, f, u, report);
-    report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds = ost_seconds() - start - (solver->setup_seconds - setup);
-    ost_ledger_leave(solver->ctx);
-    return status;
+    return solve_in_time(solver, saddle, f, u, report);
 }
 
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,

@@ -10,9 +10,9 @@
 /* The body's surface, the selected ones of its faces, and an index that finds a face by its vertices. */
 typedef struct Faces {
     const OstMesh *mesh;
-    OstSurface *surface;
-    unsigned char *selected; /* surface->count */
-    OstIndex *index;         /* of the surface's faces by their vertices, ascending */
+    const OstSurface *surface; /* the mesh's */
+    unsigned char *selected;   /* surface->count */
+    OstIndex *index;           /* of the surface's faces by their vertices, ascending */
 } Faces;
 
 static void sort_vertices(const OstLocal *nodes, OstGlobal vertices[3])
@@ -137,7 +137,7 @@ OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelec
     *nodes_per_face = mesh->nodes_per_tet == 10 ? 6 : 3;
     *faces = NULL;
     ost_ledger_enter(ctx, OST_LEDGER_SELECTION);
-    OstStatus status = ost_surface_create(mesh, &found.surface);
+    OstStatus status = ost_mesh_surface(mesh, &found.surface);
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &found.selected, found.surface->count)));
@@ -150,7 +150,6 @@ done:
     }
     ost_index_destroy(&found.index);
     OST_FREE(found.selected);
-    ost_surface_destroy(&found.surface);
     ost_ledger_leave(ctx);
     return status;
 }

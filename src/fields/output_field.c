@@ -72,6 +72,9 @@ static const OstOutputField kind[OST_FIELD_COUNT] = {
     [OST_FIELD_E1] = MATERIAL_AXIS("e1"),
     [OST_FIELD_E2] = MATERIAL_AXIS("e2"),
     [OST_FIELD_E3] = MATERIAL_AXIS("e3"),
+    [OST_FIELD_MIXED_PRESSURE] = DERIVED(1, "", force_per_area, 0,
+                                         "the mixed form's own pressure at the centroid: minus a third of the trace of "
+                                         "the stress m p of the stiff mode; 0 in regions without one"),
 };
 
 static const OstOutputField label[] = {

@@ -95,16 +95,31 @@ static const struct {
     {".odb", "Abaqus's result", BY_EXPORT},
 };
 
+enum { LONGEST_NAME = 512 };
+
 static int has_ending(const char *path, const char *ending)
 {
     const size_t length = strlen(path), tail = strlen(ending);
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+/* The name without its folders, as a shell takes it: blanks follow a backslash. */
+static void name_of(const char *path, char *name, size_t size)
+{
+    const char *from = strrchr(path, '/');
+    size_t length = 0;
+    for (from = from ? from + 1 : path; *from && length + 2 < size; from++) {
+        if (*from == ' ')
+            name[length++] = '\\';
+        name[length++] = *from;
+    }
+    name[length] = '\0';
+}
+
 void ost_mesh_format_advice(const char *path, char *text, size_t size)
 {
-    const char *name = strrchr(path, '/');
-    name = name ? name + 1 : path;
+    char name[LONGEST_NAME];
+    name_of(path, name, sizeof name);
     const char *dot = strrchr(name, '.');
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
         if (has_ending(path, others[o].ending)) {

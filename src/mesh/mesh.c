@@ -22,6 +22,7 @@ void ost_mesh_destroy(OstMesh **mesh)
     OST_FREE(old->tet_region);
     OST_FREE(old->tet_axes);
     OST_FREE(old->tet_field);
+    ost_surface_destroy(&old->surface);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     ost_halo_destroy(&old->halo);

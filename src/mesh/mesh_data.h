@@ -86,8 +86,9 @@ struct OstMesh {
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
-    struct OstHalo *halo; /* over nodes */
-    int straighten;       /* as in the chunk */
+    struct OstHalo *halo;       /* over nodes */
+    int straighten;             /* as in the chunk */
+    struct OstSurface *surface; /* once it was asked for (ost_mesh_surface); or NULL */
 };
 
 /* The local numbers of a tet's nodes. */
@@ -132,6 +133,9 @@ typedef struct OstSurface {
     OstLocal *tet;
 } OstSurface;
 OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
+
+/* Collective. The same, made once and kept: it belongs to the mesh. */
+OstStatus ost_mesh_surface(const OstMesh *mesh, const OstSurface **surface);
 void ost_surface_destroy(OstSurface **surface);
 
 /* Collective. Number of faces on the body's surface: of a mesh, exactly; of a chunk, from a sample of its faces where

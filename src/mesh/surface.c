@@ -170,3 +170,13 @@ done:
         ost_surface_destroy(surface);
     return status;
 }
+
+/* What is kept follows from the mesh, which it does not change. */
+OstStatus ost_mesh_surface(const OstMesh *mesh, const OstSurface **surface)
+{
+    OstStatus status = OST_SUCCESS;
+    if (!mesh->surface)
+        status = ost_surface_create(mesh, &((OstMesh *)mesh)->surface);
+    *surface = mesh->surface;
+    return status;
+}

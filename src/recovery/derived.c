@@ -125,6 +125,16 @@ static OstStatus principal_direction(const OstResult *result, const double *stre
     return OST_SUCCESS;
 }
 
+/* -tr(m) p / 3 at the centroid. */
+static double mixed_pressure(const OstResult *result, OstLocal tet)
+{
+    const OstMaterialField *field = result->field;
+    const double *p = result->pressure + 4 * (size_t)tet;
+    const double *mode = ost_field_stiff_mode(field, field->tet_region[tet]);
+    const double root = field->tet_scale ? sqrt(field->tet_scale[tet]) : 1.0;
+    return mode ? -root * (mode[0] + mode[1] + mode[2]) / 3.0 * 0.25 * (p[0] + p[1] + p[2] + p[3]) : 0.0;
+}
+
 static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit field, double *value)
 {
     const double *stress = result->stress ? result->stress + 6 * (size_t)tet : NULL;
@@ -143,6 +153,9 @@ static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit
         break;
     case OST_FIELD_PRESSURE:
         return ost_stress_measure(result, tet, stress, OST_STRESS_MEASURE_PRESSURE, value);
+    case OST_FIELD_MIXED_PRESSURE:
+        *value = mixed_pressure(result, tet);
+        break;
     case OST_FIELD_PRINCIPAL_STRESS:
         return ost_principal(result->ctx, stress, value, NULL);
     case OST_FIELD_PRINCIPAL_DIRECTION_1:
@@ -189,6 +202,8 @@ int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field)
         return 0;
     if (field >= OST_FIELD_E1 && field <= OST_FIELD_E3)
         return result->field->region_axes || result->field->tet_axes;
+    if (field == OST_FIELD_MIXED_PRESSURE)
+        return result->pressure != NULL;
     return has_stress && has_strain;
 }
 

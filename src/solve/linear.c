@@ -97,6 +97,12 @@ static int take_start(const OstAnalysis *analysis)
     return analysis->start != NULL;
 }
 
+/* A mixed form would need a pressure to start from. */
+static int begins_at_start(const OstAnalysis *analysis)
+{
+    return !analysis->problem->pressures && take_start(analysis);
+}
+
 /* Takes the mean off the pressures of incompressible material, which nothing determines. */
 static OstStatus centre_pressure(const OstCoupling *coupling, double *pressure)
 {
@@ -132,6 +138,30 @@ static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *re
     return solved;
 }
 
+/* The stop of a mixed form, whose estimate needs the pressures reached. */
+typedef struct MixedStop {
+    OstErrorStop stop;
+    const OstErrorStop *inner;
+    const OstAnalysis *analysis;
+    OstResult *result;
+} MixedStop;
+
+static OstStatus tell_pressure(const OstAnalysis *analysis, OstResult *result)
+{
+    const OstPressureSpace *space = analysis->problem->pressures;
+    double *pressure = ((OstLinear *)analysis->work)->pressure;
+    OST_TRY(ost_pressure_complete(space, pressure));
+    ost_pressure_of_tets(space, pressure, result->pressure);
+    return OST_SUCCESS;
+}
+
+static OstStatus ask_mixed(void *data, const double *u, double error, double *next)
+{
+    const MixedStop *stop = data;
+    OST_TRY(tell_pressure(stop->analysis, stop->result));
+    return stop->inner->ask(stop->inner->data, u, error, next);
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
@@ -139,16 +169,19 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     OstLinear *linear = analysis->work;
     const int before = goes_on ? result->solve.iterations : 0;
     const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
+    MixedStop mixed = {.inner = stop, .analysis = analysis, .result = result};
+    if (stop && linear->volume) {
+        mixed.stop = (OstErrorStop){.ask = ask_mixed, .data = &mixed, .first = stop->first, .relative = stop->relative};
+        stop = &mixed.stop;
+    }
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){.stop = stop, .goes_on = goes_on});
     const OstStatus solved = solve_equations(analysis, &result->solve);
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){0});
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
     OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
-    if (linear->volume) {
-        OST_TRY(ost_pressure_complete(problem->pressures, linear->pressure));
-        ost_pressure_of_tets(problem->pressures, linear->pressure, result->pressure);
-    }
+    if (linear->volume)
+        OST_TRY(tell_pressure(analysis, result));
     result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
     if (result->reached && problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
@@ -159,6 +192,11 @@ static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int
 {
     const OstLinear *linear = analysis->work;
     const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
+    if (linear->volume) { /* the solver has estimated the error that its residuals leave */
+        const double error = result->solve.error_estimate;
+        *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};
+        return OST_SUCCESS;
+    }
     return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
 }
 
@@ -177,7 +215,7 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
 {
     enum { ROUNDS = 3 };
     for (int round = 0; round < ROUNDS; round++) {
-        OST_TRY(run_solver(analysis, &stop->stop, round > 0 || take_start(analysis), result));
+        OST_TRY(run_solver(analysis, &stop->stop, round > 0 || begins_at_start(analysis), result));
         if (!result->solve.stopped)
             return OST_SUCCESS;
         OST_TRY(find_errors(analysis, result, 1, errors));
@@ -195,10 +233,12 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
 {
     const OstProblem *problem = analysis->problem;
     const OstLinear *linear = analysis->work;
+    OstProblem state = *problem; /* with the pressure reached, if there is one */
     OstSolveStop stop;
+    state.field = result->field;
     OST_TRY(ost_result_allow_error(problem, result));
     OST_TRY(ost_solve_stop_open(
-        problem, linear->stiffness.solver, analysis->options.algebraic_fraction, analysis->estimate,
+        &state, linear->stiffness.solver, analysis->options.algebraic_fraction, analysis->estimate,
         &(OstSurplus){result->tet_error, result->surplus, result->stress_surplus}, &result->answer, &stop));
     const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
     ost_solve_stop_close(&stop);
@@ -210,19 +250,19 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     OstErrors errors = {0};
-    const int may_stop =
-        !linear->volume && analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
+    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
     const OstStatus solved = may_stop ? stop_early(analysis, result, &errors)
-                                      : run_solver(analysis, NULL, !linear->volume && take_start(analysis), result);
+                                      : run_solver(analysis, NULL, begins_at_start(analysis), result);
     if (!result->reached)
         return solved;
     if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
         OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(problem, linear, solved_for));
-    solved_for->errors = errors;
+    if (!linear->volume)
+        solved_for->errors = errors;
     return solved;
 }
 

@@ -306,10 +306,10 @@ static OstStatus sum_nodes(const View *view, OstLocal count, const OstLocal *nod
 static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal *nodes, double sums[SUMS])
 {
     OstContext *ctx = view->mesh->ctx;
-    OstSurface *surface = NULL;
+    const OstSurface *surface = NULL;
     unsigned char *selected = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_surface_create(view->mesh, &surface));
+    OST_TRY_DONE(ost_mesh_surface(view->mesh, &surface));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &selected, view->mesh->node_count)));
     for (OstLocal i = 0; i < count; i++)
         selected[nodes[i]] = 1;
@@ -317,7 +317,6 @@ static OstStatus measure_faces(const View *view, OstLocal count, const OstLocal 
     status = ost_sum(ctx, SUMS, sums);
 done:
     OST_FREE(selected);
-    ost_surface_destroy(&surface);
     return status;
 }
 

@@ -16,6 +16,11 @@
 /* A vertex further from the stated point than this share of an edge is worth a warning. */
 static const double near_enough = 0.1;
 
+/* Linear theory that is off by this share of the largest displacement is worth a warning where that is this share of
+ * what is watched. */
+static const double worth_words = 1e-3;
+static const double most_off = 0.1;
+
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
 {
     if (watch->kind != OST_WATCH_DISPLACEMENT)
@@ -190,6 +195,20 @@ OstStatus ost_watch_check(const OstScene *scene)
     return OST_SUCCESS;
 }
 
+/* Linear theory is off by a share of the largest displacement: of a small component beside a large one, as the
+ * shortening of a beam that bends, that may be all. */
+static void warn_of_linear_theory(const OstResult *result, const OstWatch *watch, const OstWatched *watched)
+{
+    const OstNewtonReport *newton = &result->newton;
+    const double off = newton->linear_error * watched->scale;
+    if (watch->kind == OST_WATCH_DISPLACEMENT && newton->judged && !newton->used &&
+        newton->linear_error > worth_words && off > most_off * fabs(watched->value))
+        ost_warn(result->ctx,
+                 "'%s' is %.4g by linear theory, which may be off by %.2g, %.2g %% of the largest displacement; "
+                 "large_rotation: on computes it without",
+                 watch->name, watched->value, off, 100.0 * newton->linear_error);
+}
+
 OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values)
 {
     OstContext *ctx = scene->ctx;
@@ -202,6 +221,7 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
             OST_FREE(*values);
             return status;
         }
+        warn_of_linear_theory(result, watch, &watched);
         (*values)[w] = (OstWatchedValue){watch->name,
                                          watched.value,
                                          watch->expected,

@@ -107,11 +107,18 @@ done = run("check", "stray.yaml", folder=folder)
 check(done.exit_code == 2 and "stray.yaml:3:" in done.errors and "boundary 'foot'" in done.errors and
       "on no tet" in done.errors, done.errors)
 
+# Bulk data that were cut off at a line's end.
+done = run("mesh", write("short.bdf", DECK.replace("ENDDATA\n", "")), folder=folder)
+check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)
+check(not run("mesh", "deck.bdf", folder=folder).errors, "a whole deck is warned of")
+
 # A text that was cut off is told so; a case is no mesh.
 text = open(stored("gmsh-linear.unv")).read()
 cut = text[:text.index("\n", len(text) // 3) - 2]
 done = run("mesh", write("cut.unv", cut), folder=folder)
 check(done.exit_code == 2 and "cut.unv:" in done.errors and "is it complete?" in done.errors, done.errors)
+done = run("mesh", "a body.su2", folder=folder)
+check("meshio convert a\\ body.su2 a\\ body.vtu" in done.errors, done.errors)
 done = run("mesh", "case.yaml", folder=folder)
 check(done.exit_code == 2 and "orthostat check case.yaml" in done.errors, done.errors)
 

@@ -35,14 +35,6 @@ static void bisect_near(OstBisection *bisection, OstMesh **mesh, const double po
     *mesh = fine;
 }
 
-static double worst_quality(const OstMesh *mesh)
-{
-    double worst = 1.0;
-    for (OstLocal t = 0; t < mesh->owned_tets; t++)
-        worst = fmin(worst, ost_tet_quality(mesh->coordinates, tet_of(mesh, t)));
-    return -highest_of_ranks(-worst);
-}
-
 /* Two bisections of one mesh, on all ranks and on this one alone, generation by generation. */
 typedef struct Twins {
     OstContext *alone;
@@ -208,16 +200,7 @@ static void regions_axes_points_and_curves_are_inherited(void **state)
 {
     (void)state;
     static const double point[3] = {0.0, 0.0, 0.0};
-    OstContext *alone = NULL;
-    OstMeshChunk *block = NULL;
-    const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 4}};
-    assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
-    assert_int_equal(ost_chunk_create_block(alone, &shape, &block), OST_SUCCESS);
-    OstMeshChunk *chunk = hand_chunk(4, 20, block->coordinates, block->tet_count, block->tet_nodes);
-    const OstGlobal edge[8] = {0, 1, 1, 2, 2, 3, 3, 4}; /* along z */
-    const OstGlobal corners[2] = {0, 19};
-    add_boundary(chunk, "edge", 1, 2, 4, edge);
-    add_boundary(chunk, "corners", 0, 1, 2, corners);
+    OstMeshChunk *chunk = marked_column();
     assert_success(OST_NEW(ctx, &chunk->tet_axes, 9 * (size_t)chunk->tet_count));
     for (OstLocal i = 0; i < 9 * chunk->tet_count; i++)
         chunk->tet_axes[i] = i;
@@ -250,8 +233,6 @@ static void regions_axes_points_and_curves_are_inherited(void **state)
     }
     ost_bisection_destroy(&bisection);
     ost_mesh_destroy(&mesh);
-    ost_chunk_destroy(&block);
-    ost_context_destroy(&alone);
 }
 
 static double curve_at(const double x[3], int quadratic)

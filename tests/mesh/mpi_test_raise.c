@@ -254,16 +254,7 @@ static void a_quadratic_mesh_read_as_such_has_all_parents_here(void **state)
 static void points_and_curves_are_raised(void **state)
 {
     (void)state;
-    OstContext *alone = NULL;
-    OstMeshChunk *block = NULL;
-    const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 4}};
-    assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
-    assert_int_equal(ost_chunk_create_block(alone, &shape, &block), OST_SUCCESS);
-    OstMeshChunk *chunk = hand_chunk(4, 20, block->coordinates, block->tet_count, block->tet_nodes);
-    const OstGlobal edge[8] = {0, 1, 1, 2, 2, 3, 3, 4}; /* along z */
-    const OstGlobal corners[2] = {0, 19};
-    add_boundary(chunk, "edge", 1, 2, 4, edge);
-    add_boundary(chunk, "corners", 0, 1, 2, corners);
+    OstMeshChunk *chunk = marked_column();
     OstMesh *linear = NULL;
     OstMesh *skeleton = NULL;
     assert_success(ost_mesh_distribute(ctx, &chunk, &linear));
@@ -283,8 +274,6 @@ static void points_and_curves_are_raised(void **state)
     ost_mesh_destroy(&skeleton);
     ost_mesh_destroy(&quadratic);
     ost_mesh_destroy(&linear);
-    ost_chunk_destroy(&block);
-    ost_context_destroy(&alone);
 }
 
 static void what_cannot_be_raised_is_refused(void **state)

@@ -27,14 +27,6 @@ static void refine_again(OstMesh **mesh, const OstShapeSurface *shape, int times
     }
 }
 
-static double worst_quality(const OstMesh *mesh)
-{
-    double worst = 1.0;
-    for (OstLocal t = 0; t < mesh->owned_tets; t++)
-        worst = fmin(worst, ost_tet_quality(mesh->coordinates, tet_of(mesh, t)));
-    return -highest_of_ranks(-worst);
-}
-
 /* Which of the 6 n³ Kuhn tets of the unit cube in n³ cells is this? Its vertices, by the sum of their indices, go from
  * the lowest corner of a cell to the highest, a step in another direction each time. */
 static OstLocal kuhn_number(const OstMesh *mesh, OstLocal tet, OstLocal n)
@@ -258,16 +250,7 @@ static void boundaries_regions_and_axes_are_inherited(void **state)
 static void points_and_curves_are_refined(void **state)
 {
     (void)state;
-    OstContext *alone = NULL;
-    OstMeshChunk *block = NULL;
-    const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 4}};
-    assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
-    assert_int_equal(ost_chunk_create_block(alone, &shape, &block), OST_SUCCESS);
-    OstMeshChunk *chunk = hand_chunk(4, 20, block->coordinates, block->tet_count, block->tet_nodes);
-    const OstGlobal edge[8] = {0, 1, 1, 2, 2, 3, 3, 4}; /* along z */
-    const OstGlobal corners[2] = {0, 19};
-    add_boundary(chunk, "edge", 1, 2, 4, edge);
-    add_boundary(chunk, "corners", 0, 1, 2, corners);
+    OstMeshChunk *chunk = marked_column();
     OstMesh *mesh = NULL;
     assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
     refine_again(&mesh, NULL, 2);
@@ -285,8 +268,6 @@ static void points_and_curves_are_refined(void **state)
         assert_true(mesh->node_label[mesh->boundaries[1].nodes[i]] == 1 ||
                     mesh->node_label[mesh->boundaries[1].nodes[i]] == 20);
     ost_mesh_destroy(&mesh);
-    ost_chunk_destroy(&block);
-    ost_context_destroy(&alone);
 }
 
 static double furthest_from_middle(const OstMesh *mesh)

@@ -132,14 +132,6 @@ static void an_octants_spheres_are_spheres(void **state)
     ost_mesh_destroy(&mesh);
 }
 
-static double worst_quality(const OstMesh *mesh)
-{
-    double worst = 1.0;
-    for (OstLocal t = 0; t < mesh->owned_tets; t++)
-        worst = fmin(worst, ost_tet_quality(mesh->coordinates, tet_of(mesh, t)));
-    return -highest_of_ranks(-worst);
-}
-
 static void octants_converge_to_the_spheres_volume_and_stay_well_shaped(void **state)
 {
     (void)state;

@@ -239,6 +239,31 @@ static inline OstMesh *mesh_of_block(OstContext *on, double x, double y, double 
     return mesh;
 }
 
+/* A column of four cells on rank 0, with a curve along an edge of it, and two of its corners. */
+static inline OstMeshChunk *marked_column(void)
+{
+    static const OstGlobal edge[8] = {0, 1, 1, 2, 2, 3, 3, 4}, corners[2] = {0, 19}; /* along z */
+    const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 4}};
+    OstContext *alone = NULL;
+    OstMeshChunk *block = NULL;
+    assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
+    assert_int_equal(ost_chunk_create_block(alone, &shape, &block), OST_SUCCESS);
+    OstMeshChunk *chunk = hand_chunk(4, 20, block->coordinates, block->tet_count, block->tet_nodes);
+    add_boundary(chunk, "edge", 1, 2, 4, edge);
+    add_boundary(chunk, "corners", 0, 1, 2, corners);
+    ost_chunk_destroy(&block);
+    ost_context_destroy(&alone);
+    return chunk;
+}
+
+static inline double worst_quality(const OstMesh *mesh)
+{
+    double worst = 1.0;
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        worst = fmin(worst, ost_tet_quality(mesh->coordinates, tet_of(mesh, t)));
+    return -highest_of_ranks(-worst);
+}
+
 static inline OstMesh *mesh_of_octant(OstContext *on, const OstOctantShape *shape)
 {
     OstMeshChunk *chunk = NULL;

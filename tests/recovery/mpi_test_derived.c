@@ -10,7 +10,7 @@ enum { MOST = 9 };
 
 static unsigned everything(void)
 {
-    return (1U << OST_FIELD_COUNT) - 1U - (1U << OST_FIELD_ERROR);
+    return (1U << OST_FIELD_COUNT) - 1U - (1U << OST_FIELD_ERROR) - (1U << OST_FIELD_MIXED_PRESSURE);
 }
 
 /* u = gradient x */

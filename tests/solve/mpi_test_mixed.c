@@ -3,6 +3,7 @@
 
 #include "core/parallel/reduce.h"
 #include "problem/problem.h"
+#include "recovery/derived.h"
 
 /* The mixed form: quadratic tets whose pressure is an unknown of its own, for nu up to 1/2. */
 
@@ -67,6 +68,7 @@ static void an_incompressible_block_in_a_box_bears_the_load(void **state)
 {
     (void)state;
     Run run;
+    double *pressure = NULL;
     assert_success(try_to_solve("mesh: {block: {size: [1, 1, 1], divisions: [3, 2, 2]}}\nelement: {order: 2}\n"
                                 "materials: [{region: all, youngs_modulus: 3, poissons_ratio: 0.5}]\n"
                                 "constraints: [{on: {boundary: [xmin, xmax]}, slide: [1, 0, 0]},\n"
@@ -83,6 +85,12 @@ static void an_incompressible_block_in_a_box_bears_the_load(void **state)
         for (int i = 0; i < 3; i++)
             assert_close(ost_result_displacement(run.result)[3 * node + i], 0.0, 1e-9);
     }
+    assert_true(ost_result_can_derive(run.result, OST_FIELD_MIXED_PRESSURE));
+    assert_success(OST_NEW(ctx, &pressure, run.scene->mesh->owned_tets));
+    assert_success(ost_result_derive(run.result, OST_FIELD_MIXED_PRESSURE, pressure));
+    for (OstLocal t = 0; t < run.scene->mesh->owned_tets; t++)
+        assert_close(pressure[t], 7.0, 1e-8);
+    OST_FREE(pressure);
     clear(&run);
 }
 

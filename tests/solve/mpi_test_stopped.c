@@ -23,6 +23,9 @@ static void what_is_left_is_stated_and_small(void **state)
         TUBE(LINEAR, "youngs_modulus: [1e6, 1e6, 1e12], poissons_ratio: 0.3, shear_modulus: geometric, " AXES, ""),
         TUBE(QUADRATIC, "youngs_modulus: [1e6, 1e9, 1e6], poissons_ratio: 0.3, shear_modulus: geometric, " AXES,
              "element: {order: 2}\n"),
+        TUBE(QUADRATIC, "youngs_modulus: 1e6, poissons_ratio: 0.5", "element: {order: 2}\n"),
+        TUBE(QUADRATIC, "youngs_modulus: [1e6, 1e9, 1e6], poissons_ratio: 0.499, shear_modulus: geometric, " AXES,
+             "element: {order: 2}\n"),
     };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         OstCase *c = NULL;

@@ -274,29 +274,33 @@ static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
 }
 
 /* What stands before says how to solve: SPC = 1 is no card there. A file may hold the cards alone. */
-static void go_to_bulk_data(OstMshCursor *cursor)
+static int go_to_bulk_data(OstMshCursor *cursor)
 {
     const char *first = cursor->next;
     while (cursor->next < cursor->end) {
         const OstMshText text = ost_msh_rest_of_line(cursor);
         if (text.length >= 5 && strncasecmp(text.start, "BEGIN", 5) == 0)
-            return;
+            return 1;
     }
     cursor->next = first;
+    return 0;
 }
 
 static OstStatus read_lines(Nastran *nastran)
 {
     OstMshCursor *cursor = &nastran->cursor;
-    go_to_bulk_data(cursor);
-    while (cursor->next < cursor->end) {
+    const int begun = go_to_bulk_data(cursor);
+    int ended = 0;
+    while (!ended && cursor->next < cursor->end) {
         const char *line = cursor->next;
         const OstMshText text = ost_msh_rest_of_line(cursor);
         cursor->place = line;
-        if (text.length >= 7 && strncasecmp(text.start, "ENDDATA", 7) == 0)
-            break;
-        OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
+        ended = text.length >= 7 && strncasecmp(text.start, "ENDDATA", 7) == 0;
+        if (!ended)
+            OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
     }
+    if (begun && !ended)
+        ost_warn(cursor->ctx, "%s: BEGIN BULK has no ENDDATA: is the file complete?", cursor->path);
     return end_card(nastran);
 }
 
