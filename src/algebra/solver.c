@@ -518,9 +518,8 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
     return status;
 }
 
-/* `saddle`: NULL without a mixed form. */
-static OstStatus solve_in_time(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
-                               OstSolveReport *report)
+OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
+                                 OstSolveReport *report)
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
@@ -538,13 +537,7 @@ static OstStatus solve_in_time(OstSolver *solver, const OstSaddle *saddle, const
 
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
-    return solve_in_time(solver, NULL, f, u, report);
-}
-
-OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
-                                 OstSolveReport *report)
-{
-    return solve_in_time(solver, saddle, f, u, report);
+    return ost_solver_solve_mixed(solver, NULL, f, u, report);
 }
 
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,

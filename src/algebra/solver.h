@@ -61,7 +61,7 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 
 /* Collective. Solves a mixed form, of which A is the first block, from u = 0 and p = 0 (but see OstSolverAim.goes_on),
  * as ost_solver_solve: the same strategies precondition A, and are left for the same reasons. Norms are those of
- * ost_saddle_goal, in the report too. There is no stop by the discretisation error. */
+ * ost_saddle_goal, in the report too. `saddle`: NULL for none. */
 OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                                  OstSolveReport *report);
 

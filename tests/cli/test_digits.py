@@ -38,6 +38,7 @@ constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
 loads:
   - {on: {boundary: xmax}, total_force: [0, 0, 1]}
+accuracy: {relative_residual: 1e-8}
 large_rotation: off
 """
 
