@@ -46,7 +46,7 @@ def numbers_of_shape(points):
     solved = [point for point in sound if point["outcome"].startswith("solved")]
 
     def count(group, outcome):
-        return sum(point["outcome"] == outcome for point in group)
+        return sum(point["outcome"].lower() == outcome for point in group)  # a false success is written large
 
     return {"points": len(sound), "solved": count(sound, "solved"), "solved to rounding": count(sound, "solved to rounding"),
             "refused rightly": count(sound, "refused rightly"), "given up": count(sound, "given up"),
