@@ -14,7 +14,8 @@ enum {
     HARD_FAMILY = 5,   /* Poisson's ratios of the stable family */
     HARD_POISSONS = 7, /* those, and nine constants at 0.99 and 0.999 of the border of stability */
     HARD_AXES = 3,     /* aligned, cylindrical, random smooth */
-    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3)
+    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3),
+    HARD_INCOMPRESSIBLE = HARD_POISSONS /* nu = 1/2, by the mixed form: the family's rows of its own */
 };
 
 /* What is wrong with a point that must be refused. */
@@ -30,7 +31,7 @@ typedef enum {
 
 typedef struct HardPoint {
     int shape, order;
-    int poisson;            /* 0 to HARD_POISSONS - 1 */
+    int poisson;            /* 0 to HARD_POISSONS - 1, or HARD_INCOMPRESSIBLE */
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
     HardFlaw flaw;
     OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
@@ -62,6 +63,7 @@ typedef struct HardTruth {
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
     HardErrors off;       /* of the answer, from the equations before their stiffness is rounded */
+    double pressure;      /* of a mixed form: that of its pressures, in the norm of the energy */
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
@@ -91,7 +93,7 @@ typedef struct HardReading {
 
 typedef struct HardReport {
     OstContext *ctx;
-    int quick;
+    int quick, mixed;
     OstGlobal size;
     int count;
     HardReading *reading;
@@ -113,8 +115,8 @@ void hard_describe(const HardPoint *point, char *text, size_t size);
 int hard_column(const HardPoint *point);
 
 /* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
- * occurs. The caller frees them. */
-OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, int *count,
+ * occurs. `mixed`: those of the mixed form, and no others. The caller frees them. */
+OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int mixed, OstGlobal size, int *count,
                       HardPoint **points);
 
 /* A point's case, made in memory. It holds pointers into itself: it must not move. */
@@ -145,6 +147,9 @@ void hard_cylinder(int shape, double origin[3], double axis[3]);
  * (NULL: there is none) with it. */
 OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
+/* Collective. The same of both equations of a mixed form; fills known, error, pressure and size alone. */
+OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
+
 /* Collective. The same of a body that is too large to be factored: the residual alone. */
 OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
@@ -164,7 +169,8 @@ OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed);
 
 /* Collective. All points, with a progress line; with a `size`, the sound ones with about so many unknowns, solved
  * without any factorisation. */
-OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, HardReport **report);
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int mixed, OstGlobal size,
+                   HardReport **report);
 void hard_report_destroy(HardReport **report);
 int hard_passed(const HardReport *report);
 

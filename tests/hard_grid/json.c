@@ -21,11 +21,12 @@ static json_t *reading_json(const HardReading *reading)
     if (!json || reading->unknowns == 0)
         return json;
     json_t *numbers = json_pack(
-        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:f}",
+        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:f}",
         "unknowns", (json_int_t)reading->unknowns, "method", ost_method_name(reading->method), "iterations",
         reading->iterations, "strategies", reading->steps, "relative_residual", ost_json_number(reading->residual),
         "rounding_limited", reading->rounding_limited, "stated_error", ost_json_number(reading->stated_error),
-        "stated_forces", ost_json_number(reading->stated_forces), "displacement_error",
+        "stated_forces", ost_json_number(reading->stated_forces), "pressure_error",
+        ost_json_number(reading->truth.pressure), "displacement_error",
         ost_json_number(reading->truth.off.displacement), "reaction_error",
         ost_json_number(reading->truth.off.reaction), "stress_error", ost_json_number(reading->truth.off.stress),
         "digits", ost_json_number(reading->digits), "size", ost_json_number(reading->truth.size), "amplification",

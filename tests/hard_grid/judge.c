@@ -108,6 +108,22 @@ static void judge(HardReading *reading)
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
 
+/* Displacements and pressures against what is stated of displacements and stresses. A saddle point has no energy that
+ * rounding could turn: where no solution is known, no refusal is right. */
+static void judge_mixed(HardReading *reading)
+{
+    const HardTruth *truth = &reading->truth;
+    reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
+    if (reading->status != OST_SUCCESS)
+        reading->outcome = HARD_GIVEN_UP;
+    else if (!truth->known)
+        fail(reading, HARD_FALSE, "solved, but there is no direct solution");
+    else if (!states(reading->stated_error, truth->error) || !states(reading->stated_forces, truth->pressure))
+        fail(reading, HARD_FALSE, "its errors are not as stated");
+    else
+        reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
+}
+
 /* Without a direct solution: is the residual as small as it is said to be? Rounding of u alone may add its floor. */
 static void judge_residual(HardReading *reading)
 {
@@ -126,7 +142,10 @@ OstStatus hard_solve_scene(OstScene *scene, int factored, HardReading *reading)
     OstResult *result = NULL;
     OstStatus status = OST_SUCCESS;
     solve(scene, &result, reading);
-    if (factored)
+    const int mixed = ost_field_is_mixed(scene->field) && factored;
+    if (mixed)
+        status = hard_find_mixed_truth(scene, result, &reading->truth);
+    else if (factored)
         status = hard_find_truth(scene, result, &reading->truth);
     else if (result)
         status = hard_find_residual(scene, result, &reading->truth);
@@ -137,7 +156,9 @@ OstStatus hard_solve_scene(OstScene *scene, int factored, HardReading *reading)
     }
     if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
         status = OST_SUCCESS;
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS && mixed)
+        judge_mixed(reading);
+    else if (status == OST_SUCCESS)
         judge(reading);
     return status;
 }
@@ -177,14 +198,15 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);
     return status;
 }
 
-OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, HardReport **out)
+OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, int mixed, OstGlobal size,
+                   HardReport **out)
 {
     HardReport *report = NULL;
     HardPoint *points = NULL;
@@ -193,8 +215,9 @@ OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, Os
     if (status == OST_SUCCESS) {
         report->ctx = ctx;
         report->quick = quick;
+        report->mixed = mixed;
         report->size = size;
-        status = hard_points(ctx, wanted, quick, size, &report->count, &points);
+        status = hard_points(ctx, wanted, quick, mixed, size, &report->count, &points);
     }
     if (status == OST_SUCCESS)
         status = OST_NEW(ctx, &report->reading, report->count);

@@ -15,7 +15,7 @@
 enum { MOST_REPORTS = 2, MOST_CASES = 100 };
 
 typedef struct Arguments {
-    int quick;
+    int quick, mixed;
     OstGlobal size;
     int report_count;
     const char *report[MOST_REPORTS];
@@ -28,6 +28,7 @@ typedef struct Arguments {
 
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "A sample of the points in which every value of every parameter occurs", 0},
+    {"mixed", 'M', 0, 0, "Quadratic tets at nu = 1/2 by the mixed form, in place of the other points", 0},
     {"size", 'S', "N", 0,
      "Bodies of about N unknowns (1000 to 1e8), solved without a factorisation, judged by the residual", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
@@ -61,6 +62,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     switch (key) {
     case 'Q':
         arguments->quick = 1;
+        return 0;
+    case 'M':
+        arguments->mixed = 1;
         return 0;
     case 'S':
         arguments->size = (OstGlobal)strtod(value, &end);
@@ -123,7 +127,7 @@ static OstStatus run(OstContext *ctx, void *input)
     }
     if (arguments->case_count > 0 && arguments->shape_count == 0)
         return OST_SUCCESS;
-    OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, arguments->size, &report));
+    OST_TRY(hard_run(ctx, arguments->wanted, arguments->quick, arguments->mixed, arguments->size, &report));
     arguments->passed &= hard_passed(report);
     const OstStatus status = ost_agree(ctx, write_reports(report, arguments));
     hard_report_destroy(&report);

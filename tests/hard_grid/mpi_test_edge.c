@@ -13,7 +13,7 @@ static HardReading read_point(const char *words)
     HardReading reading = {.outcome = HARD_OUTCOMES};
     HardPoint *points = NULL;
     int count;
-    assert_success(hard_points(ctx, wanted, 0, 0, &count, &points));
+    assert_success(hard_points(ctx, wanted, 0, 0, 0, &count, &points));
     for (int i = 0; i < count; i++) {
         char found[160];
         hard_describe(&points[i], found, sizeof found);
