@@ -21,7 +21,7 @@ typedef struct Arguments {
     int case_count;
     const char *case_path[MOST_CASES];
     int shape_count; /* 0: all, unless there are cases */
-    int passed; /* did all points that were run? */
+    int passed;      /* did all points that were run? */
 } Arguments;
 
 static const struct argp_option options[] = {
@@ -68,9 +68,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         return 0;
     case 'S':
         arguments->run.size = (OstGlobal)strtod(value, &end);
-        if (*end || arguments->run.size < 1000 || arguments->run.size > 100000000)
-            argp_error(state, "--size wants a number of unknowns, 1000 to 1e8, and got '%s'", value);
-        return 0;
+        if (!*end && arguments->run.size >= 1000 && arguments->run.size <= 100000000)
+            return 0;
+        argp_error(state, "--size wants a number of unknowns, 1000 to 1e8, and got '%s'", value);
+        return EINVAL;
     case 'j':
         if (arguments->report_count == MOST_REPORTS) {
             argp_error(state, "--json is given more than %d times", MOST_REPORTS);

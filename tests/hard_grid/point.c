@@ -74,8 +74,8 @@ static int is_in_spread(const HardPoint *point)
                                        {.poisson = 0, .ratio = 2, .stiff = 0, .axes = 2},
                                        {.poisson = 6, .ratio = 2, .stiff = 2, .axes = 1}};
     for (size_t i = 0; i < sizeof spread / sizeof *spread; i++)
-        if (point->poisson == spread[i].poisson && point->ratio == spread[i].ratio &&
-            point->stiff == spread[i].stiff && point->axes == spread[i].axes)
+        if (point->poisson == spread[i].poisson && point->ratio == spread[i].ratio && point->stiff == spread[i].stiff &&
+            point->axes == spread[i].axes)
             return 1;
     return 0;
 }
