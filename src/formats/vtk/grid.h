@@ -53,8 +53,8 @@ int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlo
 OstStatus ost_vtk_add_array(OstVtkGrid *grid, const char *name, int on_points, int components, OstGlobal tuples,
                             double **values);
 
-/* Local. Did meshio write the file that the cursor is at the beginning of? The array with the sets of cells or points of
- * such a file, or NULL; `sign` stands between their names. Names the groups of cells by it; makes sets of nodes. */
+/* Local. Did meshio write the file that the cursor is at the beginning of? The array with the sets of cells or points
+ * of such a file, or NULL; `sign` stands between their names. Names the groups of cells by it; makes sets of nodes. */
 int ost_vtk_is_by_meshio(const OstMshCursor *cursor);
 const OstVtkArray *ost_vtk_sets(const OstVtkGrid *grid, int on_points, char *sign);
 OstStatus ost_vtk_name_sets(const OstVtkArray *array, char sign, OstCells *cells);

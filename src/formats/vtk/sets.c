@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-/* VTK's files have no place for sets. meshio writes its sets as one array of whole numbers: the number of the set that a
- * cell (or point) is in, -1 for none. The array's name is those of all sets with a sign between them, the first of these
- * that is in none of the names. */
+/* VTK's files have no place for sets. meshio writes its sets as one array of whole numbers: the number of the set that
+ * a cell (or point) is in, -1 for none. The array's name is those of all sets with a sign between them, the first of
+ * these that is in none of the names. */
 static const char signs[] = "-_#+/";
 
 enum { LONGEST_HEAD = 512 }; /* within which a file says who wrote it */
