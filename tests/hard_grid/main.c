@@ -86,8 +86,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case ARGP_KEY_ARG:
         return want_shape(state, value, arguments);
     case ARGP_KEY_END:
-        if (arguments->run.mixed && arguments->run.size > 0)
+        if (arguments->run.mixed && arguments->run.size > 0) {
             argp_error(state, "--mixed has small bodies alone: leave out --size");
+            return EINVAL;
+        }
         for (int s = 0; s < HARD_SHAPES && arguments->shape_count + arguments->case_count == 0; s++)
             arguments->run.wanted[s] = 1;
         return 0;
