@@ -117,9 +117,9 @@ static inline void gather_axes(const OstMaterialField *field, const OstLocal tet
     axes[8] = (OstSimd){of_tet[0][8], of_tet[1][8], of_tet[2][8], of_tet[3][8]};
 }
 
-static OstSimd dot(const OstSimd a[3], const OstSimd b[3])
+static void dot(const OstSimd a[3], const OstSimd b[3], OstSimd *product)
 {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    *product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* As ost_axes_at, of a cylinder. Returns 0 where a point is close to its axis. */
@@ -136,11 +136,14 @@ static int cylindrical_axes(const OstAxesSpec *spec, const OstSimd place[3], Ost
         offset[i] = radial[i] = place[i] - spec->origin[i];
     }
     for (int pass = 0; pass < 2; pass++) { /* the second takes off what rounding left */
-        const OstSimd along = dot(axial, radial);
+        OstSimd along;
+        dot(axial, radial, &along);
         for (int i = 0; i < 3; i++)
             radial[i] -= along * axial[i];
     }
-    const OstSimd square = dot(radial, radial), whole = dot(offset, offset);
+    OstSimd square, whole;
+    dot(radial, radial, &square);
+    dot(offset, offset, &whole);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         if (!(square[slot] > close * whole[slot]))
             return 0;
