@@ -308,7 +308,7 @@ static void a_metric_that_measures_nothing_is_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(edges_off_the_stiff_directions_are_noticed),
-        cmocka_unit_test(flat_bricks_at_the_surface_are_noticed),
+    cmocka_unit_test(flat_bricks_at_the_surface_are_noticed),
     cmocka_unit_test(the_two_sides_of_a_flat_layer_stay_together),
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),
