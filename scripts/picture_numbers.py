@@ -50,7 +50,7 @@ def numbers_of_hard_size(reports):
             digits = point.get("digits")
             tile.setdefault(body, []).append([point.get("unknowns", report["size"]), point.get("iterations"),
                                               None if digits is None else short(digits, 3), point["outcome"].lower()])
-    return tiles
+    return {name: dict(sorted(tile.items(), key=lambda body: "alike" not in body[0])) for name, tile in tiles.items()}
 
 
 def numbers_of_shape(points):

@@ -75,6 +75,22 @@ static void edges_off_the_stiff_directions_are_noticed(void **state)
     assert_true(nearest > 4.0);
 }
 
+/* A metric that shortens z a hundredfold makes a plate of the cube. */
+static void flat_bricks_at_the_surface_are_noticed(void **state)
+{
+    (void)state;
+    double flatness[3];
+    const double squares[3] = {1.0, 1e-2, 1e-4};
+    for (int k = 0; k < 3; k++) {
+        OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, squares[k]});
+        assert_success(ost_metric_graph_flatness(graph, &flatness[k]));
+        ost_metric_graph_destroy(&graph);
+    }
+    assert_true(flatness[0] >= 1.0 && flatness[0] < 3.0);
+    assert_close(flatness[2] / flatness[1], 10.0, 1.0);
+    assert_true(flatness[1] > 5.0);
+}
+
 /* Every second layer of bricks is a thousandth as thick as the others: the two nodes above each other stay together, in
  * aggregates and in blocks. */
 static void the_two_sides_of_a_flat_layer_stay_together(void **state)
@@ -292,6 +308,7 @@ static void a_metric_that_measures_nothing_is_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(edges_off_the_stiff_directions_are_noticed),
+    cmocka_unit_test(flat_bricks_at_the_surface_are_noticed),
     cmocka_unit_test(the_two_sides_of_a_flat_layer_stay_together),
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),

@@ -11,4 +11,8 @@
  * of a mesh that follows them has as many in their plane. */
 OstStatus ost_metric_graph_misalignment(const OstMetricGraph *graph, double *mean);
 
+/* Collective. How flat what lies at the surface is: over the nodes there, the mean of how far their neighbours are
+ * spread in the widest direction over that along the normal, in the metric. About 1 in regular meshes. */
+OstStatus ost_metric_graph_flatness(const OstMetricGraph *graph, double *mean);
+
 #endif

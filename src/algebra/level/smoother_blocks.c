@@ -167,24 +167,31 @@ done:
     return status;
 }
 
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int uneven,
+                                 OstSmootherBlocks **blocks)
+{
+    OstStatus status;
+    OST_TRY_DONE(OST_NEW(matrix->ctx, blocks, 1));
+    (*blocks)->ctx = matrix->ctx;
+    (*blocks)->size = matrix->size;
+    OST_TRY_DONE(list_blocks(groups, matrix->rows, *blocks));
+    OST_TRY_DONE(fill_blocks(matrix, uneven, *blocks));
+done:
+    if (status != OST_SUCCESS)
+        ost_smoother_blocks_destroy(blocks);
+    return status;
+}
+
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                      OstSmootherBlocks **blocks)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = LARGEST_BLOCK};
-    OstAggregates *aggregates = NULL;
+    OstAggregates *groups = NULL;
     *blocks = NULL;
-    OstStatus status = ost_aggregates_create(graph, &shape, &aggregates);
-    if (status != OST_SUCCESS)
-        return status;
-    OST_TRY_DONE(OST_NEW(matrix->ctx, blocks, 1));
-    (*blocks)->ctx = matrix->ctx;
-    (*blocks)->size = matrix->size;
-    OST_TRY_DONE(list_blocks(aggregates, matrix->rows, *blocks));
-    OST_TRY_DONE(fill_blocks(matrix, ost_metric_graph_is_uneven(graph), *blocks));
-done:
-    ost_aggregates_destroy(&aggregates);
-    if (status != OST_SUCCESS)
-        ost_smoother_blocks_destroy(blocks);
+    OstStatus status = ost_aggregates_create(graph, &shape, &groups);
+    if (status == OST_SUCCESS)
+        status = ost_smoother_blocks_of(matrix, groups, ost_metric_graph_is_uneven(graph), blocks);
+    ost_aggregates_destroy(&groups);
     return status;
 }
 

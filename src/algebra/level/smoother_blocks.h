@@ -20,6 +20,10 @@ typedef struct OstSmootherBlocks {
  * blocks are inverted instead, and of those that are not either, the diagonal. */
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                      OstSmootherBlocks **blocks);
+
+/* Local. The same with given groups of nodes, those of more than 24 split. `uneven`: a block may be nearly singular. */
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int uneven,
+                                 OstSmootherBlocks **blocks);
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 
 /* One step of an iteration: direction = keep × direction + add × B^-1 r, then x += direction. `from_zero`: both are 0

@@ -119,6 +119,25 @@ static OstStatus gather(Coarsening *work, OstGlobal first, OstGlobal unknowns, O
     return ost_level_gather(&level, stride);
 }
 
+/* Interpolates over the blocks of the level's smoother; or over the aggregates themselves, if they are as small as
+ * blocks: an aggregate's own function stays whole, and its neighbours bend least to meet it. Iterations of quadratic
+ * tets on unstructured meshes, ratio 1000, by blocks of the smoother and by aggregates: 44 42 36 50 51 50 and 37 37 29
+ * 40 40 45. Larger blocks of the smoother itself gain nothing. */
+static OstStatus smooth_prolongator(const Coarsening *work, const OstTentative *tentative,
+                                    const OstAggregates *aggregates, OstSmoother **by)
+{
+    OstLevels *levels = work->levels;
+    const int l = levels->count - 1;
+    OstStatus status = OST_SUCCESS;
+    if (work->options.own_blocks && l == 0)
+        status = ost_smoother_create_of(levels->matrix[l], levels->graph[l], aggregates, &work->options, by);
+    else
+        *by = levels->smoother[l];
+    if (status == OST_SUCCESS)
+        status = ost_tentative_smooth(tentative, levels->coarsest, *by, &levels->prolongator[l]);
+    return status;
+}
+
 /* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
  */
 static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, OstGlobal unknowns)
@@ -127,19 +146,19 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     const int l = levels->count - 1;
     OstTentative *tentative = NULL;
     OstDoubleMatrix *coarse = NULL;
+    OstSmoother *by = NULL; /* what the prolongator is smoothed by */
     OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, &tentative);
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
+    OST_TRY_DONE(smooth_prolongator(work, tentative, aggregates, &by));
     ost_metric_graph_destroy(&levels->graph[l]);
-    OST_TRY_DONE(ost_tentative_smooth(tentative, levels->coarsest, levels->smoother[l], &levels->prolongator[l]));
     const OstGlobal first = tentative->first_coarse;
     OST_FREE(*work->modes);
     *work->modes = tentative->modes;
     tentative->modes = NULL;
     ost_tentative_destroy(&tentative);
-    OST_TRY_DONE(
-        ost_galerkin_create(levels->coarsest, levels->smoother[l]->blocks, levels->prolongator[l], first, &coarse));
+    OST_TRY_DONE(ost_galerkin_create(levels->coarsest, by->blocks, levels->prolongator[l], first, &coarse));
     ost_double_matrix_mend_diagonal(coarse);
     ost_double_matrix_destroy(&levels->coarsest);
     levels->coarsest = coarse;
@@ -147,6 +166,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     OST_TRY_DONE(create_matrix(&work->options, levels, l + 1));
     levels->count++;
 done:
+    if (by != levels->smoother[l])
+        ost_smoother_destroy(&by);
     ost_tentative_destroy(&tentative);
     return status;
 }

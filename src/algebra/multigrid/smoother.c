@@ -26,8 +26,8 @@ static void apply_blocks(const void *data, const double *r, double *z)
     ost_smoother_blocks_step(smoother->blocks, &step, r);
 }
 
-OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph,
-                              const OstSolverOptions *options, OstSmoother **smoother)
+OstStatus ost_smoother_create_of(const OstLevelMatrix *matrix, const OstMetricGraph *graph, const OstAggregates *groups,
+                                 const OstSolverOptions *options, OstSmoother **smoother)
 {
     OstContext *ctx = matrix->ctx;
     OstSmoother *made = NULL;
@@ -36,7 +36,9 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
     if (status == OST_SUCCESS)
         status =
             ost_level_vector_create(ctx, matrix->size, (size_t)matrix->rows + (size_t)matrix->columns, &made->residual);
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS && groups)
+        status = ost_smoother_blocks_of(matrix, groups, ost_metric_graph_is_uneven(graph), &made->blocks);
+    else if (status == OST_SUCCESS)
         status = ost_smoother_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->matrix = matrix;
@@ -49,6 +51,12 @@ done:
         ost_smoother_destroy(&made);
     *smoother = made;
     return status;
+}
+
+OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph,
+                              const OstSolverOptions *options, OstSmoother **smoother)
+{
+    return ost_smoother_create_of(matrix, graph, NULL, options, smoother);
 }
 
 /* Chebyshev iteration: Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */

@@ -18,6 +18,10 @@ typedef struct OstSmoother {
 /* Collective. The matrix stays the caller's and outlives the smoother; the graph is not kept. */
 OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph,
                               const OstSolverOptions *options, OstSmoother **smoother);
+
+/* Collective. The same with blocks of given groups of nodes (NULL: as above). */
+OstStatus ost_smoother_create_of(const OstLevelMatrix *matrix, const OstMetricGraph *graph, const OstAggregates *groups,
+                                 const OstSolverOptions *options, OstSmoother **smoother);
 void ost_smoother_destroy(OstSmoother **smoother);
 
 /* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken as 0. */
