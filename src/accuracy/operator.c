@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
+#include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
 #include "core/error.h"
@@ -283,47 +284,6 @@ static void forces_of(const Cells *cells, const OstElement *element, OstFormulat
     }
 }
 
-/* The same of straight linear tets with uniform C, by linear theory: the stress is linear, and known at the vertices.
- */
-static void forces_of_linear(const Cells *cells, const OstElement *element, const OstSimd *u, const OstSimd *w,
-                             OstSimd *at_nodes, OstSimd *at_functions)
-{
-    OstPoint point;
-    OstSimd slope[9], at_vertex[4][9], stress[4][9], sum[9] = {{0}};
-    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
-    ost_displacement_gradient(4, &point, u, slope);
-    for (int a = 0; a < 4; a++)
-        memcpy(at_vertex[a], slope, sizeof slope);
-    for (int e = 0; e < 6 && w; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        const OstSimd coefficient[3] = {4.0 * w[3 * e], 4.0 * w[3 * e + 1], 4.0 * w[3 * e + 2]};
-        add_slope(coefficient, point.gradient[b], at_vertex[a]);
-        add_slope(coefficient, point.gradient[a], at_vertex[b]);
-    }
-    point.volume *= 0.05; /* of products of two barycentric coordinates */
-    for (int a = 0; a < 4; a++) {
-        find_stress(cells, OST_FORMULATION_LINEAR, 0, at_vertex[a], NULL, &point.volume, stress[a]);
-        for (int n = 0; n < 9; n++)
-            sum[n] += stress[a][n];
-    }
-    memset(at_functions, 0, 18 * sizeof *at_functions);
-    for (int e = 0; e < 6; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd of_a[9], of_b[9];
-        for (int n = 0; n < 9; n++) {
-            of_a[n] = 4.0 * (sum[n] + stress[a][n]);
-            of_b[n] = 4.0 * (sum[n] + stress[b][n]);
-        }
-        add_along(of_a, point.gradient[b], at_functions + 3 * e);
-        add_along(of_b, point.gradient[a], at_functions + 3 * e);
-    }
-    memset(at_nodes, 0, 12 * sizeof *at_nodes);
-    for (int n = 0; n < 9; n++)
-        sum[n] *= 5.0;
-    for (int a = 0; a < 4; a++)
-        add_along(sum, point.gradient[a], at_nodes + 3 * a);
-}
-
 /* Has the stress no part but C times the strain of linear theory? */
 static int is_plain(const Cells *cells, OstFormulation formulation)
 {
@@ -339,7 +299,7 @@ static void find_forces(const Cells *cells, const OstElement *element, OstFormul
     const int is_simple = cells->nodes == 4 && cells->batch.elasticity.points == 1 &&
                           formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
     if (is_simple)
-        forces_of_linear(cells, element, u, w, at_nodes, at_functions);
+        ost_linear_tets_forces(cells->batch.x, &cells->batch.elasticity, u, w, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
@@ -492,26 +452,6 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
 
 /* --- the functions' own blocks --- */
 
-/* Of straight linear tets with uniform C. */
-static void add_linear_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
-{
-    OstPoint point;
-    OstSimd own[4][9], stress[4][6][3];
-    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
-    for (int a = 0; a < 4; a++) {
-        ost_stress_columns(cells->batch.elasticity.c[0], point.gradient[a], stress[a]);
-        ost_block_of_stress(point.gradient[a], stress[a], own[a]);
-    }
-    for (int e = 0; e < 6; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd cross[9];
-        ost_block_of_stress(point.gradient[a], stress[b], cross);
-        for (int n = 0; n < 9; n++)
-            block[e][n] =
-                point.volume * (1.6 * (own[a][n] + own[b][n]) + 0.8 * (cross[n] + cross[3 * (n % 3) + n / 3]));
-    }
-}
-
 static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
@@ -567,12 +507,11 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
     Cells cells;
     memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
     clear_cells(operator, 0, 0.0, &cells);
-    cells.batch.elasticity.stretch_suffices = 0;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);
         if (cells.nodes == 4 && cells.batch.elasticity.points == 1)
-            add_linear_blocks(&cells, element, block);
+            ost_linear_tets_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
             ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else
