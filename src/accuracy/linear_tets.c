@@ -40,13 +40,19 @@ static inline void add_slope(const OstSimd v[3], const OstSimd g[3], OstSimd slo
             slope[3 * i + j] += v[i] * g[j];
 }
 
+/* Less that of the eigenstrain. */
 static inline void find_stress(const OstElasticity *elasticity, const OstSimd slope[9], OstSimd stress[6])
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const OstSimd *a = elasticity->stretch_tensor;
     if (!elasticity->by_stretch) {
-        const OstSimd strain[6] = {slope[0],           slope[4], slope[8], slope[1] + slope[3], slope[5] + slope[7],
-                                   slope[6] + slope[2]};
+        OstSimd strain[6];
+        for (int i = 0; i < 3; i++) {
+            const int next = (i + 1) % 3;
+            strain[i] = slope[4 * i];
+            strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
+        }
+        ost_elastic_strain(elasticity, 0, strain, strain);
         ost_simd_stress(elasticity->c[0], strain, stress);
         return;
     }

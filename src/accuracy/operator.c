@@ -296,8 +296,9 @@ static int is_plain(const Cells *cells, OstFormulation formulation)
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
-    const int is_simple = cells->nodes == 4 && cells->batch.elasticity.points == 1 &&
-                          formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    const int is_simple = cells->nodes == 4 && elasticity->points == 1 && formulation == OST_FORMULATION_LINEAR &&
+                          !cells->turned_by && !elasticity->by_mean && !(cells->state && elasticity->mixed);
     if (is_simple)
         ost_linear_tets_forces(cells->batch.x, &cells->batch.elasticity, u, w, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
