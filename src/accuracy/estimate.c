@@ -38,6 +38,7 @@ void ost_estimate_destroy(OstEstimate **estimate)
 {
     if (!*estimate)
         return;
+    ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
     OST_FREE((*estimate)->inverse);
@@ -50,8 +51,10 @@ static OstStatus create(OstEstimate *estimate)
     const OstProblem *problem = estimate->problem;
     OST_TRY(ost_complement_create(problem->mesh, problem->supports, &estimate->complement));
     OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
-    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL};
-    return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
+    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL, NULL};
+    OstStatus status = ost_light_tets_create(problem, &estimate->complement, &estimate->stiffness.light);
+    OST_THEN(OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
+    return ost_agree(problem->ctx, status);
 }
 
 OstStatus ost_estimate_take_loading(OstEstimate *estimate)

@@ -377,7 +377,7 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
                              double *of_functions, double *energy)
 {
     const OstProblem *problem = operator->problem;
-    const OstOperator unturned = {problem, operator->complement, NULL};
+    const OstOperator unturned = {problem, operator->complement, NULL, NULL};
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *own = NULL;
     const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
@@ -404,6 +404,10 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
                         double *of_functions)
 {
+    if (operator->light && !operator->turned_by) {
+        ost_light_tets_apply(operator->light, u, w, force, of_functions);
+        return;
+    }
     sum_forces(operator, &(Sum){.formulation = OST_FORMULATION_LINEAR,
                                 .u = u,
                                 .w = w,
@@ -432,6 +436,10 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
+    if (operator->light && !operator->turned_by && !stress) {
+        ost_light_tets_energy(operator->light, u, w, energy);
+        return;
+    }
     clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];

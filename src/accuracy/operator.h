@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_OPERATOR_H
 #define ORTHOSTAT_ACCURACY_OPERATOR_H
 
-#include "accuracy/complement.h"
+#include "accuracy/light_tets.h"
 #include "problem/problem.h"
 
 /* Forces and stiffness of the elements and their complement together, tet by tet without a matrix. A displacement has
@@ -11,7 +11,8 @@ typedef struct OstOperator {
     const OstProblem *problem;
     const OstComplement *complement;
     const double
-        *turned_by; /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
+        *turned_by;      /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
+    OstLightTets *light; /* the stiffness of linear tets that is not turned, if it may be less precise; or NULL */
 } OstOperator;
 
 /* Local. The internal forces on the functions at t of the displacement u of the nodes. On the nodes: by how much those
