@@ -285,9 +285,10 @@ static inline void add_to_functions(OstLightTets *tets, const Eights *eights, Ei
     }
 }
 
-/* --- forces of eight tets: linear_tets.c --- */
+/* --- forces of eight tets --- */
 
-/* Slopes are kept as D A where C has a stretch tensor A, that is with `along` = A g in place of the gradient g. */
+/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
+ * is with `along` = A g in place of the gradient g. */
 typedef struct Linear {
     Eight gradient[VERTICES][3], along[VERTICES][3], volume;
     const Kept *elastic;

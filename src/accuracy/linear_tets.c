@@ -41,7 +41,7 @@ static inline void add_slope(const OstSimd v[3], const OstSimd g[3], OstSimd slo
 }
 
 /* Less that of the eigenstrain. */
-static inline void find_stress(const OstElasticity *elasticity, const OstSimd slope[9], OstSimd stress[6])
+static inline void find_stress(const OstElasticity *elasticity, int at, const OstSimd slope[9], OstSimd stress[6])
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const OstSimd *a = elasticity->stretch_tensor;
@@ -52,8 +52,8 @@ static inline void find_stress(const OstElasticity *elasticity, const OstSimd sl
             strain[i] = slope[4 * i];
             strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
         }
-        ost_elastic_strain(elasticity, 0, strain, strain);
-        ost_simd_stress(elasticity->c[0], strain, stress);
+        ost_elastic_strain(elasticity, at, strain, strain);
+        ost_simd_stress(elasticity->c[at], strain, stress);
         return;
     }
     OstSimd half[9];
@@ -65,14 +65,6 @@ static inline void find_stress(const OstElasticity *elasticity, const OstSimd sl
         const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
         stress[p] = bulk * a[p] + elasticity->shear * (half[3 * i + j] + half[3 * j + i]);
     }
-}
-
-static inline void add_force(const OstSimd g[3], const OstSimd stress[6], OstSimd force[3])
-{
-    OstSimd part[3];
-    ost_force_of_stress(g, stress, part);
-    for (int i = 0; i < 3; i++)
-        force[i] += part[i];
 }
 
 /* The slope of u, which is uniform. */
@@ -95,12 +87,11 @@ static inline void find_own_forces(const Linear *tet, const OstSimd stress[6], O
 }
 
 /* The mean of 4 L_a L_b's gradient is that of L_a + L_b. */
-static inline void forces_of_nodes(const Linear *tet, const OstElasticity *elasticity, const OstSimd *u,
-                                   OstSimd *at_nodes, OstSimd *at_functions)
+static inline void forces_of_uniform(const Linear *tet, const OstElasticity *elasticity, const OstSimd slope[9],
+                                     OstSimd *at_nodes, OstSimd *at_functions)
 {
-    OstSimd slope[9], stress[6];
-    find_slope(tet, u, slope);
-    find_stress(elasticity, slope, stress);
+    OstSimd stress[6];
+    find_stress(elasticity, 0, slope, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= tet->volume;
     find_own_forces(tet, stress, at_nodes);
@@ -109,48 +100,45 @@ static inline void forces_of_nodes(const Linear *tet, const OstElasticity *elast
             at_functions[3 * e + i] = at_nodes[3 * ost_tet_edge[e][0] + i] + at_nodes[3 * ost_tet_edge[e][1] + i];
 }
 
-/* Products of two coordinates have the mean 1/10 or 1/20. */
-static inline void forces_of_all(const Linear *tet, const OstElasticity *elasticity, const OstSimd *u, const OstSimd *w,
-                                 OstSimd *at_nodes, OstSimd *at_functions)
+/* The stress times each coordinate is all that the functions need of it. */
+static inline void forces_of_varying(const Linear *tet, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                     const OstSimd slope[9], OstSimd *at_nodes, OstSimd *at_functions)
 {
-    OstSimd slope[9], at_vertex[VERTICES][9], stress[VERTICES][6], sum[6];
-    find_slope(tet, u, slope);
-    for (int v = 0; v < VERTICES; v++)
-        for (int n = 0; n < 9; n++)
-            at_vertex[v][n] = 0.25 * slope[n];
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        add_slope(w + 3 * e, tet->along[b], at_vertex[a]);
-        add_slope(w + 3 * e, tet->along[a], at_vertex[b]);
+    OstSimd moment[VERTICES][6] = {{{0}}}, sum[6];
+    for (int q = 0; q < rule->count; q++) {
+        OstSimd stress[6];
+        find_stress(elasticity, q, slope, stress);
+        for (int v = 0; v < VERTICES; v++)
+            for (int p = 0; p < 6; p++)
+                moment[v][p] += rule->point[q].weight * rule->point[q].at[v] * tet->volume * stress[p];
     }
-    const OstSimd weight = 0.8 * tet->volume; /* 4 × 4 / 20 */
-    for (int v = 0; v < VERTICES; v++)
-        find_stress(elasticity, at_vertex[v], stress[v]);
     for (int p = 0; p < 6; p++) {
+        sum[p] = moment[0][p] + moment[1][p] + moment[2][p] + moment[3][p];
         for (int v = 0; v < VERTICES; v++)
-            stress[v][p] *= weight;
-        sum[p] = stress[0][p] + stress[1][p] + stress[2][p] + stress[3][p];
-        for (int v = 0; v < VERTICES; v++)
-            stress[v][p] += sum[p];
-        sum[p] *= 1.25;
+            moment[v][p] *= 4.0;
     }
     find_own_forces(tet, sum, at_nodes);
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        ost_force_of_stress(tet->gradient[b], stress[a], at_functions + 3 * e);
-        add_force(tet->gradient[a], stress[b], at_functions + 3 * e);
+        OstSimd of_b[3];
+        ost_force_of_stress(tet->gradient[b], moment[a], at_functions + 3 * e);
+        ost_force_of_stress(tet->gradient[a], moment[b], of_b);
+        for (int i = 0; i < 3; i++)
+            at_functions[3 * e + i] += of_b[i];
     }
 }
 
-OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
-                                       const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                       const OstSimd *u, OstSimd *at_nodes, OstSimd *at_functions)
 {
+    OstSimd slope[9];
     Linear tet;
     open(x, elasticity, &tet);
-    if (w)
-        forces_of_all(&tet, elasticity, u, w, at_nodes, at_functions);
+    find_slope(&tet, u, slope);
+    if (elasticity->points == 1)
+        forces_of_uniform(&tet, elasticity, slope, at_nodes, at_functions);
     else
-        forces_of_nodes(&tet, elasticity, u, at_nodes, at_functions);
+        forces_of_varying(&tet, elasticity, rule, slope, at_nodes, at_functions);
 }
 
 /* --- the functions' own blocks --- */

@@ -297,12 +297,10 @@ static void find_forces(const Cells *cells, const OstElement *element, OstFormul
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
-    const int is_simple = cells->nodes == 4 && elasticity->points == 1 && formulation == OST_FORMULATION_LINEAR &&
-                          !cells->turned_by && !elasticity->by_mean && !(cells->state && elasticity->mixed);
-    if (is_simple)
-        ost_linear_tets_forces(cells->batch.x, &cells->batch.elasticity, u, w, at_nodes, at_functions);
+    if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
+        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
-        ost_straight_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, u, w, at_nodes, at_functions);
+        ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
         forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
 }
@@ -510,11 +508,12 @@ static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd b
 
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
 {
+    static const int place[6] = {0, 4, 8, 1, 5, 6}; /* 11 22 33 12 23 31 */
     const OstMesh *mesh = operator->problem->mesh;
     const OstComplement *complement = operator->complement;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
+    memset(inverse, 0, 6 * (size_t)complement->count * sizeof *inverse);
     clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
@@ -529,11 +528,11 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
             turn_blocks(&cells, element, block);
         for (int slot = 0; slot < cells.batch.count; slot++)
             for (int k = 0; k < cells.functions; k++)
-                for (int n = 0; n < 9; n++)
-                    inverse[9 * (size_t)cells.function[slot][k] + (size_t)n] += block[k][n][slot];
+                for (int p = 0; p < 6; p++)
+                    inverse[6 * (size_t)cells.function[slot][k] + (size_t)p] += block[k][place[p]][slot];
     }
     for (OstLocal k = 0; k < complement->count; k++)
         if (ost_complement_owns(complement, k))
-            OST_TRY(ost_complement_invert(complement, k, inverse + 9 * (size_t)k));
+            OST_TRY(ost_complement_invert(complement, k, inverse + 6 * (size_t)k));
     return OST_SUCCESS;
 }

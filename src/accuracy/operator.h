@@ -27,7 +27,7 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const dou
                         double *of_functions);
 
 /* Local. The inverses of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained:
- * 9 numbers for each function. */
+ * 6 numbers for each function (11 22 33 12 23 31); 0 of those of other ranks, as far as forces there are 0. */
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
 
 /* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers), or NULL.
