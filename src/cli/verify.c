@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_CASES = 256 };
+enum { MOST_CASES = 256, LOAD_CASE = 0x200 };
 
 typedef struct Arguments {
     OstArguments common;
@@ -27,6 +27,7 @@ typedef struct Arguments {
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "Coarse meshes only: under a minute", 0},
     {"hard", 'H', 0, OPTION_HIDDEN, 0, 0},
+    {"case", LOAD_CASE, "NAME", OPTION_HIDDEN, 0, 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output", 0},
     {"picture", 'p', "FOLDER", 0,
      "Draw how far each case is from its formula here, as verify.png (and write verify.json)", 0},
@@ -39,6 +40,12 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     switch (key) {
     case 'H':
         argp_error(state, "the hard grid is a study of its own, in the source: scripts/hard-grid");
+        return EINVAL;
+    case LOAD_CASE:
+        argp_error(state,
+                   "--case takes a load case, and what is verified has none: a formula is of one answer. State the "
+                   "load of '%s' in a case of its own, or with --set, and compare that",
+                   value);
         return EINVAL;
     case ARGP_KEY_ARG:
         if (arguments->name_count == MOST_CASES) {

@@ -53,6 +53,24 @@ static void print_stop(const OstSolveReport *report, const OstAnswerError *answe
     printf("\n");
 }
 
+/* After an early stop the residual is no measure of the answer: what is left are forces between neighbouring nodes that
+ * cancel a little farther away and hardly move anything. Only those who ask for all are told. */
+static int tells_residual(const OstResult *result)
+{
+    return !result->solve.stopped || ost_log_level(result->ctx) == OST_LOG_VERBOSE;
+}
+
+static void print_residual(const OstSolveReport *report)
+{
+    printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
+    if (report->stopped)
+        printf("                   of forces between neighbouring nodes that hardly move anything: the error above "
+               "counts\n");
+    if (report->rounding_limited)
+        printf("                   above what was asked for: double precision allows about %.2g here\n",
+               report->attainable_residual);
+}
+
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
@@ -62,16 +80,14 @@ static void print_solve(const OstResult *result)
     print_stop(report, &result->answer);
     print_strategies(report);
     print_levels(report);
-    printf("  residual         %.2e of the loads (true, recomputed)\n", report->relative_residual);
-    if (report->rounding_limited)
-        printf("                   above what was asked for: double precision allows about %.2g here\n",
-               report->attainable_residual);
+    if (tells_residual(result))
+        print_residual(report);
     if (report->condition_estimate > 0.0)
         printf("  condition        about %.3g after preconditioning\n", report->condition_estimate);
 }
 
 /* The error of the answer first: that of the equations is not the whole of it. */
-static void print_errors(const OstAnswerError *answer, const OstChecks *checks)
+static void print_accuracy(const OstAnswerError *answer, const OstChecks *checks)
 {
     char energy[24], displacement[24];
     if (answer->known)
@@ -80,12 +96,28 @@ static void print_errors(const OstAnswerError *answer, const OstChecks *checks)
                "%.0e\n",
                percent(answer->relative, energy), percent(answer->displacement, displacement),
                isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
+}
+
+static void print_errors(const OstChecks *checks)
+{
     if (!isfinite(checks->displacement_error))
         return;
     printf("  equations        solved to a relative error of about %.1e in the displacement",
            checks->displacement_error);
     if (isfinite(checks->force_error))
         printf(", %.1e in reactions and stresses", checks->force_error);
+    printf("\n");
+}
+
+static void print_checks(const OstResult *result)
+{
+    const OstChecks *checks = &result->checks;
+    printf("  checks           ");
+    if (tells_residual(result))
+        printf("residual summed tet by tet %.2e, ", checks->relative_residual);
+    printf("force balance %.1e, moment balance %.1e", checks->force_imbalance, checks->moment_imbalance);
+    if (checks->linear)
+        printf(", energy %.1e", checks->energy_imbalance);
     printf("\n");
 }
 
@@ -260,14 +292,11 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     printf("  mesh             %lld vertices, %lld tet%s, %d rank%s\n", (long long)mesh->global_nodes,
            (long long)mesh->global_tets, plural(mesh->global_tets), ost_size(scene->ctx), plural(ost_size(scene->ctx)));
     printf("  unknowns         %lld\n", (long long)result->unknowns);
+    print_accuracy(&result->answer, checks);
     print_solve(result);
     print_large_rotation(scene, result);
-    printf("  checks           residual summed tet by tet %.2e, force balance %.1e, moment balance %.1e",
-           checks->relative_residual, checks->force_imbalance, checks->moment_imbalance);
-    if (checks->linear)
-        printf(", energy %.1e", checks->energy_imbalance);
-    printf("\n");
-    print_errors(&result->answer, checks);
+    print_checks(result);
+    print_errors(checks);
     printf("  strain energy    %.10g\n", checks->strain_energy);
     printf("  largest |u|      %.10g at (%.6g, %.6g, %.6g)\n", result->largest_displacement, at[0], at[1], at[2]);
     print_failure(result);

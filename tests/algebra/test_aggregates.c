@@ -196,6 +196,36 @@ static void parts_too_small_for_the_modes_are_left_to_the_smoother(void **state)
     ost_metric_graph_destroy(&graph);
 }
 
+static int is_third(OstLocal node)
+{
+    return node % 18 % 3 == 0 && node / 18 % 18 % 3 == 0 && node / (18 * 18) % 3 == 0;
+}
+
+/* Every third brick's first node of the cube has no edges left, as the nodes within small soft fields. */
+static void small_parts_do_not_change_the_size_of_the_other_aggregates(void **state)
+{
+    (void)state;
+    const OstAggregateShape shape = {.target = 40.0, .minimum = 3, .recentrings = 2};
+    OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, 1.0});
+    OstAggregates *aggregates = NULL;
+    OstLocal alone = 0;
+    graph->jump = 1e9;
+    for (OstLocal i = 0; i < graph->nodes; i++)
+        for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++)
+            if (is_third(i) || is_third(graph->neighbour[k]))
+                graph->length[k] = INFINITY;
+    assert_success(ost_aggregates_create(graph, &shape, &aggregates));
+    for (OstLocal i = 0; i < graph->nodes; i++) {
+        assert_int_equal(aggregates->of_node[i] == -1, is_third(i));
+        alone += is_third(i);
+    }
+    assert_int_equal(alone, 6 * 6 * 6); /* more than there are aggregates */
+    const double mean = (double)(graph->nodes - alone) / aggregates->count;
+    assert_true(mean > 0.65 * shape.target && mean < 1.5 * shape.target);
+    ost_aggregates_destroy(&aggregates);
+    ost_metric_graph_destroy(&graph);
+}
+
 static void every_part_has_its_own_aggregates(void **state)
 {
     (void)state;
@@ -266,6 +296,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),
     cmocka_unit_test(parts_too_small_for_the_modes_are_left_to_the_smoother),
+    cmocka_unit_test(small_parts_do_not_change_the_size_of_the_other_aggregates),
     cmocka_unit_test(every_part_has_its_own_aggregates),
     cmocka_unit_test(the_coarse_graph_joins_aggregates_that_touch),
     cmocka_unit_test(a_metric_that_measures_nothing_is_refused),

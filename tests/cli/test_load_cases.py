@@ -101,6 +101,7 @@ for arguments, words in ((("effects", "beam.yaml"), "there are 4 load cases, and
                          (("check", "beam.yaml", "--set", "cases.push.name=weight"), "the load case 'weight' is there already"),
                          (("check", "beam.yaml", "--set", "path.steps=3"), "leave out 'cases' or 'path'"),
                          (("solve", "beam.yaml", "--resume"), "--resume goes on with a path"),
+                         (("verify", "beam.yaml", "--case", "push"), "State the load of 'push' in a case of its own"),
                          (("check", "beam.yaml", "--set", "loads"), "expected KEY=VALUE")):
     refused = run(*arguments, folder=folder)
     check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")
@@ -131,3 +132,12 @@ for command in ([PROGRAM], [MPIEXEC, "--quiet", "-n", "2", PROGRAM]):
 wrong = subprocess.run([PROGRAM, "check", "-", "--set", "mesh={file: bar.msh}"], cwd=folder, input=CASE, capture_output=True,
                        text=True, timeout=240)
 check(wrong.returncode == 2 and "stdin:2:7: bar.msh: cannot be read" in wrong.stderr, wrong.stderr)
+
+# --- an early stop: the answer's error stands first, and a residual that says nothing of it is told to those who ask ---
+early = CASE.replace("accuracy: {relative_residual: 1e-11}\n", "").replace("[12, 2, 2]", "[60, 10, 10]")
+folder = folder_with(early)
+short = run("solve", "beam.yaml", "--case", "weight", folder=folder).output
+whole = run("solve", "beam.yaml", "--case", "weight", "-v", folder=folder).output
+check("  stopped " in short and "residual" not in short, short)
+check(0 < short.find("  accuracy ") < short.find("  solver "), short)
+check("of the loads (true, recomputed)" in whole and "hardly move anything" in whole and "tet by tet" in whole, whole)

@@ -38,6 +38,8 @@ static const struct {
     {"meshio-linear-zlib.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
     {"meshio-quadratic-ascii.vtu", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
     {"meshio-quadratic-zlib.vtu", 113, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"meshio-sets.vtk", 23, 48, 2, 0, "left", "right-hand", "clamp", 4},
+    {"meshio-sets.vtu", 23, 48, 2, 0, "left", "right-hand", "clamp", 4},
     {"vtk-appended-raw.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
     {"vtk-appended-base64-zlib.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
     {"tetgen-linear.ele", 83, 136, 4, 0, "volume-11", "volume-12", "surface-7", 16},

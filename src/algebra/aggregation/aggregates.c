@@ -42,6 +42,8 @@ typedef struct Grouping {
     /* the aggregates: */
     unsigned char *covered; /* nodes */
     OstLocal count;         /* number of seeds */
+    OstLocal whole_seeds;   /* of them, those of small components, which stay whole */
+    OstLocal whole_nodes;   /* and the nodes of these components */
     OstLocal *seed;         /* nodes */
     OstLocal *size;         /* nodes: of each seed's aggregate */
     double *centre;         /* nodes × 3: of each seed's aggregate */
@@ -280,16 +282,18 @@ static OstStatus cover_component(Grouping *g, OstLocal node)
     if (!is_apart)
         return OST_SUCCESS;
     OST_TRY(settle_ball(g, node, graph->nodes + 2 * g->count, FLT_MAX, most, NULL, &ball));
-    if (ball.nodes < most)
-        OST_TRY(settle_ball(g, node, graph->nodes + 2 * g->count + 1, FLT_MAX, most, g->covered, &ball));
-    return OST_SUCCESS;
+    if (ball.nodes >= most)
+        return OST_SUCCESS;
+    g->whole_seeds++;
+    g->whole_nodes += ball.nodes;
+    return settle_ball(g, node, graph->nodes + 2 * g->count + 1, FLT_MAX, most, g->covered, &ball);
 }
 
 /* Each node becomes a seed unless the ball of an earlier seed covers it. */
 static OstStatus cover(Grouping *g, double radius)
 {
     const OstLocal n = g->graph->nodes;
-    g->count = 0;
+    g->count = g->whole_seeds = g->whole_nodes = 0;
     memset(g->covered, 0, (size_t)n);
     clear_paths(g);
     for (OstLocal i = 0; i < n; i++) {
@@ -314,7 +318,8 @@ static OstStatus choose_seeds(Grouping *g)
     OST_TRY(guess_radius(g, &radius));
     for (int try = 0; try < RADIUS_TRIES; try++) {
         OST_TRY(cover(g, radius));
-        const double excess = (double)g->graph->nodes / (double)g->count / g->shape->target;
+        const OstLocal nodes = g->graph->nodes - g->whole_nodes, seeds = g->count - g->whole_seeds;
+        const double excess = seeds > 0 ? (double)nodes / (double)seeds / g->shape->target : 1.0;
         if (excess > 0.88 && excess < 1.13)
             return OST_SUCCESS;
         if (fabs(log(excess)) < best_miss) {

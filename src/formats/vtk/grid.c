@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "formats/cells/cells.h"
 #include "formats/vtk/vtk.h"
 
 #include <inttypes.h>
@@ -53,14 +52,14 @@ void ost_vtk_clear(OstVtkGrid *grid)
     OST_FREE(grid->type);
 }
 
-int ost_vtk_wants(const OstVtkGrid *grid, const char *name)
+int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components)
 {
     if (grid->wanted)
         return strcmp(grid->wanted, name) == 0;
     for (int n = 0; n < REGION_NAMES; n++)
         if (strcasecmp(region_names[n], name) == 0)
             return 1;
-    return 0;
+    return grid->by_meshio && is_whole && components == 1;
 }
 
 /* A further piece's values follow those before. */
@@ -165,16 +164,28 @@ static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal grou
     return ost_cells_add(cells, facts->kind, cell + 1, group, nodes);
 }
 
+/* The group of a cell; -1 is meshio's word for no set. */
+static OstGlobal group_of(const OstVtkArray *region, int is_of_sets, OstGlobal cell)
+{
+    if (!region || (is_of_sets && region->values[cell] < 0.0))
+        return OST_NO_GROUP;
+    return (OstGlobal)region->values[cell];
+}
+
 static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
 {
+    char sign;
     const OstVtkArray *region = region_array(grid);
+    const OstVtkArray *sets = region ? NULL : ost_vtk_sets(grid, 0, &sign);
+    if (sets)
+        OST_TRY(ost_vtk_name_sets(sets, sign, cells));
     for (int n = 0; n < grid->name_count; n++)
         OST_TRY(ost_cells_name(cells, grid->name[n].dimension, grid->name[n].number, grid->name[n].name));
     for (OstGlobal p = 0; p < grid->points; p++)
         OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
     for (OstGlobal c = 0; c < grid->cells; c++)
-        OST_TRY(add_cell(grid, c, region ? (OstGlobal)region->values[c] : OST_NO_GROUP, cells));
-    return OST_SUCCESS;
+        OST_TRY(add_cell(grid, c, group_of(sets ? sets : region, sets != NULL, c), cells));
+    return ost_vtk_take_point_sets(grid, cells);
 }
 
 static OstStatus check_grid(const OstVtkGrid *grid)
@@ -196,6 +207,7 @@ static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted
     *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted};
     OST_TRY(ost_msh_open(ctx, path, &cursor));
     const char *ending = strrchr(path, '.');
+    grid->by_meshio = ost_vtk_is_by_meshio(&cursor);
     OstStatus status = ending && strcasecmp(ending, ".vtu") == 0 ? ost_vtk_xml_grid(&cursor, grid)
                                                                  : ost_vtk_legacy_grid(&cursor, grid);
     ost_msh_close(&cursor);

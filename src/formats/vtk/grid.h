@@ -2,12 +2,13 @@
 #ifndef ORTHOSTAT_FORMATS_VTK_GRID_H
 #define ORTHOSTAT_FORMATS_VTK_GRID_H
 
+#include "formats/cells/cells.h"
 #include "formats/msh/cursor.h"
 #include "formats/serial/formats.h"
 
 /* VTK's files of other programs, .vtk and .vtu: an unstructured grid in memory. */
 
-enum { OST_VTK_NAME = 128 };
+enum { OST_VTK_NAME = 1024 }; /* that of an array may be the names of many sets (sets.c) */
 
 /* Numbers of points or of cells. Only those that are asked for are kept. */
 typedef struct OstVtkArray {
@@ -29,6 +30,7 @@ typedef struct OstVtkGrid {
     OstContext *ctx;
     const char *path;
     const char *wanted; /* a field's name; NULL: arrays that may say which region a cell is in */
+    int by_meshio;      /* it wrote the file, and may have put sets into an array */
     OstGlobal points, cells;
     double *coordinates;
     OstGlobal *end; /* of each cell in the connectivity */
@@ -47,9 +49,16 @@ OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid);
 void ost_vtk_clear(OstVtkGrid *grid);
 
 /* Local. Is an array of this name kept? Adds one, with its values, which the grid then owns. */
-int ost_vtk_wants(const OstVtkGrid *grid, const char *name);
+int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components);
 OstStatus ost_vtk_add_array(OstVtkGrid *grid, const char *name, int on_points, int components, OstGlobal tuples,
                             double **values);
+
+/* Local. Did meshio write the file that the cursor is at the beginning of? The array with the sets of cells or points
+ * of such a file, or NULL; `sign` stands between their names. Names the groups of cells by it; makes sets of nodes. */
+int ost_vtk_is_by_meshio(const OstMshCursor *cursor);
+const OstVtkArray *ost_vtk_sets(const OstVtkGrid *grid, int on_points, char *sign);
+OstStatus ost_vtk_name_sets(const OstVtkArray *array, char sign, OstCells *cells);
+OstStatus ost_vtk_take_point_sets(const OstVtkGrid *grid, OstCells *cells);
 
 /* VTK's types of numbers. */
 typedef enum { OST_VTK_SIGNED, OST_VTK_UNSIGNED, OST_VTK_FLOAT } OstVtkNumberKind;

@@ -260,7 +260,7 @@ static OstStatus read_array(Legacy *legacy, const char *name, OstVtkType type, O
         return OST_RAISE_MSH(legacy->cursor,
                              "'%s' has %" PRId64 " components and %" PRId64 " entries, more than the file", name,
                              components, tuples);
-    if (legacy->on_points < 0 || !ost_vtk_wants(grid, name))
+    if (legacy->on_points < 0 || !ost_vtk_wants(grid, name, type.kind == OST_VTK_SIGNED, components))
         return read_numbers(legacy, name, type, components * tuples, NULL);
     OstStatus status = OST_NEW(grid->ctx, &values, components * tuples);
     OST_THEN(read_numbers(legacy, name, type, components * tuples, values));

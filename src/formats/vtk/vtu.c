@@ -208,9 +208,10 @@ static OstStatus read_data(Vtu *vtu, const OstXmlTag *tag, const char *name)
     const OstGlobal tuples = on_points ? vtu->points : vtu->cells;
     OstGlobal components = 1, count = 0;
     double *values = NULL;
-    if (!ost_vtk_wants(vtu->grid, name))
-        return OST_SUCCESS;
+    const char *type = ost_xml_value(tag, "type");
     OST_TRY(ost_xml_number(vtu->cursor, tag, "NumberOfComponents", 1, &components));
+    if (!ost_vtk_wants(vtu->grid, name, type && strncmp(type, "Int", 3) == 0, components))
+        return OST_SUCCESS;
     if (components < 1 || components > 1000)
         return OST_RAISE_MSH(vtu->cursor, "'%s' has %" PRId64 " components", name, components);
     count = components * tuples;

@@ -6,7 +6,7 @@
 
 /* The little of XML that VTK's files use: tags with attributes, one after the other. */
 
-enum { OST_XML_ATTRIBUTES = 24, OST_XML_VALUE = 128 };
+enum { OST_XML_ATTRIBUTES = 24, OST_XML_VALUE = OST_VTK_NAME };
 
 typedef struct OstXmlTag {
     int closes; /* </Name>, or Name/ at its end (2) */

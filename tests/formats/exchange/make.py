@@ -50,6 +50,12 @@ def by_meshio():
         if kind == "linear":
             mesh.cell_data = {"medit:ref": groups}
             meshio.write(os.path.join(HERE, "meshio-linear.meshb"), mesh)
+            for name, how in (("sets.vtu", {}), ("sets.vtk", {})):
+                mesh.cell_data, mesh.point_data = {"material-number": groups}, {}
+                mesh.cell_sets = {name: [np.flatnonzero(g == number) for g in groups]
+                                  for name, number in (("left", 11), ("right-hand", 12), ("clamp", 7))}
+                mesh.point_sets = {"pins": np.flatnonzero(mesh.points[:, 0] == 2)}
+                meshio.write(os.path.join(HERE, "meshio-" + name), mesh, **how)
 
 
 def appended_by_vtk():
