@@ -54,6 +54,11 @@ static OstStatus expect(const Shares *shares, double share, OstMarking *marking)
  * tet, and rounding would decide whether it and its likes are cut. */
 static const int grid = 8;
 
+static int meets(const OstMarking *marking)
+{
+    return marking->expected_square <= marking->target && marking->expected_tets >= marking->least_tets;
+}
+
 /* The largest share that is expected to meet the target, above `least` and with no more tets than allowed. */
 static OstStatus find_share(const Shares *shares, double least, double most, OstMarking *marking, double *share)
 {
@@ -61,7 +66,7 @@ static OstStatus find_share(const Shares *shares, double least, double most, Ost
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
         OST_TRY(expect(shares, exp2((double)middle / grid), marking));
-        if (marking->expected_tets > marking->most_tets || marking->expected_square <= marking->target)
+        if (marking->expected_tets > marking->most_tets || meets(marking))
             low = middle;
         else
             high = middle;
