@@ -28,9 +28,6 @@ static const double most_growth = 4.0;
  * many times at least, since a level too much costs more than what is finer than it need be. */
 static const double least_growth = 1.15, worthwhile_growth = 1.6;
 
-/* Tets of the new mesh over those that are expected of the marks: neighbours are cut, too. */
-static const double made_over_marked = 1.5;
-
 /* Seconds grow a little faster than unknowns. Memory of the process, with libraries, over that of Orthostat's arrays.
  */
 static const double seconds_power = 1.1, memory_beside = 2.0;
@@ -146,13 +143,14 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
     const double wanted = fmax(aim * adaption->request, error / pow(most_reduction[order], power));
     const double square = adaption->watch ? last->shares : last->error.energy_norm * last->error.energy_norm;
     const double fall = fmin(wanted / error, 1.0);
-    const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)) / made_over_marked;
+    const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)), target = square * pow(fall, 2.0 / power);
     const double most = fmin(growth, most_growth);
     if (order != last->order)
         return (OstMarking){.order = order, .target = square, .most_tets = most * (double)last->tets};
     return (OstMarking){.order = order,
-                        .target = square * pow(fall, 2.0 / power),
-                        .least_tets = fmin(fmax(needed, worthwhile_growth), most) * (double)last->tets,
+                        .target = target,
+                        .least_share = target / (needed * (double)last->tets),
+                        .least_tets = fmin(worthwhile_growth, most) * (double)last->tets,
                         .most_tets = most * (double)last->tets};
 }
 
