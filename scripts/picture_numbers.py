@@ -40,6 +40,19 @@ def numbers_of_hard(all_points):
     return {SHAPES.get(shape, shape): numbers_of_shape(points) for shape, points in shapes.items()}
 
 
+def numbers_of_hard_size(reports):
+    """Of each shape and order the bodies at size: [unknowns, iterations, digits, how it ended], by growing size."""
+    tiles = {}
+    for report in sorted(reports, key=lambda report: report["size"]):
+        for point in report["points"]:
+            tile = tiles.setdefault(f"{SHAPES.get(point['shape'], point['shape'])}, order {point['order']}", {})
+            body = f"{point['poisson']}, {point['stiffness_and_axes']}"
+            digits = point.get("digits")
+            tile.setdefault(body, []).append([point.get("unknowns", report["size"]), point.get("iterations"),
+                                              None if digits is None else short(digits, 3), point["outcome"].lower()])
+    return tiles
+
+
 def numbers_of_shape(points):
     sound = [point for point in points if not point["flawed"]]
     flawed = [point for point in points if point["flawed"]]

@@ -89,11 +89,26 @@ OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *m
 
 /* --- moduli --- */
 
+static double modulus_of_number(const OstModulusField *modulus, double number)
+{
+    return fmax(modulus->factor * pow(number, modulus->power), modulus->least);
+}
+
+double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, const OstModulusField *modulus,
+                               OstLocal tet)
+{
+    const int field = chunk->tet_field ? ost_case_find_field(c, modulus->field) : -1;
+    if (field < 0 || field >= chunk->fields.count)
+        return 1.0;
+    const size_t row = (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
+    return modulus_of_number(modulus, chunk->tet_field[row + (size_t)chunk->fields.first[field]]);
+}
+
 static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, double *value)
 {
     const double *number = NULL;
     OST_TRY(numbers_of(scene, modulus->field, tet, 1, &number));
-    *value = fmax(modulus->factor * pow(*number, modulus->power), modulus->least);
+    *value = modulus_of_number(modulus, *number);
     if (*value > 0.0 && isfinite(*value) && isfinite(*number))
         return OST_SUCCESS;
     return OST_RAISE(

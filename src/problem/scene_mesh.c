@@ -75,11 +75,17 @@ static int has_direction(const OstMeshChunk *chunk, const OstSceneMaterials *mat
            (kind == OST_AXES_CELLS ? chunk->tet_axes != NULL : kind != OST_AXES_GRADIENT && kind != OST_AXES_FIELD);
 }
 
+/* What metrics and stiffness are found from. */
+typedef struct Source {
+    const OstCase *c;
+    const OstSceneMaterials *materials;
+} Source;
+
 /* By a field on the chunk, in which regions without known axes are isotropic. */
 static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric)
 {
     OstContext *ctx = chunk->ctx;
-    const OstSceneMaterials *materials = data;
+    const OstSceneMaterials *materials = ((const Source *)data)->materials;
     const int regions = chunk->regions.count;
     OstMaterialField *field = NULL;
     OstMaterial *material = NULL;
@@ -104,12 +110,20 @@ static double stiffest(const OstMaterial *material)
     return fmax(e[0], fmax(e[1], e[2]));
 }
 
-/* The largest Young's modulus of each tet. */
+/* The largest Young's modulus of each tet. Numbers of a field that make none are refused later, with their tet. */
 static OstStatus tet_stiffness(const void *data, const OstMeshChunk *chunk, double *stiffness)
 {
-    const OstSceneMaterials *materials = data;
-    for (OstLocal t = 0; t < chunk->tet_count; t++)
-        stiffness[t] = stiffest(&materials->material[chunk->tet_region[t]]);
+    const Source *source = data;
+    const OstCaseMaterial *stated = NULL;
+    for (OstLocal t = 0, region = -1; t < chunk->tet_count; t++) {
+        if (chunk->tet_region[t] != region) {
+            region = chunk->tet_region[t];
+            stated = ost_case_material_of(source->c, chunk->regions.name[region]);
+        }
+        stiffness[t] = stiffest(&source->materials->material[region]);
+        if (stated && stated->modulus.field)
+            stiffness[t] *= ost_scene_chunk_modulus(source->c, chunk, &stated->modulus, t);
+    }
     return OST_SUCCESS;
 }
 
@@ -117,15 +131,18 @@ static OstStatus tet_stiffness(const void *data, const OstMeshChunk *chunk, doub
  * orthotropic materials rather than across them, and around stiff inclusions: aggregates and blocks of multigrid end at
  * a border, and a strong coupling lost there costs iterations. Axes that are not known yet (of gradients) count as
  * isotropic; a body of isotropic materials is partitioned without weights. */
-static OstStatus partition(const OstSceneMaterials *materials, OstMeshChunk **chunk, OstMesh **mesh)
+static OstStatus partition(const OstCase *c, const OstSceneMaterials *materials, OstMeshChunk **chunk, OstMesh **mesh)
 {
     int any[2] = {0, 0}; /* a direction; several stiffnesses */
     for (int r = 0; r < (*chunk)->regions.count; r++) {
+        const OstCaseMaterial *stated = ost_case_material_of(c, (*chunk)->regions.name[r]);
         any[0] |= has_direction(*chunk, materials, r);
         any[1] |= stiffest(&materials->material[r]) != stiffest(&materials->material[0]);
+        any[1] |= stated && stated->modulus.field;
     }
     OST_TRY(ost_max_ints((*chunk)->ctx, 2, any)); /* a rank without tets has no axes */
-    const OstTetMetric metric = {materials, any[0] ? tet_metrics : NULL, any[1] ? tet_stiffness : NULL};
+    const Source source = {c, materials};
+    const OstTetMetric metric = {&source, any[0] ? tet_metrics : NULL, any[1] ? tet_stiffness : NULL};
     return ost_mesh_distribute_by((*chunk)->ctx, chunk, any[0] || any[1] ? &metric : NULL, mesh);
 }
 
@@ -198,7 +215,7 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     OstStatus status = check_ranks(c, *chunk);
     OST_THEN(ost_scene_materials(c, &(*chunk)->regions, from_file, materials));
     (*chunk)->straighten = c->straighten;
-    OST_THEN(partition(materials, chunk, mesh));
+    OST_THEN(partition(c, materials, chunk, mesh));
     OST_THEN(refine(c, &surface, mesh));
     OST_THEN(change_order(c, &surface, mesh));
     if (status != OST_SUCCESS)

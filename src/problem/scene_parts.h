@@ -51,6 +51,10 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);
 /* Local. A field's numbers of a tet; NULL if the mesh has none of the name. */
 const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width);
 
+/* Local. The factor that a field gives Young's modulus of a tet before the mesh is partitioned; it is not checked. */
+double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, const OstModulusField *modulus,
+                               OstLocal tet);
+
 /* Local. Fills `axes` (9 a tet) of the regions whose axes are fields of the mesh file; gives the tets of regions whose
  * Young's modulus is one their factors. */
 OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes);

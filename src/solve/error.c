@@ -14,6 +14,9 @@
 /* Below this an error need not be known better than one application of the preconditioner tells. */
 static const double small_error = 1e-6;
 
+/* One application of the preconditioner tells up to the condition too much; beyond this one that is not good enough. */
+static const double worst_condition = 100.0;
+
 /* An error of the forces above this is looked at more closely where the displacement's is smaller. */
 static const double large_error = 1e-2;
 
@@ -238,7 +241,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     OST_TRY_DONE(measure(&search, 1.0, errors));
     if (once)
         goto done;
-    if (largest(errors) > small_error)
+    if (largest(errors) > small_error || solved->report->condition_estimate > worst_condition)
         OST_TRY_DONE(measure(&search, 0.1, errors));
     if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
         OST_TRY_DONE(correct(&search, errors));

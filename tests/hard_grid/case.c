@@ -34,7 +34,7 @@ OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed)
     OST_TRY_DONE(ost_case_read(ctx, path, &c));
     OST_TRY_DONE(ost_scene_create(c, &scene));
     ost_log_set_level(ctx, OST_LOG_QUIET);
-    OST_TRY_DONE(hard_solve_scene(scene, 1, &reading));
+    OST_TRY_DONE(hard_solve_scene(scene, &reading));
     if (ost_rank(ctx) == 0)
         print(path, &reading);
     *passed = reading.status != OST_SUCCESS || hard_states_its_error(&reading);

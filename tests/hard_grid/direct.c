@@ -143,16 +143,6 @@ static OstStatus subtract_product(const HardDirect *direct, const double *base, 
     return OST_SUCCESS;
 }
 
-OstStatus hard_direct_residual(HardDirect *direct, double *relative)
-{
-    double f_norm, norm;
-    OST_TRY(subtract_product(direct, direct->f, direct->u, direct->r));
-    OST_TRY(hard_direct_norm(direct, direct->r, &norm));
-    OST_TRY(hard_direct_norm(direct, direct->f, &f_norm));
-    *relative = norm / f_norm;
-    return OST_SUCCESS;
-}
-
 /* p = d, made conjugate to the last p (if not the first); q = K p. `energy`: the last p·q, and then the new one. */
 static OstStatus next_direction(HardDirect *direct, int first, double *energy)
 {

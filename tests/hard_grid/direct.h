@@ -29,9 +29,6 @@ typedef struct HardDirect {
 /* Collective. The equations without factors. */
 OstStatus hard_direct_assemble(const OstScene *scene, HardDirect *direct);
 
-/* Collective. The relative residual of u, in twice the precision. */
-OstStatus hard_direct_residual(HardDirect *direct, double *relative);
-
 /* Collective. If rounding makes the factorisation fail, a little is added to the diagonal that is factored. Fails if
  * that does not help; must be cleared also then. */
 OstStatus hard_direct_create(const OstScene *scene, HardDirect *direct);

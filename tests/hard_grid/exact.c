@@ -216,32 +216,60 @@ done:
     return status;
 }
 
-OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors)
+static OstStatus create_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, Exact *exact)
 {
     const OstMesh *mesh = scene->mesh;
     OstContext *ctx = scene->ctx;
-    Exact exact = {.scene = scene, .direct = direct, .mesh = mesh};
+    *exact = (Exact){.scene = scene, .direct = direct, .mesh = mesh};
+    OstStatus status = OST_NEW(ctx, &exact->u, 3 * (size_t)mesh->node_count);
+    OST_THEN(OST_NEW(ctx, &exact->internal, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &exact->step, 3 * (size_t)mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &exact->turned, 3 * (size_t)mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &exact->rows, direct->n));
+    OST_THEN(OST_NEW(ctx, &exact->before, direct->n));
+    OST_THEN(OST_NEW(ctx, &exact->turn, direct->n));
+    for (size_t i = 0; i < 3 * (size_t)mesh->node_count && status == OST_SUCCESS; i++)
+        exact->u[i] = (Twofold){result->displacement[i], 0.0};
+    return ost_agree(ctx, status);
+}
+
+static void destroy_exact(Exact *exact)
+{
+    OST_FREE(exact->u);
+    OST_FREE(exact->internal);
+    OST_FREE(exact->step);
+    OST_FREE(exact->rows);
+    OST_FREE(exact->turned);
+    OST_FREE(exact->before);
+    OST_FREE(exact->turn);
+}
+
+OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors)
+{
+    Exact exact;
     *errors = (HardErrors){0, NAN, NAN, NAN};
-    OstStatus status = OST_NEW(ctx, &exact.u, 3 * (size_t)mesh->node_count);
-    OST_THEN(OST_NEW(ctx, &exact.internal, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(OST_NEW(ctx, &exact.step, 3 * (size_t)mesh->node_count));
-    OST_THEN(OST_NEW(ctx, &exact.turned, 3 * (size_t)mesh->node_count));
-    OST_THEN(OST_NEW(ctx, &exact.rows, direct->n));
-    OST_THEN(OST_NEW(ctx, &exact.before, direct->n));
-    OST_THEN(OST_NEW(ctx, &exact.turn, direct->n));
-    OST_TRY_DONE(ost_agree(ctx, status));
-    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
-        exact.u[i] = (Twofold){result->displacement[i], 0.0};
-    OST_TRY_DONE(solve(&exact, &errors->known));
-    if (errors->known)
-        OST_TRY_DONE(compare(&exact, result, errors));
-done:
-    OST_FREE(exact.u);
-    OST_FREE(exact.internal);
-    OST_FREE(exact.step);
-    OST_FREE(exact.rows);
-    OST_FREE(exact.turned);
-    OST_FREE(exact.before);
-    OST_FREE(exact.turn);
+    OstStatus status = create_exact(scene, direct, result, &exact);
+    if (status == OST_SUCCESS)
+        status = solve(&exact, &errors->known);
+    if (status == OST_SUCCESS && errors->known)
+        status = compare(&exact, result, errors);
+    destroy_exact(&exact);
+    return status;
+}
+
+OstStatus hard_find_exact_residual(const OstScene *scene, HardDirect *direct, const OstResult *result, double *relative)
+{
+    Exact exact;
+    double residual, load;
+    OstStatus status = create_exact(scene, direct, result, &exact);
+    if (status == OST_SUCCESS) {
+        find_residual(&exact);
+        status = hard_direct_norm(direct, exact.rows, &residual);
+    }
+    if (status == OST_SUCCESS)
+        status = hard_direct_norm(direct, direct->f, &load);
+    if (status == OST_SUCCESS)
+        *relative = residual / load;
+    destroy_exact(&exact);
     return status;
 }

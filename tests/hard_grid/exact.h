@@ -14,4 +14,8 @@
  * the rounded stiffness, and compares. */
 OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors);
 
+/* Collective. The residual of the result's displacement in the tets' equations, over the loads. */
+OstStatus hard_find_exact_residual(const OstScene *scene, HardDirect *direct, const OstResult *result,
+                                   double *relative);
+
 #endif

@@ -66,7 +66,7 @@ typedef struct HardTruth {
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
     double plain;         /* error of the factorisation's solution before any refinement */
-    double residual;      /* relative, of the answer in the assembled equations, in twice the precision */
+    double residual;      /* of a body at size: relative, of the answer in the tets' equations, in 64 bits */
     double rounded; /* root mean square change of u*, relative, when every entry of K changes by 2^-53 of itself with
                        random sign; NAN where `plain` is small enough not to ask */
 } HardTruth;
@@ -79,7 +79,8 @@ typedef struct HardReading {
     OstGlobal unknowns;
     OstMethod method;
     int iterations, steps; /* in all, by so many solver strategies */
-    double residual;       /* true, relative */
+    double residual;       /* true, relative, as the solver states it */
+    double tet_residual;   /* the same as the checks state it, summed tet by tet */
     int rounding_limited;  /* did rounding keep the residual above 1e-8? */
     double stated_error;   /* relative error of the displacement as the program states it; NAN if it does not */
     double stated_forces;  /* the same of reactions and stresses */
@@ -89,10 +90,17 @@ typedef struct HardReading {
     double seconds; /* of the solve, without the direct one */
 } HardReading;
 
+/* What is to be run. */
+typedef struct HardRun {
+    int wanted[HARD_SHAPES]; /* which shapes */
+    int quick;               /* a sample in which every value of every parameter occurs */
+    OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
+    int all;                 /* with a size: all points, and not the spread of six a shape and order */
+} HardRun;
+
 typedef struct HardReport {
     OstContext *ctx;
-    int quick;
-    OstGlobal size;
+    HardRun run;
     int count;
     HardReading *reading;
     double seconds;
@@ -112,10 +120,8 @@ void hard_describe(const HardPoint *point, char *text, size_t size);
 /* Local. The column of the printed matrices that a point belongs to: ratio and stiff direction, then axes. */
 int hard_column(const HardPoint *point);
 
-/* Local. All points of the shapes marked in `wanted`, or with `quick` a sample in which every value of every parameter
- * occurs. The caller frees them. */
-OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, int *count,
-                      HardPoint **points);
+/* Local. The points of a run. The caller frees them. */
+OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint **points);
 
 /* A point's case, made in memory. It holds pointers into itself: it must not move. */
 typedef struct HardCase {
@@ -145,7 +151,7 @@ void hard_cylinder(int shape, double origin[3], double axis[3]);
  * (NULL: there is none) with it. */
 OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
-/* Collective. The same of a body that is too large to be factored: the residual alone. */
+/* Collective. The same of a body that is too large to be factored: the residual in the tets' equations alone. */
 OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
 /* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
@@ -155,16 +161,15 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
  * third of the true ones and at most a thousand times them? True also where no true ones are known. */
 int hard_states_its_error(const HardReading *reading);
 
-/* Collective. Solves a scene, and compares and judges the answer as that of a sound body; `factored`: with a direct
- * solution, else by its residual in twice the precision. */
-OstStatus hard_solve_scene(OstScene *scene, int factored, HardReading *reading);
+/* Collective. Solves a scene, and compares and judges the answer as that of a sound body: one at size by its residual
+ * in the tets' equations; if it is small, and any other, by a direct solution. */
+OstStatus hard_solve_scene(OstScene *scene, HardReading *reading);
 
 /* Collective. The same for a case file, printed; *passed: was the case refused, or are its errors stated rightly? */
 OstStatus hard_read_case(OstContext *ctx, const char *path, int *passed);
 
-/* Collective. All points, with a progress line; with a `size`, the sound ones with about so many unknowns, solved
- * without any factorisation. */
-OstStatus hard_run(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, HardReport **report);
+/* Collective. All points of a run, with a progress line. */
+OstStatus hard_run(OstContext *ctx, const HardRun *run, HardReport **report);
 void hard_report_destroy(HardReport **report);
 int hard_passed(const HardReport *report);
 

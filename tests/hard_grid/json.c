@@ -21,7 +21,7 @@ static json_t *reading_json(const HardReading *reading)
     if (!json || reading->unknowns == 0)
         return json;
     json_t *numbers = json_pack(
-        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:f}",
+        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:f}",
         "unknowns", (json_int_t)reading->unknowns, "method", ost_method_name(reading->method), "iterations",
         reading->iterations, "strategies", reading->steps, "relative_residual", ost_json_number(reading->residual),
         "rounding_limited", reading->rounding_limited, "stated_error", ost_json_number(reading->stated_error),
@@ -31,8 +31,9 @@ static json_t *reading_json(const HardReading *reading)
         "digits", ost_json_number(reading->digits), "size", ost_json_number(reading->truth.size), "amplification",
         ost_json_number(reading->truth.amplification), "floor", ost_json_number(reading->truth.floor),
         "plain_factors_error", ost_json_number(reading->truth.plain), "moved_by_rounding",
-        ost_json_number(reading->truth.rounded), "indefinite", reading->truth.indefinite,
-        "residual_in_twice_the_precision", ost_json_number(reading->truth.residual), "seconds", reading->seconds);
+        ost_json_number(reading->truth.rounded), "indefinite", reading->truth.indefinite, "tet_residual",
+        ost_json_number(reading->tet_residual), "tet_residual_in_64_bits", ost_json_number(reading->truth.residual),
+        "seconds", reading->seconds);
     json_object_update(json, numbers);
     json_decref(numbers);
     return json;
@@ -46,8 +47,8 @@ OstStatus hard_write_json(const HardReport *report, const char *path)
     for (int i = 0; i < report->count; i++)
         json_array_append_new(points, reading_json(&report->reading[i]));
     json_t *document = json_pack("{s:b, s:b, s:I, s:i, s:f, s:o}", "passed", hard_passed(report), "quick",
-                                 report->quick, "size", (json_int_t)report->size, "ranks", ost_size(report->ctx),
-                                 "seconds", report->seconds, "points", points);
+                                 report->run.quick, "size", (json_int_t)report->run.size, "ranks",
+                                 ost_size(report->ctx), "seconds", report->seconds, "points", points);
     if (!document)
         return OST_RAISE(report->ctx, OST_OUT_OF_MEMORY, "the report could not be put into JSON");
     return ost_json_write(report->ctx, document, path);

@@ -9,11 +9,11 @@
 /* A point of the grid by its words. */
 static HardReading read_point(const char *words)
 {
-    const int wanted[HARD_SHAPES] = {1, 1, 1, 1, 1, 1, 1, 1};
+    const HardRun all = {.wanted = {1, 1, 1, 1, 1, 1, 1, 1}};
     HardReading reading = {.outcome = HARD_OUTCOMES};
     HardPoint *points = NULL;
     int count;
-    assert_success(hard_points(ctx, wanted, 0, 0, &count, &points));
+    assert_success(hard_points(ctx, &all, &count, &points));
     for (int i = 0; i < count; i++) {
         char found[160];
         hard_describe(&points[i], found, sizeof found);

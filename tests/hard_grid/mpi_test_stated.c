@@ -54,7 +54,7 @@ static void what_is_accepted_is_stated_rightly(void **state)
         HardCase hard;
         HardReading reading = {.point = {0}};
         OstScene *scene = make_scene(&bodies[b], &hard);
-        assert_success(hard_solve_scene(scene, 1, &reading));
+        assert_success(hard_solve_scene(scene, &reading));
         ost_scene_destroy(&scene);
         const HardErrors *off = &reading.truth.off;
         if (reading.status != OST_SUCCESS || !off->known || !hard_states_its_error(&reading))
@@ -76,7 +76,7 @@ static void a_slender_beam_keeps_its_digits(void **state)
     HardCase hard;
     HardReading reading = {.point = {0}};
     OstScene *scene = make_scene(&body, &hard);
-    assert_success(hard_solve_scene(scene, 1, &reading));
+    assert_success(hard_solve_scene(scene, &reading));
     ost_scene_destroy(&scene);
     assert_int_equal(reading.outcome, HARD_SOLVED_TO_ROUNDING);
     assert_true(reading.truth.off.known && reading.truth.off.displacement < 1e-6);

@@ -60,11 +60,31 @@ typedef struct PointList {
     int stride;
     int seen;
     OstGlobal size;
+    int spread; /* only the spread of each shape and order? */
 } PointList;
+
+/* The spread of a shape and order at size: an easy body, and every Poisson's ratio but two, ratio, stiff direction and
+ * kind of axes among five hard ones. */
+static int is_in_spread(const HardPoint *point)
+{
+    static const HardPoint spread[] = {{.poisson = 1},
+                                       {.poisson = 1, .ratio = 1, .stiff = 0, .axes = 1},
+                                       {.poisson = 2, .ratio = 1, .stiff = 2, .axes = 0},
+                                       {.poisson = 4, .ratio = 1, .stiff = 1, .axes = 2},
+                                       {.poisson = 0, .ratio = 2, .stiff = 0, .axes = 2},
+                                       {.poisson = 6, .ratio = 2, .stiff = 2, .axes = 1}};
+    for (size_t i = 0; i < sizeof spread / sizeof *spread; i++)
+        if (point->poisson == spread[i].poisson && point->ratio == spread[i].ratio && point->stiff == spread[i].stiff &&
+            point->axes == spread[i].axes)
+            return 1;
+    return 0;
+}
 
 /* Flawed points cost almost nothing: --quick takes them all. They are refused whatever their size. */
 static void add(PointList *list, HardPoint point)
 {
+    if (list->spread && !is_in_spread(&point))
+        return;
     const int taken = point.flaw != HARD_SOUND ? list->size == 0 : list->seen++ % list->stride == 0;
     if (!taken || !list->wanted[point.shape])
         return;
@@ -111,10 +131,12 @@ static void add_all(PointList *list)
         }
 }
 
-OstStatus hard_points(OstContext *ctx, const int wanted[HARD_SHAPES], int quick, OstGlobal size, int *count,
-                      HardPoint **points)
+OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint **points)
 {
-    PointList list = {.wanted = wanted, .stride = quick ? QUICK_STRIDE : 1, .size = size};
+    PointList list = {.wanted = run->wanted,
+                      .stride = run->quick ? QUICK_STRIDE : 1,
+                      .size = run->size,
+                      .spread = run->size > 0 && !run->all};
     add_all(&list);
     *count = list.count;
     OST_TRY(OST_NEW(ctx, points, list.count));

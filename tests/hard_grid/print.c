@@ -79,6 +79,24 @@ static void print_matrices(const HardReport *report, int shape, int order)
     puts("");
 }
 
+/* A body at size in a line. */
+static void print_line(const HardReading *reading)
+{
+    char name[160];
+    hard_describe(&reading->point, name, sizeof name);
+    printf("%-62s %9lld %-18s %4d %d %-9s %5.1f %8.1f\n", name, (long long)reading->unknowns,
+           hard_outcome_name[reading->outcome], reading->iterations, reading->steps,
+           reading->unknowns > 0 ? ost_method_name(reading->method) : "", reading->digits, reading->seconds);
+}
+
+static void print_lines(const HardReport *report)
+{
+    printf("%-62s %9s %-18s iterations, strategies, the last, digits, seconds\n", "", "unknowns", "");
+    for (int i = 0; i < report->count; i++)
+        print_line(&report->reading[i]);
+    puts("");
+}
+
 static void print_failures(const HardReport *report)
 {
     for (int i = 0; i < report->count; i++) {
@@ -142,7 +160,9 @@ void hard_print(const HardReport *report)
 {
     if (ost_rank(report->ctx) != 0)
         return;
-    if (!report->quick || ost_log_level(report->ctx) == OST_LOG_VERBOSE) {
+    if (report->run.size > 0)
+        print_lines(report);
+    else if (!report->run.quick || ost_log_level(report->ctx) == OST_LOG_VERBOSE) {
         puts("Columns of three: axes aligned, cylindrical, smooth. *: as far as double precision allows; no: given "
              "up.\n");
         for (int shape = 0; shape < HARD_SHAPES; shape++)
@@ -153,5 +173,5 @@ void hard_print(const HardReport *report)
     print_failures(report);
     print_totals(report);
     printf("%s; %.0f s with %s\n", hard_passed(report) ? "pass" : "FAIL", report->seconds,
-           report->size > 0 ? "residuals in twice the precision" : "the direct solutions");
+           report->run.size > 0 ? "residuals in 64 bits" : "the direct solutions");
 }

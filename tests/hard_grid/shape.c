@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A body at size that takes more is given up, so that its time is bounded. */
+enum { MOST_ITERATIONS = 500 };
+
 /* A body: a tube, or a box from the origin, whose cells may be moved and marked (hard_mesh.c). */
 typedef struct HardShape {
     const char *name;
@@ -120,8 +123,10 @@ OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard
     *hard = (HardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
     hard->c.solver = ost_solver_default_options();
     hard->c.solver.accept_attainable = 1;
-    if (point->size > 0)
-        hard->c.solver.factor_memory = 1.0; /* a byte: nothing is factored but multigrid's coarsest level */
+    if (point->size > 0) { /* a byte: nothing is factored but multigrid's coarsest level */
+        hard->c.solver.factor_memory = 1.0;
+        hard->c.solver.max_iterations = MOST_ITERATIONS;
+    }
     hard->c.constraint_count = hard->c.load_count = 1;
     hard->c.constraints = &hard->constraint;
     hard->c.loads = &hard->load;

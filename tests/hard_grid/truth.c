@@ -133,11 +133,8 @@ OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, Har
 {
     HardDirect direct;
     OstStatus status = hard_direct_assemble(scene, &direct);
-    if (status == OST_SUCCESS) {
-        for (size_t i = 0; i < direct.n; i++)
-            direct.u[i].high = result->displacement[3 * (size_t)direct.system->node_of_row[i / 3] + i % 3];
-        status = hard_direct_residual(&direct, &truth->residual);
-    }
+    if (status == OST_SUCCESS)
+        status = hard_find_exact_residual(scene, &direct, result, &truth->residual);
     hard_direct_clear(&direct);
     return status;
 }
@@ -146,7 +143,7 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 {
     HardDirect direct;
     double *plain = NULL;
-    *truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN};
+    *truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, truth->residual, NAN};
     OstStatus status;
     status = hard_direct_create(scene, &direct);
     truth->indefinite = status == OST_NOT_CONVERGED; /* even with a little on its diagonal */

@@ -17,6 +17,9 @@
  * of the distances that each has to others of its tets. */
 static const double uneven = 1e4, share = 1e-3, close = 0.1, largest = 0.25;
 
+/* A tet of a layer with close nodes has edges that differ by more. */
+static const double flat = 0.25;
+
 /* An inclusion is found after as many rounds as it is split over ranks; what is split more often is too large. */
 enum { MOST_ROUNDS = 100 };
 
@@ -64,28 +67,62 @@ static OstStatus create_welding(const OstMeshChunk *chunk, const Slab *slab, Wel
 
 /* --- what hangs together: close nodes --- */
 
-static double distance(const double *position, OstLocal a, OstLocal b)
+static double squared_distance(const double *position, OstLocal a, OstLocal b)
 {
     double square = 0.0;
     for (size_t c = 0; c < 3; c++) {
         const double d = position[3 * (size_t)b + c] - position[3 * (size_t)a + c];
         square += d * d;
     }
-    return sqrt(square);
+    return square;
 }
 
-/* Positions of all nodes; and in `sum` the mean distance that each has to the others of its tets. */
-static OstStatus measure_distances(const Welding *w, double *position, double *sum)
+static double distance(const double *position, OstLocal a, OstLocal b)
+{
+    return sqrt(squared_distance(position, a, b));
+}
+
+/* Has any tet edges that differ as much as those of a flat layer? Most bodies have none, and all else is left out. */
+static OstStatus has_flat_tets(const OstMeshChunk *chunk, const Slab *slab, const double *position, int *answer)
+{
+    enum { VERTICES = 4 };
+    const size_t width = (size_t)chunk->nodes_per_tet;
+    *answer = 0;
+    for (size_t t = 0; t < (size_t)chunk->tet_count && !*answer; t++) {
+        const OstLocal *node = slab->tet_nodes + width * t;
+        double least = INFINITY, most = 0.0;
+        for (size_t u = 0; u < VERTICES; u++)
+            for (size_t v = 0; v < u; v++) {
+                const double square = squared_distance(position, node[u], node[v]);
+                least = fmin(least, square);
+                most = fmax(most, square);
+            }
+        *answer = least < flat * flat * most;
+    }
+    return ost_max_ints(chunk->ctx, 1, answer);
+}
+
+static OstStatus find_positions(const OstMeshChunk *chunk, const Slab *slab, double **position)
+{
+    const size_t owned = 3 * (size_t)slab->node_count;
+    OST_TRY(ost_agree(chunk->ctx, OST_NEW(chunk->ctx, position, owned + 3 * (size_t)slab->ghost_count)));
+    if (owned > 0)
+        memcpy(*position, chunk->coordinates, owned * sizeof **position);
+    return ost_halo_import(slab->halo, 3 * sizeof **position, *position);
+}
+
+/* In `sum` the mean distance that each node has to the others of its tets. */
+static OstStatus measure_distances(const Welding *w, const double *position, double *sum)
 {
     const size_t width = (size_t)w->chunk->nodes_per_tet;
-    if (w->slab->node_count > 0)
-        memcpy(position, w->chunk->coordinates, 3 * (size_t)w->slab->node_count * sizeof *position);
-    OST_TRY(ost_halo_import(w->slab->halo, 3 * sizeof *position, position));
     for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
         const OstLocal *node = w->slab->tet_nodes + width * t;
         for (size_t u = 0; u < width; u++) {
-            for (size_t v = 0; v < width; v++)
-                sum[2 * (size_t)node[u]] += distance(position, node[u], node[v]);
+            for (size_t v = 0; v < u; v++) {
+                const double apart = distance(position, node[u], node[v]);
+                sum[2 * (size_t)node[u]] += apart;
+                sum[2 * (size_t)node[v]] += apart;
+            }
             sum[2 * (size_t)node[u] + 1] += (double)(width - 1);
         }
     }
@@ -110,15 +147,13 @@ static void start_sets(Welding *w)
 }
 
 /* Joins close nodes; *joined: how many pairs there are on all ranks. */
-static OstStatus join_close(Welding *w, OstGlobal *joined)
+static OstStatus join_close(Welding *w, const double *position, OstGlobal *joined)
 {
     const size_t width = (size_t)w->chunk->nodes_per_tet;
-    double *position = NULL, *mean = NULL;
-    OstStatus status = OST_NEW(w->slab->ctx, &position, 3 * w->nodes);
+    double *mean = NULL;
+    OstStatus status;
     *joined = 0;
-    if (status == OST_SUCCESS)
-        status = OST_NEW(w->slab->ctx, &mean, 2 * w->nodes);
-    OST_TRY_DONE(ost_agree(w->slab->ctx, status));
+    OST_TRY_DONE(ost_agree(w->slab->ctx, OST_NEW(w->slab->ctx, &mean, 2 * w->nodes)));
     OST_TRY_DONE(measure_distances(w, position, mean));
     start_sets(w);
     for (size_t t = 0; t < (size_t)w->chunk->tet_count; t++) {
@@ -133,7 +168,6 @@ static OstStatus join_close(Welding *w, OstGlobal *joined)
     }
     OST_TRY_DONE(ost_sum_numbers(w->slab->ctx, 1, joined));
 done:
-    OST_FREE(position);
     OST_FREE(mean);
     return status;
 }
@@ -382,19 +416,32 @@ done:
     return status;
 }
 
-OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part)
+static OstStatus weld_close(const OstMeshChunk *chunk, const Slab *slab, const double *position, int *part)
 {
     Welding w;
     OstGlobal joined = 0;
     OstStatus status = create_welding(chunk, slab, &w);
     OST_TRY_DONE(ost_agree(chunk->ctx, status));
-    OST_TRY_DONE(join_close(&w, &joined));
+    OST_TRY_DONE(join_close(&w, position, &joined));
     for (size_t i = 0; i < w.nodes; i++)
         w.softer[i] = 1.0; /* whatever is around them */
     if (joined > 0)
         status = weld_sets(&w, part);
 done:
     destroy_welding(&w);
+    return status;
+}
+
+OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part)
+{
+    double *position = NULL;
+    int any = 0;
+    OstStatus status = find_positions(chunk, slab, &position);
+    if (status == OST_SUCCESS)
+        status = has_flat_tets(chunk, slab, position, &any);
+    if (status == OST_SUCCESS && any)
+        status = weld_close(chunk, slab, position, part);
+    OST_FREE(position);
     return status;
 }
 
