@@ -88,6 +88,31 @@ static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
+/* What moves a distributing coupling is found by superposition. */
+static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
+{
+    for (int i = 0; i < c->load_count; i++) {
+        const char *without = c->large_rotation == OST_LARGE_ROTATION_ON ? "large_rotation: on"
+                              : c->path_steps > 0                        ? "path"
+                              : c->free_body                             ? "constraints: free_body"
+                                                                         : NULL;
+        if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: a distributing coupling with a given motion is solved by linear theory, on a body "
+                             "that is held elsewhere; leave out '%s'",
+                             yaml->path, c->loads[i].line, without);
+    }
+    return OST_SUCCESS;
+}
+
+static int drives(const OstCase *c)
+{
+    int some = 0;
+    for (int i = 0; i < c->load_count; i++)
+        some |= c->loads[i].kind == OST_LOAD_DISTRIBUTING;
+    return some;
+}
+
 static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const OstCase *c)
 {
     if (path && c->verify)
@@ -134,7 +159,7 @@ static int watches_reaction(const OstCase *c)
  */
 static void settle_fraction(OstCase *c)
 {
-    const int stops = !c->verify && !watches_reaction(c) &&
+    const int stops = !c->verify && !watches_reaction(c) && !drives(c) &&
                       (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
     if (c->solver.algebraic_fraction == not_given)
         c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
@@ -235,6 +260,7 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
                               c->watches[c->interest - 1].name);
     settle_fraction(c);
     OST_TRY(check_links(yaml, c));
+    OST_TRY(check_distributing(yaml, c));
     return check_density(yaml, c);
 }
 

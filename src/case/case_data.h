@@ -91,7 +91,8 @@ typedef enum {
     OST_LOAD_GRAVITY,
     OST_LOAD_BODY_FORCE,
     OST_LOAD_CENTRIFUGAL,
-    OST_LOAD_MOMENT /* over the selection */
+    OST_LOAD_MOMENT,      /* over the selection */
+    OST_LOAD_DISTRIBUTING /* a force and a moment at a point that move the selection, in the mean, as given */
 } OstLoadKind;
 
 typedef enum { OST_SHARE_AUTO, OST_SHARE_FACES, OST_SHARE_VERTICES } OstShare;
@@ -105,7 +106,9 @@ typedef struct OstLoad {
     double vector[3];
     double origin[3], axis[3], speed; /* CENTRIFUGAL: a point of the axis, its direction, radians per time */
     int acts_at;                      /* TOTAL_FORCE: does the force act at the point `at`? */
-    double at[3];
+    double at[3];                     /* and DISTRIBUTING */
+    int moved[6];     /* DISTRIBUTING: which components of displacement and rotation at the point are given? */
+    double motion[6]; /* and what they are */
     double pressure;
     int follows;    /* PRESSURE: does it follow the surface? */
     int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */

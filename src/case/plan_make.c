@@ -35,6 +35,7 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
         facts->follower_loads += effect == OST_EFFECT_FOLLOWER_PRESSURE;
         facts->centrifugal_loads += effect == OST_EFFECT_CENTRIFUGAL;
         facts->moments += effect == OST_EFFECT_MOMENT;
+        facts->distributing += c->loads[i].kind == OST_LOAD_DISTRIBUTING;
     }
 }
 

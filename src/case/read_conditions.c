@@ -203,7 +203,7 @@ OstStatus ost_read_constraints(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-enum { LOAD_KINDS = OST_LOAD_MOMENT + 1, ON = LOAD_KINDS, SHARE, AT, REGION, FOLLOWS, TIME, LOAD_KEYS };
+enum { LOAD_KINDS = OST_LOAD_DISTRIBUTING + 1, ON = LOAD_KINDS, SHARE, AT, REGION, FOLLOWS, TIME, LOAD_KEYS };
 
 static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
@@ -218,7 +218,7 @@ static OstStatus read_share(const OstYaml *yaml, const OstYamlNode *node, OstLoa
 static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const OstYamlKey *keys, int kind)
 {
     const int on_volume = ost_load_in_volume((OstLoadKind)kind);
-    const int shares = kind == OST_LOAD_TOTAL_FORCE || kind == OST_LOAD_MOMENT;
+    const int shares = kind == OST_LOAD_TOTAL_FORCE || kind == OST_LOAD_MOMENT || kind == OST_LOAD_DISTRIBUTING;
     if (on_volume && keys[ON].value)
         return ost_yaml_raise(yaml, keys[ON].value,
                               "'%s' acts in the volume and has no 'on'; 'region: NAME' restricts it", keys[kind].name);
@@ -231,11 +231,13 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
     if (kind != OST_LOAD_PRESSURE && keys[FOLLOWS].value)
         return ost_yaml_raise(yaml, keys[FOLLOWS].value, "'follows' belongs to pressure, not to '%s'", keys[kind].name);
     if (!shares && keys[SHARE].value)
-        return ost_yaml_raise(yaml, keys[SHARE].value, "'share' belongs to total_force and moment, not to '%s'",
-                              keys[kind].name);
+        return ost_yaml_raise(yaml, keys[SHARE].value,
+                              "'share' belongs to total_force, moment and distributing, not to '%s'", keys[kind].name);
     if (kind == OST_LOAD_MOMENT && keys[AT].value)
         return ost_yaml_raise(yaml, keys[AT].value,
                               "a moment is the same about every point: 'at' belongs to total_force; leave it out");
+    if (kind == OST_LOAD_DISTRIBUTING && keys[TIME].value)
+        return ost_yaml_raise(yaml, keys[TIME].value, "a given motion of a distributing coupling has no time table");
     if (kind != OST_LOAD_TOTAL_FORCE && keys[AT].value)
         return ost_yaml_raise(yaml, keys[AT].value, "'at' belongs to total_force, not to '%s'", keys[kind].name);
     return OST_SUCCESS;
@@ -257,6 +259,31 @@ static OstStatus read_centrifugal(const OstYaml *yaml, const OstYamlNode *node, 
     return ost_yaml_number(yaml, keys[SPEED].value, &load->speed);
 }
 
+/* {at, displacement, rotation}: the motion of a point that the selection has in the mean. */
+static OstStatus read_distributing(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
+{
+    enum { POINT, DISPLACEMENT, ROTATION };
+    OstYamlKey keys[] = {
+        [POINT] = {.name = "at", .needed = 1},
+        [DISPLACEMENT] = {.name = "displacement"},
+        [ROTATION] = {.name = "rotation"},
+    };
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_numbers(yaml, keys[POINT].value, 3, load->at));
+    load->acts_at = 1;
+    if (keys[DISPLACEMENT].value)
+        OST_TRY(read_components(yaml, keys[DISPLACEMENT].value, load->moved, load->motion));
+    if (keys[ROTATION].value)
+        OST_TRY(read_components(yaml, keys[ROTATION].value, load->moved + 3, load->motion + 3));
+    for (int k = 0; k < 6; k++)
+        if (load->moved[k])
+            return OST_SUCCESS;
+    return ost_yaml_raise(
+        yaml, node,
+        "no component of the displacement or rotation is given; a force at the point is a total_force "
+        "with 'at', and a moment a 'moment'");
+}
+
 /* What acts: the value of the load's own key. */
 static OstStatus read_value(const OstYaml *yaml, const OstYamlNode *node, OstLoad *load)
 {
@@ -264,6 +291,8 @@ static OstStatus read_value(const OstYaml *yaml, const OstYamlNode *node, OstLoa
         return ost_yaml_number(yaml, node, &load->pressure);
     if (load->kind == OST_LOAD_CENTRIFUGAL)
         return read_centrifugal(yaml, node, load);
+    if (load->kind == OST_LOAD_DISTRIBUTING)
+        return read_distributing(yaml, node, load);
     load->exact =
         (load->kind == OST_LOAD_TRACTION || load->kind == OST_LOAD_BODY_FORCE) && ost_yaml_says(yaml, node, "exact");
     return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, node, 3, load->vector);
@@ -280,6 +309,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
         [OST_LOAD_BODY_FORCE] = {.name = "body_force"},
         [OST_LOAD_CENTRIFUGAL] = {.name = "centrifugal"},
         [OST_LOAD_MOMENT] = {.name = "moment"},
+        [OST_LOAD_DISTRIBUTING] = {.name = "distributing"},
         [ON] = {.name = "on"},
         [SHARE] = {.name = "share"},
         [AT] = {.name = "at"},

@@ -74,7 +74,7 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
 /* Does a constraint make nodes follow others? */
 static int has_links(const OstEffectFacts *f)
 {
-    return f->rigid_faces + f->ties + f->periodic > 0;
+    return f->rigid_faces + f->ties + f->periodic + f->distributing > 0;
 }
 
 /* Why the mixed form is not used, or NULL. */

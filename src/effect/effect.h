@@ -69,6 +69,7 @@ typedef struct OstEffectFacts {
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
     int moments;                      /* loads with a moment: those, and forces at a point */
+    int distributing;                 /* those of them whose motion is given */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */

@@ -117,10 +117,59 @@ static inline void gather_axes(const OstMaterialField *field, const OstLocal tet
     axes[8] = (OstSimd){of_tet[0][8], of_tet[1][8], of_tet[2][8], of_tet[3][8]};
 }
 
-/* Evaluates the axes' formula at a point of each tet. */
+static void dot(const OstSimd a[3], const OstSimd b[3], OstSimd *product)
+{
+    *product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* As ost_axes_at, of a cylinder. Returns 0 where a point is close to its axis. */
+static int cylindrical_axes(const OstAxesSpec *spec, const OstSimd place[3], OstSimd axes[9])
+{
+    static const double close = 1e-16; /* to the axis: a share of the squared offset */
+    const double length = ost_norm3(spec->axis);
+    const int first = (int)spec->order[0], second = (int)spec->order[1], third = (int)spec->order[2];
+    const double sign = (second - first + 3) % 3 == 1 ? 1.0 : -1.0;
+    OstSimd frame[9], offset[3], size = {0}; /* axial, radial, tangential */
+    OstSimd *axial = frame, *radial = frame + 3, *tangential = frame + 6;
+    for (int i = 0; i < 3; i++) {
+        axial[i] = (OstSimd){0} + spec->axis[i] / length;
+        offset[i] = radial[i] = place[i] - spec->origin[i];
+    }
+    for (int pass = 0; pass < 2; pass++) { /* the second takes off what rounding left */
+        OstSimd along;
+        dot(axial, radial, &along);
+        for (int i = 0; i < 3; i++)
+            radial[i] -= along * axial[i];
+    }
+    OstSimd square, whole;
+    dot(radial, radial, &square);
+    dot(offset, offset, &whole);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        if (!(square[slot] > close * whole[slot]))
+            return 0;
+        size[slot] = sqrt(square[slot]);
+    }
+    for (int i = 0; i < 3; i++)
+        radial[i] /= size;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        tangential[i] = axial[j] * radial[k] - axial[k] * radial[j];
+    }
+    for (int i = 0; i < 3; i++) {
+        axes[i] = frame[3 * first + i];
+        axes[3 + i] = frame[3 * second + i];
+        axes[6 + i] = sign * frame[3 * third + i];
+    }
+    return 1;
+}
+
+/* Evaluates the axes' formula at a point of each tet; all are of one region. */
 static void evaluate_axes(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH], const OstSimd place[3],
                           OstSimd axes[9])
 {
+    const OstAxesSpec *spec = &field->region_formula[field->tet_region[tets[0]]]->spec;
+    if (spec->kind == OST_AXES_CYLINDRICAL && cylindrical_axes(spec, place, axes))
+        return;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const double point[3] = {place[0][slot], place[1][slot], place[2][slot]};
         double at_point[9];

@@ -226,8 +226,8 @@ static double ratio_to_deformation(const double *sums)
 static double strain_error(const OstResult *result, const Body *body, const double *sums, double work)
 {
     const double error = result->checks.displacement_error;
-    if (!body->moved)
-        return error;
+    if (!body->moved) /* a mixed form's pressure is a stress that no displacement tells of */
+        return result->pressure ? fmax(error, result->solve.energy_error) : error;
     if (result->solve.method == OST_METHOD_DIRECT || !result->checks.linear) /* the estimate is of the displacement */
         return error * ratio_to_deformation(sums);
     return result->solve.energy_error * fmax(sqrt(fmax(work, 0.0) / fmax(2.0 * sums[SUM_ENERGY], DBL_MIN)), 1.0);

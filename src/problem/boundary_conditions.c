@@ -266,10 +266,15 @@ static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, do
     return status;
 }
 
-static OstResultant resultant_of(const OstLoad *load)
+static OstResultant resultant_of(const OstScene *scene, const OstLoad *load)
 {
     OstResultant resultant = {.acts_at = load->acts_at};
-    memcpy(load->kind == OST_LOAD_MOMENT ? resultant.moment : resultant.force, load->vector, sizeof load->vector);
+    if (load->kind == OST_LOAD_DISTRIBUTING) {
+        const double *drive = scene->drive + 6 * (load - scene->c->loads);
+        memcpy(resultant.force, drive, sizeof resultant.force);
+        memcpy(resultant.moment, drive + 3, sizeof resultant.moment);
+    } else
+        memcpy(load->kind == OST_LOAD_MOMENT ? resultant.moment : resultant.force, load->vector, sizeof load->vector);
     memcpy(resultant.at, load->at, sizeof load->at);
     return resultant;
 }
@@ -277,7 +282,7 @@ static OstResultant resultant_of(const OstLoad *load)
 OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces, OstSpread *spread)
 {
-    const OstResultant resultant = resultant_of(load);
+    const OstResultant resultant = resultant_of(scene, load);
     *on_faces = 0;
     if (load->share == OST_SHARE_VERTICES)
         return OST_SUCCESS;
@@ -290,7 +295,7 @@ OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_f
 
 static OstStatus add_moment_on_vertices(const OstScene *scene, const OstLoad *load, double *force)
 {
-    const OstResultant resultant = resultant_of(load);
+    const OstResultant resultant = resultant_of(scene, load);
     OstSpread spread;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
@@ -370,11 +375,17 @@ static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupport
     return status;
 }
 
+OstStatus ost_scene_load(const OstScene *scene, int number, double *force)
+{
+    return add_load(scene, &scene->c->loads[number], scene->load_effect[number], force, NULL);
+}
+
 OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
                           OstFollower **follower)
 {
     for (int i = 0; i < scene->c->load_count; i++)
-        if (scene->c->loads[i].table == table && ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
+        if (scene->c->loads[i].kind != OST_LOAD_DISTRIBUTING && scene->c->loads[i].table == table &&
+            ost_effect_on(&scene->plan.effects, scene->load_effect[i]))
             OST_TRY(supports ? add_checked_load(scene, i, supports, force, follower)
                              : add_load(scene, &scene->c->loads[i], scene->load_effect[i], force, follower));
     return OST_SUCCESS;

@@ -15,9 +15,13 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
 
 /* Collective. Adds the case's loads that follow this function of time to `force` (3 × node_count, complete on owned
  * nodes), and pressures that follow the surface to *follower, which stays NULL if there are none. Warns of a load that
- * these supports take up whole, so that it strains nothing; they may be NULL. */
+ * these supports take up whole, so that it strains nothing; they may be NULL. Distributing couplings
+ * whose motion is given have no force yet. */
 OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
                           OstFollower **follower);
+
+/* Collective. Adds one load likewise; of a distributing coupling, the force and moment that the scene has for it. */
+OstStatus ost_scene_load(const OstScene *scene, int number, double *force);
 
 /* Local. How the body turns, of a centrifugal load. */
 OstSpin ost_load_spin(const OstLoad *load);

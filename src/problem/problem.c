@@ -24,6 +24,7 @@ void ost_problem_destroy(OstProblem **problem)
     ost_pressure_space_destroy(&(*problem)->pressures);
     ost_problem_release_timed(*problem);
     ost_supports_destroy(&(*problem)->supports);
+    OST_FREE((*problem)->driven);
     ost_follower_destroy(&(*problem)->follower);
     OST_FREE((*problem)->force);
     OST_FREE(*problem);

@@ -189,12 +189,23 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
     return OST_SUCCESS;
 }
 
+static OstStatus make_drive(OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    OstStatus status = OST_SUCCESS;
+    for (int i = 0; i < c->load_count && !scene->drive && status == OST_SUCCESS; i++)
+        if (c->loads[i].kind == OST_LOAD_DISTRIBUTING)
+            status = OST_NEW(c->ctx, &scene->drive, 6 * (size_t)c->load_count);
+    return ost_agree(c->ctx, status);
+}
+
 static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
 {
     const OstMesh *mesh = scene->mesh;
     const OstCase *c = scene->c;
     OST_TRY(ost_agree(c->ctx, OST_NEW(c->ctx, &scene->load_effect, (size_t)c->load_count)));
     OST_TRY(ost_load_effects(c, mesh, scene->load_effect));
+    OST_TRY(make_drive(scene));
     OstPlanMesh facts = {.nodes = mesh->global_nodes,
                          .tets = mesh->global_tets,
                          .quadratic = mesh->nodes_per_tet == 10,
@@ -302,6 +313,7 @@ OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_c
     *made = *scene;
     made->c = scene->c->load_cases[number].c;
     made->load_effect = NULL;
+    made->drive = NULL;
     made->borrows = 1;
     OstStatus status = make_plan(made, scene->from_file);
     OST_THEN(check_places(made));
@@ -316,6 +328,7 @@ void ost_scene_destroy(OstScene **scene)
     if (!*scene)
         return;
     OST_FREE((*scene)->load_effect);
+    OST_FREE((*scene)->drive);
     if ((*scene)->borrows) {
         OST_FREE(*scene);
         return;

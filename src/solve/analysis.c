@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "orthostat/path.h"
 #include "recovery/recovery.h"
+#include "solve/distributing/distributing.h"
 #include "solve/strategy.h"
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
@@ -71,6 +72,8 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
     result->formulation = ost_problem_formulation(analysis->problem);
     OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, result));
+    if (analysis->problem->driven)
+        OST_TRY(ost_distributing_react(analysis->problem, result));
     if (solved_for->errors.known) /* one error of the displacement is stated */
         result->solve.error_estimate = solved_for->errors.displacement;
     if (solved_for->errors.corrected)

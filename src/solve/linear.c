@@ -8,6 +8,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
+#include "solve/distributing/distributing.h"
 #include "solve/error.h"
 
 #include <math.h>
@@ -57,6 +58,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     if (!analysis->work)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
+    ost_distributing_forget(problem);
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
     if (linear->volume) {
         OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
@@ -245,6 +247,15 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     return solved;
 }
 
+/* The load of distributing couplings whose motion is given; an estimate that is kept is told of it. */
+static OstStatus drive(OstAnalysis *analysis)
+{
+    OstLinear *linear = analysis->work;
+    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs));
+    OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs)));
+    return ost_analysis_take_loading(analysis);
+}
+
 static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     const OstProblem *problem = analysis->problem;
@@ -254,6 +265,8 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
+    if (ost_distributing_any(problem))
+        OST_TRY(drive(analysis));
     const OstStatus solved = may_stop ? stop_early(analysis, result, &errors)
                                       : run_solver(analysis, NULL, begins_at_start(analysis), result);
     if (!result->reached)

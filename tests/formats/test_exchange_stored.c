@@ -47,12 +47,6 @@ static const struct {
 };
 enum { FILES = sizeof files / sizeof *files };
 
-static void count(void *listener, const char *text)
-{
-    (void)text;
-    ++*(int *)listener;
-}
-
 static void path_of(const char *name, char path[512])
 {
     snprintf(path, 512, "%s/tests/formats/exchange/%s", getenv("ORTHOSTAT_SOURCE"), name);
@@ -92,16 +86,8 @@ static void stored_files_hold_two_cubes(void **state)
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];
-        int warnings = 0;
-        OstMeshChunk *chunk = NULL;
         path_of(files[f].name, path);
-        ost_warn_listen(ctx, count, &warnings);
-        if (ost_chunk_read(ctx, path, &chunk) != OST_SUCCESS)
-            fail_msg("%s", ost_error_text(ctx));
-        ost_warn_listen(ctx, NULL, NULL);
-        assert_int_equal(warnings, files[f].warnings);
-        assert_int_equal(chunk->global_nodes, files[f].nodes);
-        assert_int_equal(chunk->global_tets, files[f].tets);
+        OstMeshChunk *chunk = read_cubes(path, files[f].warnings, files[f].nodes, files[f].tets);
         assert_int_equal(chunk->boundary_count, files[f].boundaries);
         assert_int_equal(chunk->regions.count, 2);
         check_cubes(chunk, files[f].left, files[f].right);

@@ -30,12 +30,6 @@ static const struct {
 };
 enum { FILES = sizeof files / sizeof *files };
 
-static void count(void *listener, const char *text)
-{
-    assert_non_null(strstr(text, ".msh: "));
-    ++*(int *)listener;
-}
-
 /* Faces of 'clamp' have x = 0. */
 static void check_boundary(const OstMeshChunk *chunk, int named)
 {
@@ -52,15 +46,8 @@ static void stored_files_are_read_as_gmsh_reads_them(void **state)
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];
-        int warnings = 0;
-        OstMeshChunk *chunk = NULL;
         snprintf(path, sizeof path, "%s/tests/formats/msh/%s.msh", getenv("ORTHOSTAT_SOURCE"), files[f].name);
-        ost_warn_listen(ctx, count, &warnings);
-        assert_success(ost_chunk_read(ctx, path, &chunk));
-        ost_warn_listen(ctx, NULL, NULL);
-        assert_int_equal(warnings, files[f].warnings);
-        assert_int_equal(chunk->global_nodes, files[f].nodes);
-        assert_int_equal(chunk->global_tets, 48);
+        OstMeshChunk *chunk = read_cubes(path, files[f].warnings, files[f].nodes, 48);
         assert_int_equal(chunk->boundary_count, files[f].boundaries);
         check_cubes(chunk, files[f].named ? "left" : NULL, "right");
         if (files[f].boundaries > 0)

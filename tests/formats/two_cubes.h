@@ -5,7 +5,39 @@
 #include "mesh/mesh_data.h"
 #include "support.h"
 
+#include "formats/serial/formats.h"
+
+#include <string.h>
+
 /* The stored meshes: two cubes, [0, 2] × [0, 1]². */
+
+/* A listener to warnings, which name the file. */
+typedef struct Warnings {
+    const char *file;
+    int count;
+} Warnings;
+
+static void count_warning(void *listener, const char *text)
+{
+    Warnings *warnings = listener;
+    assert_non_null(strstr(text, warnings->file));
+    warnings->count++;
+}
+
+/* Reads a file that gives so many warnings, of so many nodes and tets. */
+static OstMeshChunk *read_cubes(const char *path, int warnings, int nodes, int tets)
+{
+    OstMeshChunk *chunk = NULL;
+    Warnings found = {strrchr(path, '/') + 1, 0};
+    ost_warn_listen(ctx, count_warning, &found);
+    if (ost_chunk_read(ctx, path, &chunk) != OST_SUCCESS)
+        fail_msg("%s", ost_error_text(ctx));
+    ost_warn_listen(ctx, NULL, NULL);
+    assert_int_equal(found.count, warnings);
+    assert_int_equal(chunk->global_nodes, nodes);
+    assert_int_equal(chunk->global_tets, tets);
+    return chunk;
+}
 
 static double centre_x(const OstMeshChunk *chunk, OstLocal tet)
 {

@@ -10,23 +10,6 @@
 
 enum { STEPS = 200 };
 
-/* a + b, and a - b c, to a relative 1e-32 (Dekker, Knuth). */
-static Twofold plus(Twofold a, double b)
-{
-    const double sum = a.high + b, part = sum - a.high;
-    const double low = (a.high - (sum - part)) + (b - part) + a.low;
-    const double high = sum + low;
-    return (Twofold){high, low - (high - sum)};
-}
-
-static Twofold minus_product(Twofold a, double b, Twofold c)
-{
-    const double product = -b * c.high;
-    a = plus(a, product);
-    a.low += fma(-b, c.high, -product) - b * c.low;
-    return a;
-}
-
 void hard_direct_clear(HardDirect *direct)
 {
     ost_mumps_destroy(&direct->factors);
@@ -125,6 +108,17 @@ OstStatus hard_direct_apply(HardDirect *direct)
     return OST_SUCCESS;
 }
 
+Twofold hard_direct_row(const HardDirect *direct, OstLocal i, int c, Twofold sum, const Twofold *v)
+{
+    const OstBlockMatrix *k = direct->system->matrix;
+    for (OstLocal b = k->row_start[i]; b < k->row_start[i + 1]; b++) {
+        const double *value = k->value + 9 * (size_t)b + 3 * (size_t)c;
+        for (int e = 0; e < 3; e++)
+            sum = hard_minus_product(sum, value[e], v[3 * (size_t)k->column[b] + (size_t)e]);
+    }
+    return sum;
+}
+
 /* base - K v (NULL: 0), with compensated sums. */
 static OstStatus subtract_product(const HardDirect *direct, const double *base, Twofold *v, double *difference)
 {
@@ -132,13 +126,9 @@ static OstStatus subtract_product(const HardDirect *direct, const double *base, 
     OST_TRY(ost_halo_import(k->halo, 3 * sizeof *v, v));
     for (OstLocal i = 0; i < k->rows; i++)
         for (int c = 0; c < 3; c++) {
-            Twofold sum = {base ? base[3 * (size_t)i + (size_t)c] : 0.0, 0.0};
-            for (OstLocal b = k->row_start[i]; b < k->row_start[i + 1]; b++) {
-                const double *value = k->value + 9 * (size_t)b + 3 * (size_t)c;
-                for (int e = 0; e < 3; e++)
-                    sum = minus_product(sum, value[e], v[3 * (size_t)k->column[b] + (size_t)e]);
-            }
-            difference[3 * (size_t)i + (size_t)c] = sum.high + sum.low;
+            const size_t at = 3 * (size_t)i + (size_t)c;
+            const Twofold sum = hard_direct_row(direct, i, c, (Twofold){base ? base[at] : 0.0, 0.0}, v);
+            difference[at] = sum.high + sum.low;
         }
     return OST_SUCCESS;
 }
@@ -176,7 +166,7 @@ OstStatus hard_direct_solve(HardDirect *direct, const double *f, double enough, 
             break;
         OST_TRY(sum_products(direct, direct->d, direct->r, &gain));
         for (size_t i = 0; i < direct->n; i++)
-            direct->u[i] = plus(direct->u[i], gain / energy * direct->d[i]);
+            direct->u[i] = hard_plus(direct->u[i], gain / energy * direct->d[i]);
         OST_TRY(hard_direct_size(direct, &size));
         *known = correction <= enough * size;
     }

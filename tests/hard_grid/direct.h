@@ -5,12 +5,8 @@
 #include "algebra/direct/mumps.h"
 #include "algebra/matrix/scaling.h"
 #include "assembly/system.h"
+#include "hard_grid/twofold.h"
 #include "problem/scene_data.h"
-
-/* An unevaluated sum of two doubles, some 32 digits (double-double). */
-typedef struct Twofold {
-    double high, low;
-} Twofold;
 
 /* A scene's equations, assembled again, and their factors. Vectors have 3 × rows numbers, with ghosts 3 × columns. */
 typedef struct HardDirect {
@@ -41,6 +37,9 @@ OstStatus hard_direct_solve(HardDirect *direct, const double *f, double enough, 
 
 /* Collective. d = K^-1 r by the factors. */
 OstStatus hard_direct_apply(HardDirect *direct);
+
+/* Local. sum - (K v)_ic, of component c of row i; v with its ghosts. */
+Twofold hard_direct_row(const HardDirect *direct, OstLocal i, int c, Twofold sum, const Twofold *v);
 
 /* Collective. ||v||, and the norm of u. */
 OstStatus hard_direct_norm(const HardDirect *direct, const double *v, double *norm);

@@ -14,7 +14,8 @@ enum {
     HARD_FAMILY = 5,   /* Poisson's ratios of the stable family */
     HARD_POISSONS = 7, /* those, and nine constants at 0.99 and 0.999 of the border of stability */
     HARD_AXES = 3,     /* aligned, cylindrical, random smooth */
-    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3)
+    HARD_COLUMNS = HARD_AXES * (1 + 2 * 3),
+    HARD_INCOMPRESSIBLE = HARD_POISSONS /* nu = 1/2 by the mixed form: points of their own */
 };
 
 /* What is wrong with a point that must be refused. */
@@ -30,7 +31,7 @@ typedef enum {
 
 typedef struct HardPoint {
     int shape, order;
-    int poisson;            /* 0 to HARD_POISSONS - 1 */
+    int poisson;            /* 0 to HARD_POISSONS - 1, or HARD_INCOMPRESSIBLE */
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
     HardFlaw flaw;
     OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
@@ -62,6 +63,7 @@ typedef struct HardTruth {
     int indefinite;       /* did rounding leave the stiffness not positive definite? */
     double error;         /* ||u - u*|| / ||u*||, 2-norms of all free displacements */
     HardErrors off;       /* of the answer, from the equations before their stiffness is rounded */
+    double pressure;      /* of a mixed form: error of its pressures, in the norm of the energy */
     double size;          /* ||u*|| */
     double amplification; /* ||K^-1|| ||f|| / ||u*||, by the factors: bounds the error over the residual */
     double floor;         /* relative residual, in double precision, of u* itself rounded to double precision */
@@ -94,6 +96,7 @@ typedef struct HardReading {
 typedef struct HardRun {
     int wanted[HARD_SHAPES]; /* which shapes */
     int quick;               /* a sample in which every value of every parameter occurs */
+    int mixed;               /* the points of the mixed form, and no others */
     OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
     int all;                 /* with a size: all points, and not the spread of six a shape and order */
 } HardRun;
@@ -150,6 +153,9 @@ void hard_cylinder(int shape, double origin[3], double axis[3]);
  * solution is known to the last digits of double precision, or K turns out to be indefinite; then compares the result
  * (NULL: there is none) with it. */
 OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
+
+/* Collective. The same of both equations of a mixed form; fills known, error, pressure and size alone. */
+OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
 /* Collective. The same of a body that is too large to be factored: the residual in the tets' equations alone. */
 OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);

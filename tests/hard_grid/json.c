@@ -20,20 +20,22 @@ static json_t *reading_json(const HardReading *reading)
                              ost_status_name(reading->status), "reason", ost_json_text(reading->reason));
     if (!json || reading->unknowns == 0)
         return json;
-    json_t *numbers = json_pack(
-        "{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:f}",
-        "unknowns", (json_int_t)reading->unknowns, "method", ost_method_name(reading->method), "iterations",
-        reading->iterations, "strategies", reading->steps, "relative_residual", ost_json_number(reading->residual),
-        "rounding_limited", reading->rounding_limited, "stated_error", ost_json_number(reading->stated_error),
-        "stated_forces", ost_json_number(reading->stated_forces), "displacement_error",
-        ost_json_number(reading->truth.off.displacement), "reaction_error",
-        ost_json_number(reading->truth.off.reaction), "stress_error", ost_json_number(reading->truth.off.stress),
-        "digits", ost_json_number(reading->digits), "size", ost_json_number(reading->truth.size), "amplification",
-        ost_json_number(reading->truth.amplification), "floor", ost_json_number(reading->truth.floor),
-        "plain_factors_error", ost_json_number(reading->truth.plain), "moved_by_rounding",
-        ost_json_number(reading->truth.rounded), "indefinite", reading->truth.indefinite, "tet_residual",
-        ost_json_number(reading->tet_residual), "tet_residual_in_64_bits", ost_json_number(reading->truth.residual),
-        "seconds", reading->seconds);
+    json_t *numbers =
+        json_pack("{s:I, s:s, s:i, s:i, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, "
+                  "s:o, s:o, s:f}",
+                  "unknowns", (json_int_t)reading->unknowns, "method", ost_method_name(reading->method), "iterations",
+                  reading->iterations, "strategies", reading->steps, "relative_residual",
+                  ost_json_number(reading->residual), "rounding_limited", reading->rounding_limited, "stated_error",
+                  ost_json_number(reading->stated_error), "stated_forces", ost_json_number(reading->stated_forces),
+                  "pressure_error", ost_json_number(reading->truth.pressure), "displacement_error",
+                  ost_json_number(reading->truth.off.displacement), "reaction_error",
+                  ost_json_number(reading->truth.off.reaction), "stress_error",
+                  ost_json_number(reading->truth.off.stress), "digits", ost_json_number(reading->digits), "size",
+                  ost_json_number(reading->truth.size), "amplification", ost_json_number(reading->truth.amplification),
+                  "floor", ost_json_number(reading->truth.floor), "plain_factors_error",
+                  ost_json_number(reading->truth.plain), "moved_by_rounding", ost_json_number(reading->truth.rounded),
+                  "indefinite", reading->truth.indefinite, "tet_residual", ost_json_number(reading->tet_residual),
+                  "tet_residual_in_64_bits", ost_json_number(reading->truth.residual), "seconds", reading->seconds);
     json_object_update(json, numbers);
     json_decref(numbers);
     return json;

@@ -112,6 +112,21 @@ static void judge(HardReading *reading)
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
 
+/* Displacements and pressures against what is stated of displacements and stresses. */
+static void judge_mixed(HardReading *reading)
+{
+    const HardTruth *truth = &reading->truth;
+    reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
+    if (reading->status != OST_SUCCESS)
+        reading->outcome = HARD_GIVEN_UP;
+    else if (!truth->known)
+        fail(reading, HARD_FALSE, "solved, but there is no direct solution");
+    else if (!states(reading->stated_error, truth->error) || !states(reading->stated_forces, truth->pressure))
+        fail(reading, HARD_FALSE, "its errors are not as stated");
+    else
+        reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
+}
+
 /* At size: is the residual in the tets' equations as small as it is said to be? */
 static void judge_residual(HardReading *reading)
 {
@@ -127,10 +142,14 @@ static void judge_residual(HardReading *reading)
 
 static OstStatus compare(const OstScene *scene, const OstResult *result, HardReading *reading)
 {
-    OstStatus status = hard_find_truth(scene, result, &reading->truth);
+    const int mixed = ost_field_is_mixed(scene->field);
+    OstStatus status =
+        mixed ? hard_find_mixed_truth(scene, result, &reading->truth) : hard_find_truth(scene, result, &reading->truth);
     if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
         status = OST_SUCCESS;
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS && mixed)
+        judge_mixed(reading);
+    else if (status == OST_SUCCESS)
         judge(reading);
     return status;
 }
@@ -186,7 +205,7 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
 {
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
-    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN};
+    reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);

@@ -26,6 +26,7 @@ typedef struct Arguments {
 
 static const struct argp_option options[] = {
     {"quick", 'Q', 0, 0, "A sample of the points in which every value of every parameter occurs", 0},
+    {"mixed", 'M', 0, 0, "Quadratic tets at nu = 1/2 by the mixed form, in place of the other points", 0},
     {"size", 'S', "N", 0,
      "Bodies of about N unknowns (1000 to 1e8), six of each shape and order, solved without a factorisation, judged by "
      "their residual in 64 bits, and up to 10,000 unknowns by a direct solution",
@@ -66,6 +67,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case 'a':
         arguments->run.all = 1;
         return 0;
+    case 'M':
+        arguments->run.mixed = 1;
+        return 0;
     case 'S':
         arguments->run.size = (OstGlobal)strtod(value, &end);
         if (!*end && arguments->run.size >= 1000 && arguments->run.size <= 100000000)
@@ -82,6 +86,8 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case ARGP_KEY_ARG:
         return want_shape(state, value, arguments);
     case ARGP_KEY_END:
+        if (arguments->run.mixed && arguments->run.size > 0)
+            argp_error(state, "--mixed has small bodies alone: leave out --size");
         for (int s = 0; s < HARD_SHAPES && arguments->shape_count + arguments->case_count == 0; s++)
             arguments->run.wanted[s] = 1;
         return 0;

@@ -27,9 +27,10 @@ static OstStatus constants_of(OstContext *ctx, const HardPoint *point, double mo
     youngs[point->stiff] *= hard_ratio[point->ratio];
     if (point->flaw == HARD_BEYOND_BORDER)
         return border_constants(ctx, youngs, 1.001, constants);
-    if (point->poisson >= HARD_FAMILY)
+    if (point->poisson >= HARD_FAMILY && point->poisson < HARD_POISSONS)
         return border_constants(ctx, youngs, hard_border[point->poisson - HARD_FAMILY], constants);
-    const double nu = point->flaw == HARD_NU_HALF ? 0.5 : hard_nu[point->poisson];
+    const int half = point->flaw == HARD_NU_HALF || point->poisson == HARD_INCOMPRESSIBLE;
+    const double nu = half ? 0.5 : hard_nu[point->poisson];
     *constants = ost_orthotropic_family(youngs, nu, OST_SHEAR_GEOMETRIC);
     return OST_SUCCESS;
 }
@@ -49,7 +50,7 @@ OstStatus hard_materials(OstContext *ctx, const HardPoint *point, HardCase *hard
     static char all[] = "all", inclusion[] = "inclusion";
     const double contrast = hard_contrast(point->shape);
     hard->c.materials = hard->material;
-    hard->c.unmixed = 1; /* what is judged is the solution of one matrix; tests/solve/mpi_test_mixed.c has the mixed form */
+    hard->c.unmixed = point->poisson != HARD_INCOMPRESSIBLE; /* what is judged is the solution of one matrix */
     hard->c.material_count = contrast == 1.0 ? 1 : 2;
     for (int m = 0; m < hard->c.material_count; m++) {
         hard->material[m].region = m == 0 ? all : inclusion;

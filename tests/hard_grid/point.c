@@ -5,8 +5,9 @@
 
 #include <stdio.h>
 
-/* --quick takes every 47th point: a prime that divides no count of values, so that every value occurs. */
-enum { QUICK_STRIDE = 47 };
+/* --quick takes every 47th point, of the mixed form every 7th: primes that divide no count of values, so that every
+ * value occurs. */
+enum { QUICK_STRIDE = 47, QUICK_MIXED = 7 };
 
 const char *const hard_outcome_name[HARD_OUTCOMES] = {"solved", "solved to rounding", "refused rightly", "given up",
                                                       "FALSE SUCCESS"};
@@ -18,7 +19,9 @@ static const char *const axes_name[HARD_AXES] = {"aligned", "cylindrical", "smoo
 
 void hard_describe_poisson(int poisson, char *text, size_t size)
 {
-    if (poisson < HARD_FAMILY)
+    if (poisson == HARD_INCOMPRESSIBLE)
+        snprintf(text, size, "nu 0.5, mixed");
+    else if (poisson < HARD_FAMILY)
         snprintf(text, size, "nu %g", hard_nu[poisson]);
     else
         snprintf(text, size, "%g of border", hard_border[poisson - HARD_FAMILY]);
@@ -59,6 +62,7 @@ typedef struct PointList {
     const int *wanted;
     int stride;
     int seen;
+    int mixed;
     OstGlobal size;
     int spread; /* only the spread of each shape and order? */
 } PointList;
@@ -99,7 +103,8 @@ static void add_stiffnesses(PointList *list, HardPoint point)
 {
     for (point.ratio = 0; point.ratio < HARD_RATIOS; point.ratio++)
         for (point.stiff = 0; point.stiff < (point.ratio == 0 ? 1 : 3); point.stiff++) {
-            const int isotropic = point.ratio == 0 && point.poisson < HARD_FAMILY;
+            const int family = point.poisson < HARD_FAMILY || point.poisson == HARD_INCOMPRESSIBLE;
+            const int isotropic = point.ratio == 0 && family;
             for (point.axes = 0; point.axes < (isotropic ? 1 : HARD_AXES); point.axes++)
                 add(list, point);
         }
@@ -122,7 +127,9 @@ static void add_flawed(PointList *list, HardPoint point)
 
 static void add_all(PointList *list)
 {
-    for (int shape = 0; shape < HARD_SHAPES; shape++)
+    for (int shape = 0; shape < HARD_SHAPES && list->mixed; shape++)
+        add_stiffnesses(list, (HardPoint){.shape = shape, .order = 2, .poisson = HARD_INCOMPRESSIBLE});
+    for (int shape = 0; shape < HARD_SHAPES && !list->mixed; shape++)
         for (int order = 1; order <= HARD_ORDERS; order++) {
             HardPoint point = {.shape = shape, .order = order};
             for (point.poisson = 0; point.poisson < HARD_POISSONS; point.poisson++)
@@ -134,7 +141,10 @@ static void add_all(PointList *list)
 OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint **points)
 {
     PointList list = {.wanted = run->wanted,
-                      .stride = run->quick ? QUICK_STRIDE : 1,
+                      .stride = !run->quick  ? 1
+                                : run->mixed ? QUICK_MIXED
+                                             : QUICK_STRIDE,
+                      .mixed = run->mixed,
                       .size = run->size,
                       .spread = run->size > 0 && !run->all};
     add_all(&list);

@@ -73,7 +73,8 @@ static void print_matrices(const HardReport *report, int shape, int order)
         for (size_t h = 0; h < sizeof heads / sizeof *heads; h++)
             printf("%s%15s", h > 0 ? " |" : "", heads[h]);
         puts("");
-        for (int poisson = 0; poisson < HARD_POISSONS; poisson++)
+        for (int poisson = report->run.mixed ? HARD_INCOMPRESSIBLE : 0; poisson < HARD_POISSONS + report->run.mixed;
+             poisson++)
             print_row(report, shape, order, poisson, digits);
     }
     puts("");

@@ -143,7 +143,7 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 {
     HardDirect direct;
     double *plain = NULL;
-    *truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, truth->residual, NAN};
+    *truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, truth->residual, NAN};
     OstStatus status;
     status = hard_direct_create(scene, &direct);
     truth->indefinite = status == OST_NOT_CONVERGED; /* even with a little on its diagonal */

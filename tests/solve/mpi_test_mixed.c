@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "run.h"
 #include "two_layers.h"
 
 #include "core/parallel/reduce.h"
@@ -7,25 +8,12 @@
 
 /* The mixed form: quadratic tets whose pressure is an unknown of its own, for nu up to 1/2. */
 
-typedef struct Run {
-    OstCase *c;
-    OstScene *scene;
-    OstResult *result;
-} Run;
-
 static OstStatus try_to_solve(const char *text, Run *run)
 {
     *run = (Run){.c = NULL};
     assert_success(read_text(text, &run->c));
     OstStatus status = ost_scene_create(run->c, &run->scene);
     return status == OST_SUCCESS ? ost_scene_solve(run->scene, &run->result) : status;
-}
-
-static void clear(Run *run)
-{
-    ost_result_destroy(&run->result);
-    ost_scene_destroy(&run->scene);
-    ost_case_destroy(&run->c);
 }
 
 #define TUBE                                                                                                     \

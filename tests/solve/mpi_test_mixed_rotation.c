@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "../case/case_text.h"
+#include "run.h"
+
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "problem/problem.h"
 
-#include "orthostat/orthostat.h"
-
 /* The mixed form where rotations are large. */
-
-typedef struct Run {
-    OstCase *c;
-    OstScene *scene;
-    OstResult *result;
-} Run;
 
 static void read_scene(const char *text, Run *run)
 {
@@ -29,13 +22,6 @@ static void solve(const char *text, Run *run)
     assert_string_equal(ost_result_status(run->result), "accepted");
     assert_true(run->result->newton.used);
     assert_non_null(run->result->pressure);
-}
-
-static void clear(Run *run)
-{
-    ost_result_destroy(&run->result);
-    ost_scene_destroy(&run->scene);
-    ost_case_destroy(&run->c);
 }
 
 /* A state of the mixed form, and a change of it. */

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "../case/case_text.h"
-
-#include "orthostat/analysis.h"
-#include "problem/scene_data.h"
+#include "iterations.h"
 
 /* Layers a thousand times as wide as thick, beams of 100 : 1 and plates of 1000 : 1 take about as many iterations as
  * stout bodies, on any number of ranks, without a factorisation. Beams and plates to what double precision allows. */
@@ -17,36 +14,14 @@
 #define OF(moduli, nu) "materials: [{region: all, youngs_modulus: " moduli ", poissons_ratio: " nu "}]\n"
 
 /* Every second layer of hexes becomes a thousandth as thick as a hex is wide. */
-static void squeeze(OstMeshChunk *chunk)
+static void squeeze(OstMeshChunk *chunk, const void *nothing)
 {
+    (void)nothing;
     for (OstLocal i = 0; i < chunk->node_count; i++) {
         double *z = chunk->coordinates + 3 * (size_t)i + 2;
         const long layer = lround(12.0 * *z), thin = (layer + 1) / 2;
         *z = ((double)thin * 1e-3 + (double)(layer - thin) * 1.999) / 12.0;
     }
-}
-
-/* Iterations of all strategies. */
-static int count_iterations(const char *text, int order, int layers)
-{
-    OstCase *c = NULL;
-    OstMeshChunk *chunk = NULL;
-    OstScene *scene = NULL;
-    OstResult *result = NULL;
-    int iterations = 0;
-    assert_success(read_text(text, &c));
-    c->order = order;
-    assert_success(ost_chunk_create_block(ctx, &c->block, &chunk));
-    if (layers)
-        squeeze(chunk);
-    assert_success(ost_scene_create_on(c, &chunk, &scene));
-    assert_success(ost_scene_solve(scene, &result));
-    for (int k = 0; k < result->solve.steps; k++)
-        iterations += result->solve.step[k].iterations;
-    ost_result_destroy(&result);
-    ost_scene_destroy(&scene);
-    ost_case_destroy(&c);
-    return iterations;
 }
 
 static void thin_bodies_take_few_iterations(void **state)
@@ -64,14 +39,9 @@ static void thin_bodies_take_few_iterations(void **state)
         {"plate, isotropic", PLATE OF("1", "0.3"), 1, 0, 50},
         {"layers, stiff across, nu 0.4", LAYERS OF("[1, 1, 1000]", "0.4"), 2, 1, 45},
     };
-    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
-        const int found = count_iterations(bodies[i].text, bodies[i].order, bodies[i].layers);
-        if (ost_rank(ctx) == 0)
-            print_message("%s, order %d: %d iterations\n", bodies[i].name, bodies[i].order, found);
-        if (found > bodies[i].most)
-            fail_msg("%s, order %d: %d iterations, expected at most %d", bodies[i].name, bodies[i].order, found,
-                     bodies[i].most);
-    }
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
+        check_iterations(bodies[i].name, bodies[i].text, bodies[i].order, bodies[i].most,
+                         bodies[i].layers ? squeeze : NULL, NULL);
 }
 
 static const struct CMUnitTest tests[] = {

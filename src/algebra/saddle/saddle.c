@@ -284,12 +284,20 @@ static OstStatus renew(Run *run, int due)
  * M^-1 A times tau: 1.1 and more. Of the energy of u and p, that is less by up to a factor of this. */
 static const double of_energy = 3.0;
 
+/* The size of u and p in the norm of the energy: u·A u + p·C p, of the solution. */
+static OstStatus find_size(Run *run, double *size)
+{
+    double sums[2] = {ost_dot(run->n, run->f, run->u), ost_dot(run->m, run->saddle->g, run->saddle->p)};
+    OST_TRY(ost_sum(run->ctx, 2, sums));
+    *size = sqrt(fmax(sums[0] - sums[1], 0.0));
+    return OST_SUCCESS;
+}
+
 /* Estimates the error of u and p, in the norm of the energy, where the goal's stop wants it, and asks that. */
 static OstStatus judge_error(Run *run)
 {
     OstGoal *goal = run->goal;
     OstAlgebraicError *error = &goal->error;
-    double sums[2];
     if (!goal->stop || run->passes > 0)
         return OST_SUCCESS;
     ost_algebraic_error(&run->lanczos, error);
@@ -298,10 +306,7 @@ static OstStatus judge_error(Run *run)
     error->bound *= of_energy;
     if (!isfinite(error->estimate))
         return OST_SUCCESS;
-    sums[0] = ost_dot(run->n, run->f, run->u);
-    sums[1] = ost_dot(run->m, run->saddle->g, run->saddle->p);
-    OST_TRY(ost_sum(run->ctx, 2, sums));
-    error->size = sqrt(fmax(sums[0] - sums[1], 0.0)); /* u·A u + p·C p, of the solution */
+    OST_TRY(find_size(run, &error->size));
     if (!(error->estimate <= ost_goal_next(goal)))
         return OST_SUCCESS;
     OST_TRY(goal->stop->ask(goal->stop->data, run->u, error->estimate, &goal->next));
@@ -410,12 +415,23 @@ static OstStatus run_passes(Run *run)
     return OST_SUCCESS;
 }
 
-/* The error of u is the solution for the residual: one application of the preconditioner over the smallest eigenvalue
- * is taken for it, as for A alone (energy_error.h). */
+/* The norm of the pressure that an error of volume r is worth, in that of the energy: r·S^-1 r. */
+static OstStatus worth(Run *run, const double *r, double *norm)
+{
+    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, r, run->q, run->work));
+    double square = ost_dot(run->m, run->q, r);
+    OST_TRY(ost_sum(run->ctx, 1, &square));
+    *norm = sqrt(square);
+    return OST_SUCCESS;
+}
+
+/* The error of u and p is the solution for the residual: one application of the preconditioner over the smallest
+ * eigenvalue is taken for it, as for A alone (energy_error.h). That of p has two parts, which may be of one sign: what
+ * u's residual leaves of volume, and the second equation's own. */
 static OstStatus report_error(Run *run, OstSolveReport *report)
 {
     OstGoal *goal = run->goal;
-    double smallest, largest, squares[2];
+    double smallest, largest, squares[2], of_u, of_p, size;
     int again;
     ost_lanczos_extremes(&run->lanczos, &smallest, &largest);
     goal->smallest = smallest;
@@ -424,6 +440,9 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
         return OST_SUCCESS;
     OST_TRY(precondition(run, run->r.u, run->z.u));
     OST_TRY(complete(run, &again));
+    OST_TRY(worth(run, run->bz, &of_u));
+    OST_TRY(worth(run, run->r.p, &of_p));
+    OST_TRY(find_size(run, &size));
     OST_TRY(ost_coupling_transpose(run->saddle->coupling, run->z.p, run->w));
     for (size_t i = 0; i < run->n; i++)
         run->k.u[i] = run->r.u[i] - run->w[i]; /* the displacement that the pressure's error brings with it */
@@ -432,7 +451,8 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
     squares[1] = ost_dot(run->n, run->u, run->u);
     OST_TRY(ost_sum(run->ctx, 2, squares));
     if (squares[1] > 0.0)
-        report->error_estimate = report->energy_error = sqrt(squares[0] / squares[1]) / smallest;
+        report->error_estimate = sqrt(squares[0] / squares[1]) / smallest;
+    report->energy_error = fmax(report->error_estimate, size > 0.0 ? (of_u + of_p) / size / smallest : 0.0);
     return OST_SUCCESS;
 }
 

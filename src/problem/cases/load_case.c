@@ -69,6 +69,7 @@ void ost_problem_take_loading(OstProblem *problem, OstProblem *other)
 {
     take_displacements(problem->supports, other->supports);
     SWAP(double *, problem->force, other->force);
+    SWAP(double *, problem->driven, other->driven);
     SWAP(OstFollower *, problem->follower, other->follower);
     problem->conservative = other->conservative;
     problem->scene = other->scene;

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_SOLVE_DISTRIBUTING_DISTRIBUTING_H
+#define ORTHOSTAT_SOLVE_DISTRIBUTING_DISTRIBUTING_H
+
+#include "algebra/solver.h"
+#include "problem/problem.h"
+
+/* Distributing couplings whose point is moved: the force and moment there, spread over the face as such loads are, are
+ * sought for which the face's mean motion is the one given. With B the forces of a unit of each and g the motions
+ * given, B' u = g: the mean displacement and rotation are those that the unit forces work on. By linear theory u = u0 +
+ * K^-1 B x, u0 that of all other loads; so (B' K^-1 B) x = g - B' u0, a solve for each component given. */
+
+/* Local. Has the problem such a coupling? */
+int ost_distributing_any(const OstProblem *problem);
+
+/* Collective. Finds the forces of all of them, and adds them to the problem's load. `rhs`: the right-hand side of the
+ * other loads. Raises OST_INVALID_INPUT where two couplings contradict each other or a support. */
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs);
+
+/* Local. Takes the forces of an earlier solve off the load. */
+void ost_distributing_forget(OstProblem *problem);
+
+/* Collective. Counts these forces as reactions of a result, not as its load. */
+OstStatus ost_distributing_react(const OstProblem *problem, OstResult *result);
+
+#endif

@@ -1,0 +1,75 @@
+"""A distributing coupling whose point is moved: forces and moments by the formulas of bars, the same on several ranks, in load cases and
+beside other loads; what is refused."""
+import json
+import os
+
+from program import check, fewer, new_folder, run
+
+BAR = """mesh: {block: {size: [10, 1, 1], divisions: [10, 2, 2]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+watch:
+  pull: {reaction: {boundary: xmax}, component: x}
+  force: {reaction: {boundary: xmax}, component: z}
+  held: {reaction: {boundary: xmin}, component: z}
+  torque: {reaction: {boundary: xmax}, about: [10, 0.5, 0.5], component: x}
+  moment: {reaction: {boundary: xmax}, about: [10, 0.5, 0.5], component: y}
+output: {file: bar.vtkhdf}
+"""
+CASES = """cases:
+  - name: pulled
+    loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]
+  - name: bent
+    loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [free, free, 0.1]}}]
+  - name: turned
+    loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], rotation: [free, -0.05, free]}}]
+  - name: guided
+    loads:
+      - {on: {boundary: xmax}, total_force: [0, 0, 0.01]}
+      - {on: {boundary: xmax}, distributing: {at: [12, 0.5, 0.5], displacement: [free, free, 0], rotation: [free, 0, free]}}
+"""
+BENDING = 1000 / 12.0
+SHEAR = 3 * BENDING / (5 / 6 * 500 * 100)  # of Timoshenko's beam, beside its bending
+EXPECTED = {"pulled": {"pull": 2.0, "force": 0.0},
+            "bent": {"force": 3 * BENDING * 0.1 / 1000 / (1 + SHEAR), "held": -3 * BENDING * 0.1 / 1000 / (1 + SHEAR), "moment": 0.0},
+            "turned": {"moment": -BENDING * 0.05 / 10, "force": 0.0},
+            "guided": {"force": -0.01, "held": 0.0, "moment": 0.0}}  # the coupling takes the whole load
+
+
+def write(text):
+    folder = new_folder()
+    with open(os.path.join(folder, "bar.yaml"), "w") as stream:
+        stream.write(text)
+    return folder
+
+
+folder = write(BAR + CASES)
+answers = []
+for ranks in fewer((1, 2, 4)):
+    finished = run("solve", "bar.yaml", "-q", "--json", "bar.json", ranks=ranks, folder=folder)
+    check(finished.exit_code == 0, finished.errors)
+    with open(os.path.join(folder, "bar.json")) as stream:
+        report = json.load(stream)
+    answers.append({one["load_case"]: {key: value["value"] for key, value in one["watched"].items()} for one in report["cases"]})
+    for name, expected in EXPECTED.items():
+        for key, value in expected.items():
+            found = answers[-1][name][key]
+            check(abs(found - value) <= 0.003 * abs(value) + 1e-7, f"{name}, {key} on {ranks} ranks: {found}, expected {value}")
+            check(abs(found - answers[0][name][key]) <= 1e-7, f"{name}, {key}: {found} on {ranks} ranks")
+
+# one case alone, and the mean of the answer: the end of a bar of nu = 0 that is pulled stays flat
+alone = run("solve", "bar.yaml", "--case", "pulled", "-q", "--json", "-", "--set",
+            "watch.end={displacement: {nearest: [10, 0, 1]}, component: x}", folder=folder)
+check(alone.exit_code == 0, alone.errors)
+check(abs(json.loads(alone.output)["watched"]["end"]["value"] - 0.02) <= 1e-8, alone.output)
+
+MOVED = "loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]\n"
+for text, words in ((MOVED.replace("displacement: [0.02, free, free]", "displacement: [free, free, free]"), "no component"),
+                    (MOVED + "large_rotation: on\n", "leave out 'large_rotation: on'"),
+                    (MOVED + "path: {steps: 2}\n", "leave out 'path'"),
+                    (MOVED.replace("xmax", "xmin"), "given already"),
+                    (MOVED.replace("}}]", "}}, {on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.03, free, free]}}]"),
+                     "given already")):
+    refused = run("solve", "bar.yaml", "-q", folder=write(BAR + text))
+    check(refused.exit_code == 2 and words in refused.errors, f"{words}: {refused.exit_code}, {refused.errors}")
