@@ -24,9 +24,10 @@ static const double linear_is_near = 2.0;
 /* A level has at most about this many times the tets: what is marked on a coarse mesh is marked widely. */
 static const double most_growth = 4.0;
 
-/* A level that would have less than this many times the tets is not worth its time; one that is to have more has this
- * many times at least, since a level too much costs more than what is finer than it need be. */
-static const double least_growth = 1.15, worthwhile_growth = 1.6;
+/* A level that would have less than this many times the tets is not worth its time; one that is to have more marks so
+ * many times at least, and up to the second as the rate of the last levels asks for: a level too much costs more than
+ * what is finer than it need be. The third: tets made over those expected of marks, as neighbours are cut, too. */
+static const double least_growth = 1.15, worthwhile_growth[2] = {1.25, 1.6}, made_over_marked = 1.5;
 
 /* Seconds grow a little faster than unknowns. Memory of the process, with libraries, over that of Orthostat's arrays.
  */
@@ -145,12 +146,13 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
     const double fall = fmin(wanted / error, 1.0);
     const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)), target = square * pow(fall, 2.0 / power);
     const double most = fmin(growth, most_growth);
+    const double least = fmin(fmax(needed / made_over_marked, worthwhile_growth[0]), worthwhile_growth[1]);
     if (order != last->order)
         return (OstMarking){.order = order, .target = square, .most_tets = most * (double)last->tets};
     return (OstMarking){.order = order,
                         .target = target,
                         .least_share = target / (needed * (double)last->tets),
-                        .least_tets = fmin(worthwhile_growth, most) * (double)last->tets,
+                        .least_tets = fmin(least, most) * (double)last->tets,
                         .most_tets = most * (double)last->tets};
 }
 
