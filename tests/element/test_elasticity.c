@@ -352,7 +352,51 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
     ost_field_destroy(&field);
 }
 
+/* C at points, from cylindrical axes of any order, is that of tets with these centroids; on the cylinder's axis, where
+ * there are none, it is the tet's own. */
+static void elasticity_at_points_has_the_axes_there(void **state)
+{
+    (void)state;
+    static const int32_t region[OST_SIMD_WIDTH] = {0};
+    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
+    static const double centroids[3 * OST_SIMD_WIDTH] = {1.0, 0.2,  -0.4, -3.0, 5.0,  0.1,
+                                                         0.2, -0.7, 9.0,  1e-3, 2e-3, -1e4};
+    const OstOrthotropic wood = {
+        .youngs_modulus = {11e3, 0.9e3, 0.5e3}, .poissons_ratio = {0.37, 0.44, 0.02}, .shear_modulus = {700, 40, 500}};
+    OstMaterial material;
+    assert_success(ost_material_create(ctx, "wood", &wood, 0.0, &material));
+    for (int order = 0; order < 6; order++) {
+        const int first = order % 3, second = (first + 1 + order / 3) % 3;
+        const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
+                                  .origin = {0.3, -0.2, 0.5},
+                                  .axis = {1.0, 2.0, 2.0},
+                                  .order = {(OstCylindricalDirection)first, (OstCylindricalDirection)second,
+                                            (OstCylindricalDirection)(3 - first - second)}};
+        OstMaterialField *field = NULL;
+        OstElasticity elasticity;
+        OstSimd places[6];
+        assert_success(
+            ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, NULL, &field));
+        for (int i = 0; i < 6; i++)
+            for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+                places[i][slot] =
+                    i > 2 && slot == 0 ? spec.origin[i % 3] + spec.axis[i % 3] : centroids[3 * slot + i % 3];
+        ost_elasticity_clear(&elasticity);
+        ost_elasticity_gather(&elasticity, field, first_tets, 2, places);
+        assert_int_equal(elasticity.points, 2);
+        for (int k = 0; k < 2 * OST_SIMD_WIDTH; k++) {
+            double c[36];
+            ost_field_stiffness(field, first_tets[k / 2], c);
+            for (int p = 0, n = 0; p < 6; p++)
+                for (int q = p; q < 6; q++)
+                    assert_close(elasticity.c[k % 2][n++][k / 2], c[6 * p + q], 1e-11 * c[0]);
+        }
+        ost_field_destroy(&field);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(elasticity_at_points_has_the_axes_there),
     cmocka_unit_test(the_metric_about_a_line_is_that_of_its_axes),
     cmocka_unit_test(the_familys_elasticity_is_the_rotated_one),
     cmocka_unit_test(stiffness_by_the_metric_is_that_by_the_elasticity),
