@@ -164,26 +164,30 @@ void ost_complement_project(const OstComplement *complement, double *values)
 }
 
 /* P (P A P + (I - P) s)^-1 P, s of A's size. */
-OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double block[9])
+OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double symmetric[6])
 {
+    static const int of[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2}, place[6] = {0, 4, 8, 1, 5, 6};
     const OstLocal support = complement->support[function];
     const double *projector = support < 0 ? NULL : complement->projector + 9 * (size_t)support;
-    double inner[9], left[9];
-    const double size = (block[0] + block[4] + block[8]) / 3.0;
+    const double size = (symmetric[0] + symmetric[1] + symmetric[2]) / 3.0;
+    double block[9], inner[9], left[9];
+    for (int n = 0; n < 9; n++)
+        block[n] = symmetric[of[n]];
     if (projector) {
         ost_multiply3(projector, block, left);
         ost_multiply3(left, projector, inner);
         for (int n = 0; n < 9; n++)
             block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
     }
-    memcpy(inner, block, sizeof inner);
-    if (!(ost_invert3(inner, block) > 0.0))
+    if (!(ost_invert3(block, inner) > 0.0))
         return OST_RAISE(complement->mesh->ctx, OST_CHECK_FAILED,
                          "the error estimate meets a stiffness that is not positive definite");
     if (projector) {
-        ost_multiply3(projector, block, left);
-        ost_multiply3(left, projector, block);
+        ost_multiply3(projector, inner, left);
+        ost_multiply3(left, projector, inner);
     }
+    for (int p = 0; p < 6; p++)
+        symmetric[p] = inner[place[p]];
     return OST_SUCCESS;
 }
 

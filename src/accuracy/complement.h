@@ -63,8 +63,9 @@ OstStatus ost_complement_import(const OstComplement *complement, double *values)
 /* Local. Takes from an owned function's value what its constraints do not allow. */
 void ost_complement_project(const OstComplement *complement, double *values);
 
-/* Local. Inverts a function's 3×3 block of a stiffness along the directions that its constraints allow. */
-OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double block[9]);
+/* Local. Inverts a function's 3×3 block of a stiffness (11 22 33 12 23 31) along the directions that its constraints
+ * allow. */
+OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double symmetric[6]);
 
 /* Local. Of functions at barycentric coordinates, their values: of a tet (6 or 10), or of a face (3 or 4), with edges
  * taken in their own order. */

@@ -14,10 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps end when what is to come is below the first share of |e|_A². Gains of pairs of steps are taken to fall by no
- * less than the ratio. On linear tets that lock they fall, and then stay for long: there the last one is to be below
- * the second share, too. */
-static const double small_rest = 0.25, small_gain = 0.115, largest_ratio = 0.75;
+/* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second.
+ * Gains of pairs of steps are taken to fall by no less than the ratio. On linear tets that lock they fall, and then
+ * stay for long: more is asked for there. */
+typedef struct Enough {
+    double rest, gain;
+} Enough;
+static const Enough enough_of_linear = {0.45, 0.2}, enough_of_locked = {0.25, 0.115}, enough_of_quadratic = {0.45, 1.0};
+static const double largest_ratio = 0.75;
 
 /* The share where errors of other loads gave a start, and what one pair of steps may add to that to be the last. */
 static const double small_rest_of_start = 0.05, little_new = 0.03;
@@ -47,12 +51,14 @@ struct OstEstimate {
     int has_inverse;     /* of linear theory */
     OstEarlier *earlier; /* what was found for other loads; or NULL */
     Tails tails;         /* of them */
+    Enough enough;
 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
 {
     if (!*estimate)
         return;
+    ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
     OST_FREE((*estimate)->inverse);
@@ -60,13 +66,30 @@ void ost_estimate_destroy(OstEstimate **estimate)
     OST_FREE(*estimate);
 }
 
+static Enough find_enough(const OstProblem *problem)
+{
+    if (problem->mesh->nodes_per_tet == 10)
+        return enough_of_quadratic;
+    for (int r = 0; r < problem->field->region_count; r++) {
+        double eigenvalues[3] = {1.0, 1.0, 1.0};
+        if (ost_orthotropic_eigenvalues(problem->ctx, &problem->field->material[r].constants, eigenvalues) ==
+                OST_SUCCESS &&
+            ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE))
+            return enough_of_locked;
+    }
+    return enough_of_linear;
+}
+
 static OstStatus create(OstEstimate *estimate)
 {
     const OstProblem *problem = estimate->problem;
     OST_TRY(ost_complement_create(problem->mesh, problem->supports, &estimate->complement));
     OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
-    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL};
-    return ost_agree(problem->ctx, OST_NEW(problem->ctx, &estimate->inverse, 9 * (size_t)estimate->complement.count));
+    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL, NULL};
+    estimate->enough = find_enough(problem);
+    OstStatus status = ost_light_tets_create(problem, &estimate->complement, &estimate->stiffness.light);
+    OST_THEN(OST_NEW(problem->ctx, &estimate->inverse, 6 * (size_t)estimate->complement.count));
+    return ost_agree(problem->ctx, status);
 }
 
 OstStatus ost_estimate_take_loading(OstEstimate *estimate)
@@ -117,7 +140,8 @@ typedef struct Search {
     OstEstimate *estimate;
     OstSolver *solver;
     size_t rows, all; /* numbers of the rows, and of both */
-    double *r, *z, *p, *q, *e;
+    double *r, *p, *q, *e;
+    double *z;         /* of the rows alone */
     double *u, *force; /* of nodes: a displacement, and forces on it */
     double longer;     /* by what e is short of in its work on the residual, as extrapolated: a factor */
     double energy;     /* of this rank's tets, under u; NAN: not known */
@@ -133,12 +157,12 @@ static OstStatus open_search(OstEstimate *estimate, OstSolver *solver, Search *s
     *search = (Search){.estimate = estimate, .solver = solver};
     search->rows = 3 * (size_t)problem->system->matrix->rows;
     search->all = search->rows + 3 * (size_t)estimate->complement.count;
-    OstStatus status = OST_NEW(ctx, &search->r, 5 * search->all);
+    OstStatus status = OST_NEW(ctx, &search->r, 4 * search->all);
+    OST_THEN(OST_NEW(ctx, &search->z, search->rows));
     OST_THEN(OST_NEW(ctx, &search->u, 3 * (size_t)problem->mesh->node_count));
     OST_THEN(OST_NEW(ctx, &search->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
-    search->z = search->r + search->all;
-    search->p = search->z + search->all;
+    search->p = search->r + search->all;
     search->q = search->p + search->all;
     search->e = search->q + search->all;
     return OST_SUCCESS;
@@ -147,6 +171,7 @@ static OstStatus open_search(OstEstimate *estimate, OstSolver *solver, Search *s
 static void close_search(Search *search)
 {
     OST_FREE(search->r);
+    OST_FREE(search->z);
     OST_FREE(search->u);
     OST_FREE(search->force);
 }
@@ -179,25 +204,46 @@ static OstStatus multiply(Search *search)
     return take_rows(search, search->q);
 }
 
-/* z = B r. The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid
- * cycle takes as long as several products with A. On quadratic tets, where that is most of the time, the first pair of
- * steps is without. */
+/* z = B r on the rows. The elements' own unknowns take part in every other step: hardly more steps are needed so, and a
+ * multigrid cycle takes as long as several products with A. On quadratic tets, where that is most of the time, the
+ * first pair of steps is without. */
 static OstStatus precondition(Search *search)
 {
-    const OstComplement *complement = &search->estimate->complement;
-    const double *r = search->r + search->rows;
-    double *z = search->z + search->rows;
     int found = 1;
-    const int first = complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = search->turns++;
+    const int first = search->estimate->complement.mesh->nodes_per_tet == 10 ? 2 : 1, turn = search->turns++;
     if (turn >= first && (turn - first) % 2 == 0)
         OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
     else
         memset(search->z, 0, search->rows * sizeof *search->z);
     search->failed = !found;
-    for (size_t k = 0; k < (size_t)complement->count; k++)
-        if (ost_complement_owns(complement, (OstLocal)k))
-            ost_apply3(search->estimate->inverse + 9 * k, r + 3 * k, z + 3 * k);
     return OST_SUCCESS;
+}
+
+/* z = B r of a function. */
+static inline void precondition_function(const Search *search, size_t k, double z[3])
+{
+    const double *b = search->estimate->inverse + 6 * k, *r = search->r + search->rows + 3 * k;
+    z[0] = b[0] * r[0] + b[3] * r[1] + b[5] * r[2];
+    z[1] = b[3] * r[0] + b[1] * r[1] + b[4] * r[2];
+    z[2] = b[5] * r[0] + b[4] * r[1] + b[2] * r[2];
+}
+
+/* r·z and z·q. (Those of the functions are found again where they are needed: so they take no memory.) */
+static OstStatus weigh(const Search *search, double sums[2])
+{
+    sums[0] = sums[1] = 0.0;
+    for (size_t i = 0; i < search->rows; i++) {
+        sums[0] += search->r[i] * search->z[i];
+        sums[1] += search->q[i] * search->z[i];
+    }
+    for (size_t k = 0; k < (size_t)search->estimate->complement.count; k++) {
+        const double *r = search->r + search->rows + 3 * k, *q = search->q + search->rows + 3 * k;
+        double z[3];
+        precondition_function(search, k, z);
+        sums[0] += r[0] * z[0] + r[1] * z[1] + r[2] * z[2];
+        sums[1] += q[0] * z[0] + q[1] * z[1] + q[2] * z[2];
+    }
+    return ost_sum(search->estimate->problem->ctx, 2, sums);
 }
 
 /* Goes along p: `gain` is what that adds to |e|_A², `weight` r·z before. */
@@ -220,13 +266,19 @@ static OstStatus go_on(Search *search, double weight, double *gain)
 static OstStatus turn(Search *search, double gain, double *weight)
 {
     const double before = *weight;
-    double product = 0.0;
+    double sums[2];
     OST_TRY(precondition(search));
-    OST_TRY(dot(search, search->r, search->z, weight));
-    OST_TRY(dot(search, search->z, search->q, &product));
-    const double share = before > 0.0 ? -gain * product / (before * before) : 0.0;
-    for (size_t i = 0; i < search->all; i++)
+    OST_TRY(weigh(search, sums));
+    const double share = before > 0.0 ? -gain * sums[1] / (before * before) : 0.0;
+    *weight = sums[0];
+    for (size_t i = 0; i < search->rows; i++)
         search->p[i] = search->z[i] + share * search->p[i];
+    for (size_t k = 0; k < (size_t)search->estimate->complement.count; k++) {
+        double *p = search->p + search->rows + 3 * k, z[3];
+        precondition_function(search, k, z);
+        for (int i = 0; i < 3; i++)
+            p[i] = z[i] + share * p[i];
+    }
     search->failed |= !(*weight >= 0.0) || !isfinite(*weight);
     return OST_SUCCESS;
 }
@@ -278,7 +330,7 @@ static OstStatus take_pair(Search *search, double *weight, double *of_step, doub
 static OstStatus iterate(Search *search, double start, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    const int is_quadratic = search->estimate->problem->mesh->nodes_per_tet == 10;
+    const Enough *enough = &search->estimate->enough;
     double weight = 0.0, of_step = 0.0, gain = 0.0, sum = start, first = 0.0, second = 0.0;
     Tails *tails = search->estimate->earlier ? &search->estimate->tails : NULL;
     int learns = tails != NULL;
@@ -300,8 +352,8 @@ static OstStatus iterate(Search *search, double start, double *square)
         *square = sum + to_come;
         ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k, sqrt(sum),
                 sqrt(to_come));
-        const int falls = to_come <= (start > 0.0 ? small_rest_of_start : small_rest) * *square &&
-                          (is_quadratic || gain <= small_gain * sum);
+        const int falls =
+            to_come <= (start > 0.0 ? small_rest_of_start : enough->rest) * *square && gain <= enough->gain * sum;
         const int known = start > 0.0 && gain <= little_new * sum;
         if (!(gain > 0.0) || (k > 1 ? falls : known || search->is_short))
             break;
@@ -522,7 +574,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
     OST_TRY_DONE(ost_agree(
         problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
     OST_TRY_DONE(adjoint_residual(&search, interest));
-    memset(search.z, 0, search.all * sizeof *search.z);
+    memset(search.z, 0, search.rows * sizeof *search.z);
     OST_TRY_DONE(iterate(&search, 0.0, &square));
     if (search.failed)
         goto done;

@@ -34,26 +34,35 @@ OstLocal ost_face_find(const FaceTable *table, OstLocal edge, OstLocal high)
     return -1;
 }
 
+/* The edge between the two lowest vertices of face k % 4 of tet k / 4, and the third vertex. */
+static OstLocal look_at_face(const OstMesh *mesh, const EdgeTable *edges, size_t k, OstLocal *high)
+{
+    static const int between[4][4] = {{-1, 0, 2, 3}, {0, -1, 1, 4}, {2, 1, -1, 5}, {3, 4, 5, -1}};
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, (OstLocal)(k / 4));
+    int last = 0;
+    const int *corner = ost_tet_face[k % 4];
+    for (int i = 1; i < 3; i++)
+        if (mesh->node_number[nodes[corner[i]]] > mesh->node_number[nodes[corner[last]]])
+            last = i;
+    *high = nodes[corner[last]];
+    return edges->of_tet[6 * (k / 4) + (size_t)between[corner[(last + 1) % 3]][corner[(last + 2) % 3]]];
+}
+
 /* Lists the third vertices of the faces at each edge, once for every tet with the face; `start` has two numbers more
  * than there are edges. */
 static OstStatus list_third_vertices(const OstMesh *mesh, const EdgeTable *edges, FaceTable *table, OstLocal *start)
 {
-    OstLocal *next = start + 1, *edge = NULL, sorted[3];
-    OST_TRY(OST_NEW(mesh->ctx, &edge, 4 * (size_t)mesh->tet_count));
-    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count; k++) {
-        ost_face_sort(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        edge[k] = ost_edge_find(edges, mesh, sorted[0], sorted[1]);
-        next[edge[k] + 1]++;
-    }
+    OstLocal *next = start + 1, high;
+    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count; k++)
+        next[look_at_face(mesh, edges, k, &high) + 1]++;
     for (OstLocal e = 0; e < edges->count; e++)
         next[e + 1] += next[e];
-    const OstStatus status = OST_NEW(mesh->ctx, &table->high, 4 * (size_t)mesh->tet_count);
-    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count && status == OST_SUCCESS; k++) {
-        ost_face_sort(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        table->high[next[edge[k]]++] = sorted[2];
+    OST_TRY(OST_NEW(mesh->ctx, &table->high, 4 * (size_t)mesh->tet_count));
+    for (size_t k = 0; k < 4 * (size_t)mesh->tet_count; k++) {
+        const OstLocal edge = look_at_face(mesh, edges, k, &high);
+        table->high[next[edge]++] = high;
     }
-    OST_FREE(edge);
-    return status;
+    return OST_SUCCESS;
 }
 
 static void remove_repetitions(const EdgeTable *edges, const OstLocal *start, FaceTable *table)
@@ -75,7 +84,7 @@ static void remove_repetitions(const EdgeTable *edges, const OstLocal *start, Fa
 
 OstStatus ost_face_table_build(const OstMesh *mesh, const EdgeTable *edges, FaceTable *table)
 {
-    OstLocal *start = NULL, sorted[3];
+    OstLocal *start = NULL, high;
     OstStatus status = OST_NEW(mesh->ctx, &start, (size_t)edges->count + 2);
     OST_THEN(OST_NEW(mesh->ctx, &table->start, (size_t)edges->count + 1));
     OST_THEN(OST_NEW(mesh->ctx, &table->of_tet, 4 * (size_t)mesh->tet_count));
@@ -85,9 +94,8 @@ OstStatus ost_face_table_build(const OstMesh *mesh, const EdgeTable *edges, Face
     OST_FREE(start);
     OST_THEN(OST_RESIZE(mesh->ctx, &table->high, table->count));
     for (size_t k = 0; k < 4 * (size_t)mesh->tet_count && status == OST_SUCCESS; k++) {
-        ost_face_sort(mesh, ost_mesh_nodes_of(mesh, (OstLocal)(k / 4)), ost_tet_face[k % 4], sorted);
-        const OstLocal edge = ost_edge_find(edges, mesh, sorted[0], sorted[1]);
-        table->of_tet[k] = ost_face_find(table, edge, sorted[2]);
+        const OstLocal edge = look_at_face(mesh, edges, k, &high);
+        table->of_tet[k] = ost_face_find(table, edge, high);
     }
     return status;
 }

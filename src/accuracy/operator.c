@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
+#include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
 #include "core/error.h"
@@ -283,47 +284,6 @@ static void forces_of(const Cells *cells, const OstElement *element, OstFormulat
     }
 }
 
-/* The same of straight linear tets with uniform C, by linear theory: the stress is linear, and known at the vertices.
- */
-static void forces_of_linear(const Cells *cells, const OstElement *element, const OstSimd *u, const OstSimd *w,
-                             OstSimd *at_nodes, OstSimd *at_functions)
-{
-    OstPoint point;
-    OstSimd slope[9], at_vertex[4][9], stress[4][9], sum[9] = {{0}};
-    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
-    ost_displacement_gradient(4, &point, u, slope);
-    for (int a = 0; a < 4; a++)
-        memcpy(at_vertex[a], slope, sizeof slope);
-    for (int e = 0; e < 6 && w; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        const OstSimd coefficient[3] = {4.0 * w[3 * e], 4.0 * w[3 * e + 1], 4.0 * w[3 * e + 2]};
-        add_slope(coefficient, point.gradient[b], at_vertex[a]);
-        add_slope(coefficient, point.gradient[a], at_vertex[b]);
-    }
-    point.volume *= 0.05; /* of products of two barycentric coordinates */
-    for (int a = 0; a < 4; a++) {
-        find_stress(cells, OST_FORMULATION_LINEAR, 0, at_vertex[a], NULL, &point.volume, stress[a]);
-        for (int n = 0; n < 9; n++)
-            sum[n] += stress[a][n];
-    }
-    memset(at_functions, 0, 18 * sizeof *at_functions);
-    for (int e = 0; e < 6; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd of_a[9], of_b[9];
-        for (int n = 0; n < 9; n++) {
-            of_a[n] = 4.0 * (sum[n] + stress[a][n]);
-            of_b[n] = 4.0 * (sum[n] + stress[b][n]);
-        }
-        add_along(of_a, point.gradient[b], at_functions + 3 * e);
-        add_along(of_b, point.gradient[a], at_functions + 3 * e);
-    }
-    memset(at_nodes, 0, 12 * sizeof *at_nodes);
-    for (int n = 0; n < 9; n++)
-        sum[n] *= 5.0;
-    for (int a = 0; a < 4; a++)
-        add_along(sum, point.gradient[a], at_nodes + 3 * a);
-}
-
 /* Has the stress no part but C times the strain of linear theory? */
 static int is_plain(const Cells *cells, OstFormulation formulation)
 {
@@ -336,12 +296,11 @@ static int is_plain(const Cells *cells, OstFormulation formulation)
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
-    const int is_simple = cells->nodes == 4 && cells->batch.elasticity.points == 1 &&
-                          formulation == OST_FORMULATION_LINEAR && !cells->turned_by;
-    if (is_simple)
-        forces_of_linear(cells, element, u, w, at_nodes, at_functions);
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
+        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
-        ost_straight_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, u, w, at_nodes, at_functions);
+        ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
         forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
 }
@@ -416,7 +375,7 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
                              double *of_functions, double *energy)
 {
     const OstProblem *problem = operator->problem;
-    const OstOperator unturned = {problem, operator->complement, NULL};
+    const OstOperator unturned = {problem, operator->complement, NULL, NULL};
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *own = NULL;
     const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
@@ -443,6 +402,10 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
 void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
                         double *of_functions)
 {
+    if (operator->light && !operator->turned_by) {
+        ost_light_tets_apply(operator->light, u, w, force, of_functions);
+        return;
+    }
     sum_forces(operator, &(Sum){.formulation = OST_FORMULATION_LINEAR,
                                 .u = u,
                                 .w = w,
@@ -471,6 +434,10 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
+    if (operator->light && !operator->turned_by && !stress) {
+        ost_light_tets_energy(operator->light, u, w, energy);
+        return;
+    }
     clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
@@ -491,26 +458,6 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
 }
 
 /* --- the functions' own blocks --- */
-
-/* Of straight linear tets with uniform C. */
-static void add_linear_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
-{
-    OstPoint point;
-    OstSimd own[4][9], stress[4][6][3];
-    element->evaluate(cells->batch.x, &ost_tet_degree1.point[0], &point);
-    for (int a = 0; a < 4; a++) {
-        ost_stress_columns(cells->batch.elasticity.c[0], point.gradient[a], stress[a]);
-        ost_block_of_stress(point.gradient[a], stress[a], own[a]);
-    }
-    for (int e = 0; e < 6; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd cross[9];
-        ost_block_of_stress(point.gradient[a], stress[b], cross);
-        for (int n = 0; n < 9; n++)
-            block[e][n] =
-                point.volume * (1.6 * (own[a][n] + own[b][n]) + 0.8 * (cross[n] + cross[3 * (n % 3) + n / 3]));
-    }
-}
 
 static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
 {
@@ -561,18 +508,18 @@ static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd b
 
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
 {
+    static const int place[6] = {0, 4, 8, 1, 5, 6}; /* 11 22 33 12 23 31 */
     const OstMesh *mesh = operator->problem->mesh;
     const OstComplement *complement = operator->complement;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(inverse, 0, 9 * (size_t)complement->count * sizeof *inverse);
+    memset(inverse, 0, 6 * (size_t)complement->count * sizeof *inverse);
     clear_cells(operator, 0, 0.0, &cells);
-    cells.batch.elasticity.stretch_suffices = 0;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);
         if (cells.nodes == 4 && cells.batch.elasticity.points == 1)
-            add_linear_blocks(&cells, element, block);
+            ost_linear_tets_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
             ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else
@@ -581,11 +528,11 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
             turn_blocks(&cells, element, block);
         for (int slot = 0; slot < cells.batch.count; slot++)
             for (int k = 0; k < cells.functions; k++)
-                for (int n = 0; n < 9; n++)
-                    inverse[9 * (size_t)cells.function[slot][k] + (size_t)n] += block[k][n][slot];
+                for (int p = 0; p < 6; p++)
+                    inverse[6 * (size_t)cells.function[slot][k] + (size_t)p] += block[k][place[p]][slot];
     }
     for (OstLocal k = 0; k < complement->count; k++)
         if (ost_complement_owns(complement, k))
-            OST_TRY(ost_complement_invert(complement, k, inverse + 9 * (size_t)k));
+            OST_TRY(ost_complement_invert(complement, k, inverse + 6 * (size_t)k));
     return OST_SUCCESS;
 }

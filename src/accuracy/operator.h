@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_OPERATOR_H
 #define ORTHOSTAT_ACCURACY_OPERATOR_H
 
-#include "accuracy/complement.h"
+#include "accuracy/light_tets.h"
 #include "problem/problem.h"
 
 /* Forces and stiffness of the elements and their complement together, tet by tet without a matrix. A displacement has
@@ -11,7 +11,8 @@ typedef struct OstOperator {
     const OstProblem *problem;
     const OstComplement *complement;
     const double
-        *turned_by; /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
+        *turned_by;      /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
+    OstLightTets *light; /* the stiffness of linear tets that is not turned, if it may be less precise; or NULL */
 } OstOperator;
 
 /* Local. The internal forces on the functions at t of the displacement u of the nodes. On the nodes: by how much those
@@ -26,7 +27,7 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const dou
                         double *of_functions);
 
 /* Local. The inverses of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained:
- * 9 numbers for each function. */
+ * 6 numbers for each function (11 22 33 12 23 31); 0 of those of other ranks, as far as forces there are 0. */
 OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
 
 /* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers), or NULL.

@@ -24,8 +24,10 @@ static const double linear_is_near = 2.0;
 /* A level has at most about this many times the tets: what is marked on a coarse mesh is marked widely. */
 static const double most_growth = 4.0;
 
-/* A level that would have less than this many times the tets is not worth its time. */
-static const double least_growth = 1.15;
+/* A level that would have less than this many times the tets is not worth its time; one that is to have more marks so
+ * many times at least, and up to the second as the rate of the last levels asks for: a level too much costs more than
+ * what is finer than it need be. The third: tets made over those expected of marks, as neighbours are cut, too. */
+static const double least_growth = 1.15, worthwhile_growth[2] = {1.25, 1.6}, made_over_marked = 1.5;
 
 /* Seconds grow a little faster than unknowns. Memory of the process, with libraries, over that of Orthostat's arrays.
  */
@@ -74,17 +76,23 @@ static double relative_error(const OstInterestError *interest)
     return interest->sum > 0.0 ? interest->sum / fmax(exact, interest->sum) : 0.0;
 }
 
-/* The rate of the last two levels of one order; that of smooth solutions where there are no two. */
-static void foretell(OstAdaption *adaption)
+/* The rate of the last two levels of one order, not below the share of that of smooth solutions, which is taken where
+ * there are no two. */
+static double rate_of(const OstAdaption *adaption, double least_share)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     const double smooth = power_of(adaption) * last->order / 3.0;
-    adaption->rate = smooth;
-    if (adaption->count > 1 && last[-1].order == last->order) {
-        const double found =
-            log(error_of(&last[-1]) / error_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
-        adaption->rate = fmin(fmax(found, 0.05), 1.5 * smooth);
-    }
+    if (adaption->count < 2 || last[-1].order != last->order)
+        return smooth;
+    const double found =
+        log(error_of(&last[-1]) / error_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
+    return fmin(fmax(found, least_share * smooth), 1.5 * smooth);
+}
+
+static void foretell(OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    adaption->rate = rate_of(adaption, 0.1);
     const double growth = pow(error_of(last) / (safety * adaption->request), 1.0 / adaption->rate);
     adaption->needed_unknowns = growth * (double)last->unknowns;
     adaption->needed_seconds = pow(growth, seconds_power) * last->seconds;
@@ -136,9 +144,16 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
     const double wanted = fmax(aim * adaption->request, error / pow(most_reduction[order], power));
     const double square = adaption->watch ? last->shares : last->error.energy_norm * last->error.energy_norm;
     const double fall = fmin(wanted / error, 1.0);
+    const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)), target = square * pow(fall, 2.0 / power);
+    const double most = fmin(growth, most_growth);
+    const double least = fmin(fmax(needed / made_over_marked, worthwhile_growth[0]), worthwhile_growth[1]);
+    if (order != last->order)
+        return (OstMarking){.order = order, .target = square, .most_tets = most * (double)last->tets};
     return (OstMarking){.order = order,
-                        .target = order == last->order ? square * pow(fall, 2.0 / power) : square,
-                        .most_tets = fmin(growth, most_growth) * (double)last->tets};
+                        .target = target,
+                        .least_share = target / (needed * (double)last->tets),
+                        .least_tets = fmin(least, most) * (double)last->tets,
+                        .most_tets = most * (double)last->tets};
 }
 
 /* Goes on to the next level, unless a limit is in the way (`end`). */

@@ -54,14 +54,17 @@ static OstStatus expect(const Shares *shares, double share, OstMarking *marking)
  * tet, and rounding would decide whether it and its likes are cut. */
 static const int grid = 8;
 
-/* The largest share that is expected to meet the target, above `least` and with no more tets than allowed. */
-static OstStatus find_share(const Shares *shares, double least, double most, OstMarking *marking, double *share)
+/* The largest share, above `least`, that is expected to have this many tets and squared error, with no more tets than
+ * allowed. */
+static OstStatus find_share(const Shares *shares, double least, double most, double tets, double square,
+                            OstMarking *marking, double *share)
 {
     int low = (int)floor(grid * log2(least)), high = (int)ceil(grid * log2(most));
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
         OST_TRY(expect(shares, exp2((double)middle / grid), marking));
-        if (marking->expected_tets > marking->most_tets || marking->expected_square <= marking->target)
+        if (marking->expected_tets > marking->most_tets ||
+            (marking->expected_tets >= tets && marking->expected_square <= square))
             low = middle;
         else
             high = middle;
@@ -87,7 +90,9 @@ OstStatus ost_mark(const OstMesh *mesh, const double *error, const double *fall,
     double share = bound[0];
     OST_TRY(expect(&shares, share, marking));
     if (marking->expected_square > (1.0 + 1e-9) * marking->target && bound[1] > 0.0)
-        OST_TRY(find_share(&shares, bound[1], bound[0], marking, &share));
+        OST_TRY(find_share(&shares, bound[1], bound[0], 0.0, marking->target, marking, &share));
+    if (marking->expected_tets < marking->least_tets && marking->least_share < share)
+        OST_TRY(find_share(&shares, marking->least_share, share, marking->least_tets, INFINITY, marking, &share));
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         times[t] = (unsigned char)cuts(&shares, t, share);
     return OST_SUCCESS;

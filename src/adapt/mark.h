@@ -10,7 +10,9 @@
 typedef struct OstMarking {
     int order;
     double target;          /* of the squared error over all tets */
-    double most_tets;       /* as many at most, by what is expected */
+    double least_share;     /* what each tet of a mesh that meets the target has: no tet need have less */
+    double least_tets;      /* as many at least, by what is expected, if cuts of one level can make them */
+    double most_tets;       /* as many at most */
     double expected_tets;   /* found: tets of the new mesh, less those that are cut only for others' sake */
     double expected_square; /* found: the squared error */
 } OstMarking;

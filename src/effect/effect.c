@@ -303,16 +303,17 @@ static void strength(const OstEffectFacts *f, OstEffectState *state)
         off(state, "no material states strengths");
 }
 
-/* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and five vectors for each, its numbers
- * in the tets; the surplus of the nodes for quantities of interest. */
+/* Functions of edges and, on quadratic tets, of faces: a block of the stiffness and four vectors for each, its numbers
+ * in the tets; the surplus of the nodes for quantities of interest. Of linear tets their gradients in single precision,
+ * and C where it is not the same in all. */
 static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
 {
-    const double faces = f->quadratic ? 2.0 * f->tets : 0.0;
+    const double faces = f->quadratic ? 2.0 * f->tets : 0.0, watched = f->watches > 0 ? 24.0 : 0.0;
+    const double stiffness = f->materials > 1 ? 84.0 : f->varying > 0 ? 28.0 : 0.0;
+    const double bytes = f->quadratic ? 192.0 * (f->edges + faces) + (168.0 + watched) * f->nodes + 40.0 * f->tets
+                                      : 224.0 * f->edges + (232.0 + watched) * f->nodes + (68.0 + stiffness) * f->tets;
     if (f->error_field || f->asks_error)
-        on(state,
-           240.0 * (f->edges + faces) + (f->watches > 0 ? 192.0 : 168.0) * f->nodes +
-               (f->quadratic ? 40.0 : 24.0) * f->tets,
-           f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
+        on(state, bytes, f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
     else
         off(state, "the output does not hold the error of the answer");
 }

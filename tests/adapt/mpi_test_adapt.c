@@ -138,6 +138,15 @@ static void marks_make_shares_equal(void **state)
     for (int t = 0; t < TETS; t++)
         assert_int_equal(times[t], t == 7 && ost_rank(ctx) == 0 ? 3 : 0);
     assert_close(marking.expected_tets, TETS * ost_size(ctx) + 7.0, 1e-12);
+    /* a level is to have three times the tets: all are cut, but not beyond the share that a tet is to have in the end */
+    marking.target = 2.0;
+    marking.least_tets = 3.0 * TETS * ost_size(ctx);
+    marking.least_share = 0.3;
+    assert_success(ost_mark(&mesh, error, fall, &marking, times));
+    for (int t = 0; t < TETS; t++)
+        assert_int_equal(times[t], t == 7 && ost_rank(ctx) == 0 ? 3 : 1);
+    assert_close(marking.expected_tets, 2.0 * TETS * ost_size(ctx) + 6.0, 1e-12);
+    marking.least_tets = 0.0;
     /* nothing is missing: nothing is cut */
     marking.target = 1e9;
     assert_success(ost_mark(&mesh, error, fall, &marking, times));

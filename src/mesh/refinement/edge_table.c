@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "mesh/refinement/mid_nodes.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 void ost_edge_table_clear(EdgeTable *table)
 {
@@ -27,11 +27,18 @@ static void edge_ends(const OstMesh *mesh, OstLocal tet, int edge, OstLocal *low
     sort_ends(mesh, nodes[ost_tet_edge[edge][0]], nodes[ost_tet_edge[edge][1]], low, high);
 }
 
-static int compare(const void *a, const void *b)
+/* The place of the first of some ascending numbers that is not below one. (bsearch and qsort call a function for each
+ * comparison, which took most of the time here.) */
+static OstLocal place_of(OstLocal number, const OstLocal *ascending, OstLocal count)
 {
-    const OstLocal x = *(const OstLocal *)a;
-    const OstLocal y = *(const OstLocal *)b;
-    return (x > y) - (x < y);
+    OstLocal first = 0;
+    for (OstLocal left = count; left > 0;) {
+        const OstLocal half = left / 2;
+        const int below = ascending[first + half] < number;
+        first += below ? half + 1 : 0;
+        left = below ? left - half - 1 : half;
+    }
+    return first;
 }
 
 /* Lists the high ends of the edges of each low end, once for every tet with the edge. */
@@ -58,16 +65,26 @@ static OstStatus list_high_ends(const OstMesh *mesh, OstGlobal *start, OstLocal 
     return OST_SUCCESS;
 }
 
+/* Adds a number to ascending ones, after which there is room, unless it is there; returns how many there are then. */
+static OstLocal insert(OstLocal number, OstLocal *ascending, OstLocal count)
+{
+    const OstLocal place = place_of(number, ascending, count);
+    if (place < count && ascending[place] == number)
+        return count;
+    memmove(ascending + place + 1, ascending + place, (size_t)(count - place) * sizeof *ascending);
+    ascending[place] = number;
+    return count + 1;
+}
+
 /* Sorts each node's high ends and removes repetitions, in place. */
 static OstStatus remove_repetitions(const OstMesh *mesh, const OstGlobal *start, OstLocal *high_end, EdgeTable *table)
 {
     OstGlobal kept = 0;
     for (OstLocal n = 0; n < mesh->node_count; n++) {
-        const OstGlobal first = kept;
-        qsort(high_end + start[n], (size_t)(start[n + 1] - start[n]), sizeof *high_end, compare);
+        OstLocal count = 0;
         for (OstGlobal i = start[n]; i < start[n + 1]; i++)
-            if (kept == first || high_end[i] != high_end[kept - 1])
-                high_end[kept++] = high_end[i];
+            count = insert(high_end[i], high_end + kept, count);
+        kept += count;
         if (kept > INT32_MAX)
             return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
                              "a rank would hold more than the %d mid-edge nodes it can number; use more ranks",
@@ -97,10 +114,9 @@ OstLocal ost_edge_find(const EdgeTable *table, const OstMesh *mesh, OstLocal a, 
     OstLocal low = 0;
     OstLocal high = 0;
     sort_ends(mesh, a, b, &low, &high);
-    const OstLocal first = table->start[low];
-    const OstLocal *found =
-        bsearch(&high, table->high + first, (size_t)(table->start[low + 1] - first), sizeof high, compare);
-    return found ? (OstLocal)(found - table->high) : -1;
+    const OstLocal first = table->start[low], count = table->start[low + 1] - first;
+    const OstLocal place = place_of(high, table->high + first, count);
+    return place < count && table->high[first + place] == high ? first + place : -1;
 }
 
 OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)

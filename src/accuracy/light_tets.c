@@ -1,0 +1,484 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/light_tets.h"
+
+#include "assembly/batch.h"
+#include "core/error.h"
+#include "core/kernel.h"
+#include "core/memory.h"
+#include "element/strain_batch.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 8, VERTICES = 4, EDGES = 6, HALVES = WIDTH / OST_SIMD_WIDTH };
+
+/* A number of each of eight tets; and three numbers of a node or function, which are padded to four, so that they are
+ * read at once. */
+typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
+typedef float Kept __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16))); /* in memory */
+typedef float Four __attribute__((vector_size(4 * sizeof(float)), may_alias));
+typedef double Wide __attribute__((vector_size(4 * sizeof(double)), aligned(16), may_alias));
+
+/* Eight tets; those that only fill the last ones up have no volume. */
+typedef struct Eights {
+    OstLocal tet[WIDTH];
+    Kept gradient[VERTICES - 1][3], volume; /* of vertices 1 to 3 */
+} Eights;
+
+/* How C is kept: one for all, or of each eight a stretch tensor with its shear (element/elasticity.h), or C itself. */
+typedef enum { KEEP_ONE, KEEP_STRETCH, KEEP_EACH } Keeping;
+static const size_t numbers_kept[] = {[KEEP_ONE] = 0, [KEEP_STRETCH] = 7, [KEEP_EACH] = OST_ELASTICITY_COUNT};
+
+struct OstLightTets {
+    const OstMesh *mesh;
+    const OstComplement *complement;
+    size_t count; /* of eights */
+    Eights *eights;
+    Keeping keeping;
+    Kept *elastic;
+    double length, modulus; /* units in which lengths and moduli are kept */
+    float *w, *of_functions;
+    double *u, *force; /* of nodes */
+};
+
+/* The softest part of a stress must not drown in what single precision loses of the stiffest. */
+static const double most_ratio = 1e5;
+
+void ost_light_tets_destroy(OstLightTets **tets)
+{
+    if (!*tets)
+        return;
+    OST_FREE((*tets)->eights);
+    OST_FREE((*tets)->elastic);
+    OST_FREE((*tets)->w);
+    OST_FREE((*tets)->of_functions);
+    OST_FREE((*tets)->u);
+    OST_FREE((*tets)->force);
+    OST_FREE(*tets);
+}
+
+/* --- what is kept --- */
+
+/* By C's diagonal in material axes. */
+static int is_fit(const OstMaterialField *field, int32_t region)
+{
+    const double *rest = ost_field_is_mixed(field) ? ost_field_rest(field, region) : NULL;
+    const double *c = rest ? rest : field->material[region].stiffness;
+    double least = INFINITY, most = 0.0;
+    for (int p = 0; p < 6; p++) {
+        least = fmin(least, c[7 * p]);
+        most = fmax(most, c[7 * p]);
+    }
+    return most < most_ratio * least;
+}
+
+/* Half of the eight. */
+static void gather(const OstLightTets *tets, const OstMaterialField *field, size_t first, OstBatch *batch)
+{
+    const OstLocal last = tets->mesh->tet_count - 1;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        const OstLocal next = (OstLocal)first + slot, tet = next < last ? next : last;
+        batch->tet[slot] = tet;
+        memcpy(batch->node[slot], ost_mesh_nodes_of(tets->mesh, tet), VERTICES * sizeof(OstLocal));
+    }
+    ost_batch_gather_vectors(batch, VERTICES, tets->mesh->coordinates, batch->x);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, 0, NULL);
+    if (batch->elasticity.about_line)
+        ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
+}
+
+static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *field)
+{
+    OstBatch batch;
+    if (field->region_count == 1 && !field->region_varies[0] && !field->tet_scale)
+        return KEEP_ONE;
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.stretch_suffices = 1;
+    for (size_t half = 0; half < HALVES * tets->count; half++) {
+        gather(tets, field, OST_SIMD_WIDTH * half, &batch);
+        if (!batch.elasticity.by_stretch)
+            return KEEP_EACH;
+    }
+    return KEEP_STRETCH;
+}
+
+static void put(const OstSimd *number, double unit, int half, Kept *kept)
+{
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        (*kept)[OST_SIMD_WIDTH * half + slot] = (float)((*number)[slot] / unit);
+}
+
+static void keep_elasticity(const OstLightTets *tets, const OstElasticity *elasticity, int half, Kept *kept)
+{
+    const OstSimd shear = (OstSimd){0} + elasticity->shear;
+    if (tets->keeping == KEEP_STRETCH) {
+        for (int p = 0; p < 6; p++)
+            put(&elasticity->stretch_tensor[p], sqrt(tets->modulus), half, &kept[p]);
+        put(&shear, 1.0, half, &kept[6]);
+        return;
+    }
+    for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+        put(&elasticity->c[0][n], tets->modulus, half, &kept[n]);
+}
+
+static void keep(OstLightTets *tets, const OstMaterialField *field)
+{
+    const double unit_of_volume = tets->length * tets->length * tets->length;
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.stretch_suffices = tets->keeping == KEEP_STRETCH;
+    for (size_t half = 0; half < HALVES * tets->count; half++) {
+        const size_t first = OST_SIMD_WIDTH * half;
+        const int place = (int)(half % HALVES);
+        Eights *eights = &tets->eights[half / HALVES];
+        OstPoint point;
+        gather(tets, field, first, &batch);
+        ost_element_of(VERTICES)->evaluate(batch.x, &ost_tet_degree1.point[0], &point);
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            eights->tet[OST_SIMD_WIDTH * place + slot] = batch.tet[slot];
+            if (first + (size_t)slot >= (size_t)tets->mesh->tet_count)
+                point.volume[slot] = 0.0;
+        }
+        for (int n = 0; n < 9; n++)
+            put(&point.gradient[1 + n / 3][n % 3], 1.0 / tets->length, place, &eights->gradient[n / 3][n % 3]);
+        put(&point.volume, unit_of_volume, place, &eights->volume);
+        keep_elasticity(tets, &batch.elasticity, place, tets->elastic + numbers_kept[tets->keeping] * (half / HALVES));
+    }
+}
+
+/* A length and a modulus of this body's size. */
+static void find_units(OstLightTets *tets, const OstMaterialField *field)
+{
+    const OstMesh *mesh = tets->mesh;
+    double volume = 0.0;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
+        volume += fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
+    tets->length = mesh->tet_count > 0 ? cbrt(volume / mesh->tet_count) : 1.0;
+    tets->modulus = field->material[0].stiffness[0];
+}
+
+static OstStatus fill(OstLightTets *tets, const OstMaterialField *field)
+{
+    const OstMesh *mesh = tets->mesh;
+    OstContext *ctx = mesh->ctx;
+    tets->count = ((size_t)mesh->tet_count + WIDTH - 1) / WIDTH;
+    tets->keeping = find_keeping(tets, field);
+    const size_t numbers = tets->keeping == KEEP_ONE ? OST_ELASTICITY_COUNT : numbers_kept[tets->keeping] * tets->count;
+    OST_TRY(OST_NEW(ctx, &tets->eights, tets->count));
+    OST_TRY(OST_NEW(ctx, &tets->elastic, numbers));
+    OST_TRY(OST_NEW(ctx, &tets->w, 4 * (size_t)tets->complement->count));
+    OST_TRY(OST_NEW(ctx, &tets->of_functions, 4 * (size_t)tets->complement->count));
+    OST_TRY(OST_NEW(ctx, &tets->u, 4 * (size_t)mesh->node_count));
+    OST_TRY(OST_NEW(ctx, &tets->force, 4 * (size_t)mesh->node_count));
+    find_units(tets, field);
+    keep(tets, field);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, OstLightTets **tets)
+{
+    const OstMesh *mesh = problem->mesh;
+    *tets = NULL;
+    if (mesh->nodes_per_tet != 4 || !ost_problem_is_linear(problem))
+        return OST_SUCCESS;
+    for (int32_t region = 0; region < problem->field->region_count; region++)
+        if (!is_fit(problem->field, region))
+            return OST_SUCCESS;
+    OST_TRY(OST_NEW(problem->ctx, tets, 1));
+    (*tets)->mesh = mesh;
+    (*tets)->complement = complement;
+    const OstStatus status = fill(*tets, problem->field);
+    if (status != OST_SUCCESS)
+        ost_light_tets_destroy(tets);
+    return status;
+}
+
+/* --- rows of four, and numbers of eight tets --- */
+
+/* Three numbers of eight rows. */
+static inline void transpose(const Four row[WIDTH], Eight out[3])
+{
+    Eight m[4];
+    for (int k = 0; k < 4; k++)
+        m[k] = __builtin_shufflevector(row[k], row[4 + k], 0, 1, 2, 3, 4, 5, 6, 7);
+    const Eight low01 = __builtin_shufflevector(m[0], m[1], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Eight high01 = __builtin_shufflevector(m[0], m[1], 2, 10, 3, 11, 6, 14, 7, 15);
+    const Eight low23 = __builtin_shufflevector(m[2], m[3], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Eight high23 = __builtin_shufflevector(m[2], m[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    out[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+    out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+    out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+
+/* The other way. */
+static inline void transpose_back(const Eight in[3], Four row[WIDTH])
+{
+    const Eight none = {0.0F};
+    const Eight low01 = __builtin_shufflevector(in[0], in[1], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Eight high01 = __builtin_shufflevector(in[0], in[1], 2, 10, 3, 11, 6, 14, 7, 15);
+    const Eight low23 = __builtin_shufflevector(in[2], none, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Eight high23 = __builtin_shufflevector(in[2], none, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Eight m[4] = {__builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13),
+                        __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15),
+                        __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13),
+                        __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15)};
+    for (int k = 0; k < 4; k++) {
+        row[k] = __builtin_shufflevector(m[k], m[k], 0, 1, 2, 3);
+        row[4 + k] = __builtin_shufflevector(m[k], m[k], 4, 5, 6, 7);
+    }
+}
+
+/* Of vertices 1 to 3 how they move from vertex 0. (In double precision: a rotation of the whole body is large.) */
+static inline void read_nodes(const OstLightTets *tets, const Eights *eights, Eight moved[VERTICES - 1][3])
+{
+    Four row[VERTICES - 1][WIDTH];
+    for (int slot = 0; slot < WIDTH; slot++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(tets->mesh, eights->tet[slot]);
+        const Wide base = *(const Wide *)(tets->u + 4 * (size_t)nodes[0]);
+        for (int v = 1; v < VERTICES; v++) {
+            const Wide there = *(const Wide *)(tets->u + 4 * (size_t)nodes[v]);
+            row[v - 1][slot] = __builtin_convertvector(there - base, Four);
+        }
+    }
+    for (int v = 0; v < VERTICES - 1; v++)
+        transpose(row[v], moved[v]);
+}
+
+static inline void read_functions(const OstLightTets *tets, const Eights *eights, Eight w[EDGES][3])
+{
+    for (int e = 0; e < EDGES; e++) {
+        Four row[WIDTH];
+        for (int slot = 0; slot < WIDTH; slot++) {
+            const OstLocal edge = tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
+            row[slot] = *(const Four *)(tets->w + 4 * (size_t)edge);
+        }
+        transpose(row, w[e]);
+    }
+}
+
+static inline void add_to_nodes(OstLightTets *tets, const Eights *eights, Eight at_nodes[VERTICES - 1][3])
+{
+    Four row[VERTICES - 1][WIDTH];
+    for (int v = 0; v < VERTICES - 1; v++)
+        transpose_back(at_nodes[v], row[v]);
+    for (int slot = 0; slot < WIDTH; slot++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(tets->mesh, eights->tet[slot]);
+        Wide sum = {0.0};
+        for (int v = 1; v < VERTICES; v++) {
+            const Wide force = __builtin_convertvector(row[v - 1][slot], Wide);
+            *(Wide *)(tets->force + 4 * (size_t)nodes[v]) += force;
+            sum += force;
+        }
+        *(Wide *)(tets->force + 4 * (size_t)nodes[0]) -= sum;
+    }
+}
+
+static inline void add_to_functions(OstLightTets *tets, const Eights *eights, Eight at_functions[EDGES][3])
+{
+    for (int e = 0; e < EDGES; e++) {
+        Four row[WIDTH];
+        transpose_back(at_functions[e], row);
+        for (int slot = 0; slot < WIDTH; slot++) {
+            const OstLocal edge = tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
+            *(Four *)(tets->of_functions + 4 * (size_t)edge) += row[slot];
+        }
+    }
+}
+
+/* --- forces of eight tets --- */
+
+/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
+ * is with `along` = A g in place of the gradient g. */
+typedef struct Linear {
+    Eight gradient[VERTICES][3], along[VERTICES][3], volume;
+    const Kept *elastic;
+    int by_stretch;
+} Linear;
+
+static inline void open(const Eights *eights, const Kept *elastic, int by_stretch, Linear *tet)
+{
+    tet->elastic = elastic;
+    tet->by_stretch = by_stretch;
+    tet->volume = eights->volume;
+    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
+    for (int i = 0; i < 3; i++)
+        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
+    memcpy(tet->along, tet->gradient, sizeof tet->along);
+    for (int v = 0; v < VERTICES && by_stretch; v++) {
+        const Kept *a = elastic;
+        const Eight *g = tet->gradient[v];
+        tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
+        tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
+        tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
+    }
+}
+
+/* slope += v g' */
+static inline void add_slope(const Eight v[3], const Eight g[3], Eight slope[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] += v[i] * g[j];
+}
+
+static inline void find_stress(const Linear *tet, const Eight slope[9], Eight stress[6])
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const Kept *a = tet->elastic;
+    if (!tet->by_stretch) {
+        Eight strain[6];
+        for (int i = 0; i < 3; i++) {
+            const int next = (i + 1) % 3;
+            strain[i] = slope[4 * i];
+            strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
+        }
+        for (int p = 0; p < 6; p++) {
+            stress[p] = a[ost_upper[p][0]] * strain[0];
+            for (int q = 1; q < 6; q++)
+                stress[p] += a[ost_upper[p][q]] * strain[q];
+        }
+        return;
+    }
+    Eight half[9];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            half[3 * i + j] = a[place[i][0]] * slope[j] + a[place[i][1]] * slope[3 + j] + a[place[i][2]] * slope[6 + j];
+    const Eight shear = a[6], bulk = (1.0F - 2.0F * shear) * (slope[0] + slope[4] + slope[8]);
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
+        stress[p] = bulk * a[p] + shear * (half[3 * i + j] + half[3 * j + i]);
+    }
+}
+
+/* force += stress g */
+static inline void add_force(const Eight g[3], const Eight stress[6], Eight force[3])
+{
+    force[0] += g[0] * stress[0] + g[1] * stress[3] + g[2] * stress[5];
+    force[1] += g[0] * stress[3] + g[1] * stress[1] + g[2] * stress[4];
+    force[2] += g[0] * stress[5] + g[1] * stress[4] + g[2] * stress[2];
+}
+
+/* The stress is linear. With a quarter of the slopes, as a function is 4 L_a L_b; products of two coordinates have the
+ * mean 1/10 or 1/20. */
+static inline void find_forces(const Linear *tet, Eight moved[VERTICES - 1][3], Eight w[EDGES][3],
+                               Eight at_nodes[VERTICES - 1][3], Eight at_functions[EDGES][3])
+{
+    Eight at_vertex[VERTICES][9], stress[VERTICES][6], sum[6], slope[9] = {{0.0F}};
+    for (int v = 1; v < VERTICES; v++)
+        add_slope(moved[v - 1], tet->along[v], slope);
+    for (int v = 0; v < VERTICES; v++)
+        for (int n = 0; n < 9; n++)
+            at_vertex[v][n] = 0.25F * slope[n];
+    for (int e = 0; e < EDGES; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        add_slope(w[e], tet->along[b], at_vertex[a]);
+        add_slope(w[e], tet->along[a], at_vertex[b]);
+    }
+    const Eight weight = 0.8F * tet->volume; /* 4 × 4 / 20 */
+    for (int v = 0; v < VERTICES; v++)
+        find_stress(tet, at_vertex[v], stress[v]);
+    for (int p = 0; p < 6; p++) {
+        for (int v = 0; v < VERTICES; v++)
+            stress[v][p] *= weight;
+        sum[p] = stress[0][p] + stress[1][p] + stress[2][p] + stress[3][p];
+        for (int v = 0; v < VERTICES; v++)
+            stress[v][p] += sum[p];
+        sum[p] *= 1.25F;
+    }
+    memset(at_nodes, 0, (VERTICES - 1) * sizeof *at_nodes);
+    memset(at_functions, 0, EDGES * sizeof *at_functions);
+    for (int v = 1; v < VERTICES; v++)
+        add_force(tet->gradient[v], sum, at_nodes[v - 1]);
+    for (int e = 0; e < EDGES; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        add_force(tet->gradient[b], stress[a], at_functions[e]);
+        add_force(tet->gradient[a], stress[b], at_functions[e]);
+    }
+}
+
+/* --- all tets --- */
+
+/* The displacement in a unit near its size, which is returned. */
+static double take(OstLightTets *tets, const double *u, const double *w)
+{
+    const size_t nodes = (size_t)tets->mesh->node_count, functions = (size_t)tets->complement->count;
+    double size = 0.0;
+    for (size_t i = 0; i < 3 * nodes; i++)
+        size = fmax(size, fabs(u[i]));
+    for (size_t i = 0; i < 3 * functions; i++)
+        size = fmax(size, fabs(w[i]));
+    const double factor = size > 0.0 ? 1.0 / size : 1.0;
+    for (size_t n = 0; n < nodes; n++)
+        for (size_t i = 0; i < 3; i++)
+            tets->u[4 * n + i] = factor * u[3 * n + i];
+    for (size_t k = 0; k < functions; k++)
+        for (size_t i = 0; i < 3; i++)
+            tets->w[4 * k + i] = (float)(factor * w[3 * k + i]);
+    return 1.0 / factor;
+}
+
+static inline void find_eight(const OstLightTets *tets, size_t k, int by_stretch, Eight moved[VERTICES - 1][3],
+                              Eight w[EDGES][3], Eight at_nodes[VERTICES - 1][3], Eight at_functions[EDGES][3])
+{
+    const Eights *eights = &tets->eights[k];
+    Linear tet;
+    open(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
+    read_nodes(tets, eights, moved);
+    read_functions(tets, eights, w);
+    find_forces(&tet, moved, w, at_nodes, at_functions);
+}
+
+OST_KERNEL static void apply_eights(OstLightTets *tets)
+{
+    Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
+    for (size_t k = 0; k < tets->count; k++) {
+        if (tets->keeping == KEEP_STRETCH)
+            find_eight(tets, k, 1, moved, w, at_nodes, at_functions);
+        else
+            find_eight(tets, k, 0, moved, w, at_nodes, at_functions);
+        add_to_nodes(tets, &tets->eights[k], at_nodes);
+        add_to_functions(tets, &tets->eights[k], at_functions);
+    }
+}
+
+void ost_light_tets_apply(OstLightTets *tets, const double *u, const double *w, double *force, double *of_functions)
+{
+    const OstComplement *complement = tets->complement;
+    const size_t owned = (size_t)tets->mesh->owned_nodes;
+    const double unit = tets->length * tets->modulus * take(tets, u, w);
+    memset(tets->force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *tets->force);
+    memset(tets->of_functions, 0, 4 * (size_t)complement->count * sizeof *tets->of_functions);
+    apply_eights(tets);
+    for (size_t n = 0; n < owned; n++)
+        for (size_t i = 0; i < 3; i++)
+            force[3 * n + i] = unit * tets->force[4 * n + i];
+    for (size_t k = 0; k < (size_t)complement->count; k++) {
+        const double factor = ost_complement_owns(complement, (OstLocal)k) ? unit : 0.0;
+        for (size_t i = 0; i < 3; i++)
+            of_functions[3 * k + i] = factor * (double)tets->of_functions[4 * k + i];
+    }
+}
+
+OST_KERNEL static void find_energies(OstLightTets *tets, double unit, double *energy)
+{
+    Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
+    const OstLocal owned = tets->mesh->owned_tets;
+    for (size_t k = 0; k < tets->count; k++) {
+        const Eights *eights = &tets->eights[k];
+        Eight sum = {0.0F};
+        find_eight(tets, k, tets->keeping == KEEP_STRETCH, moved, w, at_nodes, at_functions);
+        for (int n = 0; n < 3 * (VERTICES - 1); n++)
+            sum += moved[n / 3][n % 3] * at_nodes[n / 3][n % 3];
+        for (int n = 0; n < 3 * EDGES; n++)
+            sum += w[n / 3][n % 3] * at_functions[n / 3][n % 3];
+        for (int slot = 0; slot < WIDTH; slot++)
+            if (eights->volume[slot] != 0.0F && eights->tet[slot] < owned)
+                energy[eights->tet[slot]] = unit * (double)sum[slot];
+    }
+}
+
+void ost_light_tets_energy(OstLightTets *tets, const double *u, const double *w, double *energy)
+{
+    const double size = take(tets, u, w);
+    find_energies(tets, tets->length * tets->modulus * size * size, energy);
+}
