@@ -41,7 +41,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
                    "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
-                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, on, share, at, region, "
+                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, distributing, on, share, at, region, "
                    "follows, time");
 }
 
@@ -166,7 +166,7 @@ static void exactly_one_form_is_expected(void **state)
     assert_refused(
         LOAD("on: {all: true}, traction: [1, 0, 0], pressure: 1"),
         "4:5: loads[0] has both 'traction' and 'pressure'; exactly one of total_force, point_force, traction, "
-        "pressure, gravity, body_force, centrifugal, moment is expected");
+        "pressure, gravity, body_force, centrifugal, moment, distributing is expected");
     assert_refused(
         ON("all: true, boundary: xmin"),
         "4:10: constraints[0].on has both 'boundary' and 'all'; exactly one of boundary, plane, box, sphere, "
@@ -251,7 +251,7 @@ static void bad_conditions_are_refused(void **state)
     assert_refused(LOAD("on: {all: true}, gravity: [0, 0, 1]"),
                    "4:10: 'gravity' acts in the volume and has no 'on'; 'region: NAME' restricts it");
     assert_refused(LOAD("on: {all: true}, pressure: 1, share: faces"),
-                   "4:43: 'share' belongs to total_force and moment, not to 'pressure'");
+                   "4:43: 'share' belongs to total_force, moment and distributing, not to 'pressure'");
     assert_refused(LOAD("on: {all: true}, pressure: 1, region: a"),
                    "4:44: 'region' belongs to gravity, body_force and centrifugal; 'pressure' acts where 'on' says");
     assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity acts on mass, but no material has a density; ...");

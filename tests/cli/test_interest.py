@@ -43,9 +43,9 @@ for scene, names in (PULLED, ("middle", "tip")), (MOVED, ("middle", "pull")):
             check(abs(fine[name]["value"] - found["corrected"]) < 0.4 * abs(missing), f"{name}: corrected {found}")
             check("with its error added" in done.output, done.output)
 
-# A given load's whole reaction is right on every mesh.
+# A given load's whole reaction, -0.1, is right on every mesh. The estimate's products are in single precision.
 report, _ = watched(PULLED, "{of: pull}")
-check(abs(report["watched"]["pull"]["error"]) < 1e-10, f"a reaction without error: {report['watched']['pull']}")
+check(abs(report["watched"]["pull"]["error"]) < 1e-8 * 0.1, f"a reaction without error: {report['watched']['pull']}")
 
 # The same on several ranks.
 one = watched(MOVED, "{of: pull}", order=2)[0]["watched"]["pull"]["error"]
