@@ -18,7 +18,7 @@ static const double small_error = 1e-6;
 static const double worst_condition = 100.0;
 
 /* An error of the forces above this is looked at more closely where the displacement's is smaller. */
-static const double large_error = 1e-2;
+static const double large_error = 1e-3;
 
 /* What is stated of a displacement whose stresses stay that far off, over what was measured. */
 static const double lost_caution = 10.0;
