@@ -91,7 +91,7 @@ static const char *why_not_mixed(const OstEffectFacts *f)
     if (f->large_rotation == 2 && f->classical && !f->free_body)
         return "formulation: classical uses the mean dilatation";
     if (has_links(f))
-        return "rigid, tied or periodic faces use the mean dilatation";
+        return "rigid, tied or periodic faces and moved distributing couplings use the mean dilatation";
     return NULL;
 }
 
@@ -133,7 +133,7 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     else if (f->free_body)
         off(state, "a free body is solved linearly");
     else if (has_links(f))
-        off(state, "a body with rigid, tied or periodic faces is solved linearly");
+        off(state, "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly");
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else

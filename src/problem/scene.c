@@ -147,10 +147,12 @@ static OstStatus refuse_incompressible(const OstScene *scene, int region)
     const OstMesh *mesh = scene->mesh;
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                      "%s: region '%.80s' has nu = 1/2, an incompressible material, which only the mixed form of "
-                     "quadratic tets can compute, and it is off: %s. Set %s, or nu = 0.4999",
+                     "quadratic tets can compute, and it is off: %s. Set %snu = 0.4999",
                      scene->c->path, mesh->regions.name[region],
                      ost_effect_state(&scene->plan.effects, OST_EFFECT_MIXED)->reason,
-                     mesh->nodes_per_tet == 4 ? "element: {order: 2}" : "large_rotation: off");
+                     mesh->nodes_per_tet == 4                                         ? "element: {order: 2}, or "
+                     : ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION) ? "large_rotation: off, or "
+                                                                                      : "");
 }
 
 /* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones
