@@ -457,23 +457,41 @@ void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, 
 
 /* --- the functions' own blocks --- */
 
-/* B'C B for the gradient g (11 22 33 12 23 31). */
-static inline void find_block(const Linear *tet, const Eight g[3], const Eight along[3], Eight block[6])
+/* Entry ij of B'C B for a gradient g is the sum of factor[ij][kl] g_k g_l, with ij and kl as 11 22 33 12 23 31. */
+typedef struct Squares {
+    Eight factor[6][6];
+} Squares;
+
+static inline void find_squares(const Kept *c, Squares *squares)
 {
-    static const int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; /* and the place of entry ij among the six */
+    static const int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int ij = 0; ij < 6; ij++)
+        for (int kl = 0; kl < 6; kl++) {
+            const int i = ij % 3, j = ij < 3 ? i : (i + 1) % 3, k = kl % 3, l = kl < 3 ? k : (k + 1) % 3;
+            squares->factor[ij][kl] = c[ost_upper[voigt[i][k]][voigt[j][l]]];
+            if (k != l)
+                squares->factor[ij][kl] += c[ost_upper[voigt[i][l]][voigt[j][k]]];
+        }
+}
+
+/* B'C B for the gradient g (11 22 33 12 23 31). */
+static inline void find_block(const Linear *tet, const Squares *squares, const Eight g[3], const Eight along[3],
+                              Eight block[6])
+{
     const Kept *a = tet->elastic;
+    Eight product[6];
+    for (int p = 0; p < 6; p++)
+        product[p] = g[p % 3] * g[p < 3 ? p : (p + 1) % 3];
     if (tet->by_stretch) {
-        const Eight shear = a[6], product = shear * (g[0] * along[0] + g[1] * along[1] + g[2] * along[2]);
+        const Eight shear = a[6], size = shear * (g[0] * along[0] + g[1] * along[1] + g[2] * along[2]);
         for (int p = 0; p < 6; p++)
-            block[p] = (1.0F - shear) * along[p % 3] * along[p < 3 ? p : (p + 1) % 3] + product * a[p];
+            block[p] = (1.0F - shear) * along[p % 3] * along[p < 3 ? p : (p + 1) % 3] + size * a[p];
         return;
     }
     for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        block[p] = (Eight){0.0F};
-        for (int k = 0; k < 3; k++)
-            for (int l = 0; l < 3; l++)
-                block[p] += a[ost_upper[voigt[i][k]][voigt[j][l]]] * g[k] * g[l];
+        block[p] = squares->factor[p][0] * product[0];
+        for (int q = 1; q < 6; q++)
+            block[p] += squares->factor[p][q] * product[q];
     }
 }
 
@@ -489,18 +507,19 @@ static inline void add_to_block(const OstLightTets *tets, const Eights *eights, 
 
 /* The block of 4 L_a L_b is volume × 0.8 times those of L_a, L_b and L_a + L_b; the last is that of the opposite edge,
  * too, as all gradients add up to zero. */
-static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet, float *blocks)
+static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet,
+                              const Squares *squares, float *blocks)
 {
     Eight own[VERTICES][6], of_sum[3][6];
     for (int v = 0; v < VERTICES; v++)
-        find_block(tet, tet->gradient[v], tet->along[v], own[v]);
+        find_block(tet, squares, tet->gradient[v], tet->along[v], own[v]);
     for (int v = 1; v < VERTICES; v++) {
         Eight g[3], along[3];
         for (int i = 0; i < 3; i++) {
             g[i] = tet->gradient[0][i] + tet->gradient[v][i];
             along[i] = tet->along[0][i] + tet->along[v][i];
         }
-        find_block(tet, g, along, of_sum[v - 1]);
+        find_block(tet, squares, g, along, of_sum[v - 1]);
     }
     const Eight weight = 0.8F * tet->volume;
     for (int e = 0; e < EDGES; e++) {
@@ -515,10 +534,16 @@ static inline void add_blocks(const OstLightTets *tets, const Eights *eights, co
 
 OST_KERNEL static void add_all_blocks(const OstLightTets *tets, float *blocks)
 {
+    Squares squares = {{{{0.0F}}}};
+    if (tets->keeping == KEEP_ONE)
+        find_squares(tets->elastic, &squares);
     for (size_t k = 0; k < tets->count; k++) {
+        const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
         Linear tet;
-        open(&tets->eights[k], tets->elastic + numbers_kept[tets->keeping] * k, tets->keeping == KEEP_STRETCH, &tet);
-        add_blocks(tets, &tets->eights[k], &tet, blocks);
+        if (tets->keeping == KEEP_EACH)
+            find_squares(elastic, &squares);
+        open(&tets->eights[k], elastic, tets->keeping == KEEP_STRETCH, &tet);
+        add_blocks(tets, &tets->eights[k], &tet, &squares, blocks);
     }
 }
 

@@ -146,15 +146,32 @@ static OstStatus constrain_faces(OstComplement *complement, const OstSupports *s
     return OST_SUCCESS;
 }
 
+/* The nodes that have supports or links: faces between these alone matter, and they are quickly found. */
+static OstStatus mark_nodes(const OstSupports *supports, const OstMesh *mesh, unsigned char **marked)
+{
+    const OstLinks *links = supports->links;
+    OST_TRY(OST_NEW(mesh->ctx, marked, mesh->node_count));
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        (*marked)[n] = supports->index[n] >= 0 || (links && (links->of_node[n] >= 0 || links->leads[n]));
+    return OST_SUCCESS;
+}
+
 static OstStatus find_constraints(OstComplement *complement, const OstSupports *supports)
 {
     OstContext *ctx = complement->mesh->ctx;
-    const OstSurface *surface = NULL;
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &complement->support, complement->count)));
+    unsigned char *marked = NULL;
+    OstSurface *surface = NULL;
+    OstStatus status = OST_NEW(ctx, &complement->support, complement->count);
+    OST_THEN(mark_nodes(supports, complement->mesh, &marked));
+    OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal k = 0; k < complement->count; k++)
         complement->support[k] = -1;
-    OST_TRY(ost_mesh_surface(complement->mesh, &surface));
-    return ost_agree(ctx, constrain_faces(complement, supports, surface));
+    OST_TRY_DONE(ost_surface_create(complement->mesh, marked, &surface));
+    status = ost_agree(ctx, constrain_faces(complement, supports, surface));
+done:
+    OST_FREE(marked);
+    ost_surface_destroy(&surface);
+    return status;
 }
 
 void ost_complement_project(const OstComplement *complement, float *values)
