@@ -2,52 +2,72 @@
 #ifndef ORTHOSTAT_ACCURACY_SEARCH_H
 #define ORTHOSTAT_ACCURACY_SEARCH_H
 
-#include "accuracy/enriched.h"
-#include "accuracy/operator.h"
-#include "algebra/solver.h"
+#include "accuracy/earlier.h"
+#include "accuracy/estimate.h"
+#include "accuracy/loads.h"
+#include "accuracy/steps.h"
 
-/* Conjugate gradients for A e = r on the elements' space and its complement, with the solver's preconditioner on the
- * first and 3×3 blocks on the second. Displacements are over `size`, and forces over size × the operator's unit, so
- * that single precision holds them whatever the units of the case. */
-typedef struct OstSearch {
-    const OstOperator *stiffness;
-    const float *factor; /* of the functions' blocks (accuracy/blocks.h) */
-    OstSolver *solver;
-    size_t rows, functions; /* numbers of the rows, and the functions */
-    double size;
-    OstEnriched r, p, q, e; /* those of ghosts are 0, but in p */
-    double *z;              /* of the rows alone */
-    double *u, *force;      /* of nodes: a displacement, and forces on it */
-    double products[2];     /* of the functions: r'B r, q'B r */
-    int turns;              /* directions found so far */
-    int failed;             /* is the preconditioner, or the stiffness, not positive definite? */
-} OstSearch;
+/* The conjugate gradients of an estimate, on elements and complement: for accuracy/estimate.c, and for adjoint problems
+ * (accuracy/adjoint.c). */
 
-/* Collective. Close it also after a failure. */
-OstStatus ost_search_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSearch *search);
-void ost_search_close(OstSearch *search);
+/* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second. */
+typedef struct Enough {
+    double rest, gain;
+} Enough;
 
-/* Local. Room for 3 double-precision numbers a function, in place of p and q, before the search starts. */
-double *ost_search_spare(OstSearch *search);
+enum { MOST_TAILS = 16 };
 
-/* Local. Takes forces on the functions (3 numbers each) over `divisor` for the residual's. */
-void ost_search_take_residual(OstSearch *search, const double *forces, double divisor);
+/* Of errors for which more than one pair of steps was taken: the second step over the first, and what all steps add
+ * over what the first pair does. */
+typedef struct Tails {
+    int count;
+    double second[MOST_TAILS], whole[MOST_TAILS];
+} Tails;
 
-/* Local. Before the first pair of steps: r is the residual, e = 0. */
-void ost_search_start(OstSearch *search);
+struct OstEstimate {
+    const OstProblem *problem;
+    OstComplement complement;
+    OstSurplusLoads loads;
+    OstOperator stiffness;
+    float *factor;                    /* of the functions' blocks, once they are known */
+    int has_factor;                   /* of linear theory */
+    OstEarlier *earlier;              /* what was found for other loads; or NULL */
+    Tails tails;                      /* of them */
+    Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
+};
 
-/* Collective. Two steps, of which at most one takes a multigrid cycle. `weight`: r'B r; `of_step`: what the last one
- * added to |e|², `gain`: what both did. */
-OstStatus ost_search_pair(OstSearch *search, double *weight, double *of_step, double *gain);
+typedef struct Search {
+    OstSteps steps;
+    OstEstimate *estimate;
+    double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double energy;  /* of this rank's tets, under u; NAN: not known */
+    int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
+    int is_short;   /* were later steps taken to be as those of an earlier load? */
+} Search;
 
-/* Collective. What is left on the elements' own unknowns, once more: few steps have little of a displacement far from
- * where its error is made. */
-OstStatus ost_search_settle(OstSearch *search);
+/* Collective. Takes the stiffness to u. */
+OstStatus ost_search_move(OstEstimate *estimate, const double *u);
 
-/* Local; collective where nodes follow others. The rows' part of forces on nodes. */
-OstStatus ost_search_take_rows(const OstSearch *search, double *rows);
+/* Collective. Close its steps also after a failure. */
+OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search);
 
-/* Collective. a'b */
-OstStatus ost_search_dot(const OstSearch *search, const OstEnriched *a, const OstEnriched *b, double *product);
+/* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
+OstStatus ost_search_residual(Search *search, double t, const double *u);
+
+/* Collective. Pairs of steps until what is to come of |e|² is small; `start` is that of the part of e that was found
+ * before. Squares are in the steps' units. */
+OstStatus ost_search_iterate(Search *search, double start, double *square);
+
+/* Local. A square in the case's units. */
+double ost_search_true_square(const Search *search, double square);
+
+/* Collective. steps.u: e at the nodes. */
+OstStatus ost_search_displacement(Search *search);
+
+/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u; its mean stress, or NULL. */
+OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress);
+
+/* Local. The largest absolute value of some numbers. */
+double ost_search_largest(size_t count, const double *numbers);
 
 #endif
