@@ -23,8 +23,8 @@ int ost_block_factor(const double symmetric[6], double least, float factor[OST_P
     const double l1 = sqrt(pivot1), l21 = (a[4] - l20 * l10) / l1;
     const double pivot2 = fmax(a[2] - l20 * l20 - l21 * l21, least * a[2]);
     const double l2 = sqrt(pivot2);
-    const double n[6] = {1.0 / l0, 1.0 / l1, 1.0 / l2, -l10 / (l0 * l1), -l21 / (l1 * l2),
-                         (l10 * l21 - l20 * l1) / (l0 * l1 * l2)};
+    const double n[6] = {1.0 / l0,         1.0 / l1,         1.0 / l2,
+                         -l10 / (l0 * l1), -l21 / (l1 * l2), (l10 * l21 - l20 * l1) / (l0 * l1 * l2)};
     for (int p = 0; p < 6; p++)
         factor[p < 3 ? p : p + 1] = (float)n[p];
     factor[3] = factor[7] = 0.0F;

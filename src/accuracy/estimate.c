@@ -82,9 +82,9 @@ OstStatus ost_estimate_remember(OstEstimate *estimate)
     const OstProblem *problem = estimate->problem;
     if (!problem->scene || !ost_problem_is_linear(problem) || estimate->earlier)
         return OST_SUCCESS;
-    return ost_agree(problem->ctx, ost_earlier_create(problem->ctx, 3 * (size_t)problem->system->matrix->rows,
-                                                      OST_PER_FUNCTION * (size_t)estimate->complement.count,
-                                                      &estimate->earlier));
+    return ost_agree(problem->ctx,
+                     ost_earlier_create(problem->ctx, 3 * (size_t)problem->system->matrix->rows,
+                                        OST_PER_FUNCTION * (size_t)estimate->complement.count, &estimate->earlier));
 }
 
 /* Takes the stiffness to u. */
@@ -228,8 +228,8 @@ OstStatus ost_search_residual(Search *search, double t, const double *u)
     const OstProblem *problem = estimate->problem;
     const double unit = estimate->stiffness.unit;
     double *left = ost_steps_spare(steps), most; /* f - A u */
-    OST_TRY(ost_agree(problem->ctx,
-                      ost_operator_force(&estimate->stiffness, t, u, steps->force, left, &search->energy)));
+    OST_TRY(
+        ost_agree(problem->ctx, ost_operator_force(&estimate->stiffness, t, u, steps->force, left, &search->energy)));
     ost_surplus_loads_add(&estimate->loads, problem, &estimate->complement, t, u, left);
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
     most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));

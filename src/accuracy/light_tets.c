@@ -507,8 +507,8 @@ static inline void add_to_block(const OstLightTets *tets, const Eights *eights, 
 
 /* The block of 4 L_a L_b is volume × 0.8 times those of L_a, L_b and L_a + L_b; the last is that of the opposite edge,
  * too, as all gradients add up to zero. */
-static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet,
-                              const Squares *squares, float *blocks)
+static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet, const Squares *squares,
+                              float *blocks)
 {
     Eight own[VERTICES][6], of_sum[3][6];
     for (int v = 0; v < VERTICES; v++)

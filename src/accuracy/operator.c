@@ -110,7 +110,8 @@ static void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const
 }
 
 /* Takes forces of a state off those on the functions: 3 numbers each. */
-static void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions, double *of_state)
+static void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
+                           double *of_state)
 {
     for (int slot = 0; slot < cells->batch.count; slot++)
         for (int k = 0; k < cells->functions; k++) {
@@ -386,8 +387,7 @@ OstStatus ost_operator_unit(const OstProblem *problem, double *unit)
         const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
         double edge[3];
         for (size_t i = 0; i < 3; i++)
-            edge[i] =
-                mesh->coordinates[3 * (size_t)nodes[1] + i] - mesh->coordinates[3 * (size_t)nodes[0] + i];
+            edge[i] = mesh->coordinates[3 * (size_t)nodes[1] + i] - mesh->coordinates[3 * (size_t)nodes[0] + i];
         sums[0] += ost_norm3(edge);
         sums[1] += 1.0;
     }
@@ -400,7 +400,7 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
                              double *of_functions, double *energy)
 {
     const OstProblem *problem = operator->problem;
-    const OstOperator unturned = {.problem = problem, .complement = operator->complement};
+    const OstOperator unturned = {.problem = problem, .complement = operator->complement };
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *own = NULL;
     const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
@@ -592,7 +592,6 @@ OstStatus ost_operator_blocks(const OstOperator *operator, float * factor)
     }
     OST_FREE(sum);
     if (!definite)
-        return OST_RAISE(ctx, OST_CHECK_FAILED,
-                         "the error estimate meets a stiffness that is not positive definite");
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the error estimate meets a stiffness that is not positive definite");
     return OST_SUCCESS;
 }

@@ -21,10 +21,9 @@ typedef struct OstOperator {
 /* Collective. A stiffness of the size of this problem's, the same on all ranks. */
 OstStatus ost_operator_unit(const OstProblem *problem, double *unit);
 
-/* Local. Minus the internal forces on the functions (3 numbers each; not over the unit) at t of the displacement u of the
- * nodes. On the nodes: by how much those
- * of the elements' own quadrature are larger (3 × owned_nodes). energy: of this rank's tets, or NAN where the forces do
- * not tell. */
+/* Local. Minus the internal forces on the functions (3 numbers each; not over the unit) at t of the displacement u of
+ * the nodes. On the nodes: by how much those of the elements' own quadrature are larger (3 × owned_nodes). energy: of
+ * this rank's tets, or NAN where the forces do not tell. */
 OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
                              double *of_functions, double *energy);
 

@@ -59,8 +59,8 @@ void ost_steps_start(OstSteps *steps)
 {
     memset(steps->p.rows, 0, 2 * steps->rows * sizeof *steps->p.rows); /* and q */
     memset(steps->p.functions, 0, 2 * OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
-    ost_blocks_step(steps->functions, steps->factor, 0.0, steps->p.functions, steps->q.functions,
-                    steps->e.functions, steps->r.functions, steps->products);
+    ost_blocks_step(steps->functions, steps->factor, 0.0, steps->p.functions, steps->q.functions, steps->e.functions,
+                    steps->r.functions, steps->products);
     steps->turns = 0;
 }
 
@@ -100,9 +100,9 @@ static OstStatus take_cycle(OstSteps *steps, int *found)
     return OST_SUCCESS;
 }
 
-/* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle takes
- * as long as several products with A. On quadratic tets, where that is most of the time, the first pair of steps is
- * without. */
+/* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle
+ * takes as long as several products with A. On quadratic tets, where that is most of the time, the first pair of steps
+ * is without. */
 static OstStatus precondition(OstSteps *steps)
 {
     int found = 1;
@@ -127,8 +127,8 @@ static OstStatus go_on(OstSteps *steps, double weight, double *gain)
         steps->e.rows[i] += length * steps->p.rows[i];
         steps->r.rows[i] -= length * steps->q.rows[i];
     }
-    ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions,
-                    steps->e.functions, steps->r.functions, steps->products);
+    ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions, steps->e.functions,
+                    steps->r.functions, steps->products);
     *gain = length * weight;
     return OST_SUCCESS;
 }

@@ -216,8 +216,7 @@ OstStatus ost_complement_import(const OstComplement *complement, float *values)
     OST_TRY(ost_halo_import(complement->edge_halo, size, values));
     if (complement->mesh->nodes_per_tet != 10)
         return OST_SUCCESS;
-    return ost_halo_import(complement->face_halo, size,
-                           values + OST_PER_FUNCTION * (size_t)complement->edges.count);
+    return ost_halo_import(complement->face_halo, size, values + OST_PER_FUNCTION * (size_t)complement->edges.count);
 }
 
 static OstStatus find_turns(OstComplement *complement)
