@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/search.h"
+#include "accuracy/estimate.h"
 
+#include "accuracy/search.h"
 #include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"

@@ -3,9 +3,9 @@
 #define ORTHOSTAT_ACCURACY_SEARCH_H
 
 #include "accuracy/earlier.h"
-#include "accuracy/estimate.h"
 #include "accuracy/loads.h"
 #include "accuracy/operator.h"
+#include "algebra/solver.h"
 
 /* The conjugate gradients of an estimate, on elements and complement: for accuracy/estimate.c, and for adjoint problems
  * (accuracy/adjoint.c). */
@@ -24,7 +24,7 @@ typedef struct Tails {
     double second[MOST_TAILS], whole[MOST_TAILS];
 } Tails;
 
-struct OstEstimate {
+typedef struct OstEstimate {
     const OstProblem *problem;
     OstComplement complement;
     OstSurplusLoads loads;
@@ -34,7 +34,7 @@ struct OstEstimate {
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
     Tails tails;                      /* of them */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
-};
+} OstEstimate;
 
 /* Vectors: 3 numbers for each row of the system, then 3 for each function; in most of them those of ghosts are 0. */
 typedef struct Search {
