@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/estimate.h"
 #include "accuracy/search.h"
 #include "assembly/springs.h"
 #include "core/error.h"

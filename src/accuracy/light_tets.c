@@ -57,11 +57,22 @@ void ost_light_tets_destroy(OstLightTets **tets)
 
 /* --- what is kept --- */
 
-/* By C's diagonal in material axes. */
-static int is_fit(const OstMaterialField *field, int32_t region)
+/* C in material axes, of a mixed form without the stiff mode. */
+static const double *stiffness_of(const OstMaterialField *field, int32_t region)
 {
     const double *rest = ost_field_is_mixed(field) ? ost_field_rest(field, region) : NULL;
-    const double *c = rest ? rest : field->material[region].stiffness;
+    return rest ? rest : field->material[region].stiffness;
+}
+
+double ost_light_tets_modulus(const OstMaterialField *field)
+{
+    return stiffness_of(field, 0)[0];
+}
+
+/* By C's diagonal. */
+static int is_fit(const OstMaterialField *field, int32_t region)
+{
+    const double *c = stiffness_of(field, region);
     double least = INFINITY, most = 0.0;
     for (int p = 0; p < 6; p++) {
         least = fmin(least, c[7 * p]);
@@ -172,7 +183,7 @@ OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *
     OST_TRY(OST_NEW(problem->ctx, tets, 1));
     (*tets)->mesh = mesh;
     (*tets)->complement = complement;
-    (*tets)->modulus = problem->field->material[0].stiffness[0];
+    (*tets)->modulus = ost_light_tets_modulus(problem->field);
     (*tets)->length = unit / (*tets)->modulus;
     const OstStatus status = fill(*tets, problem->field);
     if (status != OST_SUCCESS)

@@ -10,6 +10,9 @@
  * digits. */
 typedef struct OstLightTets OstLightTets;
 
+/* Local. A modulus of this field's size: the same on all ranks. */
+double ost_light_tets_modulus(const OstMaterialField *field);
+
 /* Local. The stiffness is taken over `unit` (OstOperator). *tets is NULL where single precision is too little: where
  * moduli of one material differ by far. */
 OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, double unit,

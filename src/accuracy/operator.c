@@ -392,7 +392,7 @@ OstStatus ost_operator_unit(const OstProblem *problem, double *unit)
         sums[1] += 1.0;
     }
     OST_TRY(ost_sum(problem->ctx, 2, sums));
-    *unit = problem->field->material[0].stiffness[0] * sums[0] / sums[1];
+    *unit = ost_light_tets_modulus(problem->field) * sums[0] / sums[1];
     return OST_SUCCESS;
 }
 

@@ -3,7 +3,6 @@
 #define ORTHOSTAT_ACCURACY_SEARCH_H
 
 #include "accuracy/earlier.h"
-#include "accuracy/estimate.h"
 #include "accuracy/loads.h"
 #include "accuracy/steps.h"
 
@@ -24,7 +23,7 @@ typedef struct Tails {
     double second[MOST_TAILS], whole[MOST_TAILS];
 } Tails;
 
-struct OstEstimate {
+typedef struct OstEstimate {
     const OstProblem *problem;
     OstComplement complement;
     OstSurplusLoads loads;
@@ -34,7 +33,7 @@ struct OstEstimate {
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
     Tails tails;                      /* of them */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
-};
+} OstEstimate;
 
 typedef struct Search {
     OstSteps steps;

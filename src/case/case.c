@@ -150,8 +150,8 @@ static const double not_given = -1.0;
  * than that in the norm of the energy, by which solves stop. */
 static void settle_fraction(OstCase *c)
 {
-    const int stops = !c->verify && !drives(c) &&
-                      (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
+    const int stops =
+        !c->verify && !drives(c) && (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
     if (c->solver.algebraic_fraction == not_given)
         c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
 }
