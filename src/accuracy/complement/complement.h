@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_H
-#define ORTHOSTAT_ACCURACY_COMPLEMENT_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_COMPLEMENT_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_COMPLEMENT_H
 
 #include "accuracy/complement/face_table.h"
 #include "assembly/supports.h"

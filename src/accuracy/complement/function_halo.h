@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_FUNCTION_HALO_H
-#define ORTHOSTAT_ACCURACY_FUNCTION_HALO_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_FUNCTION_HALO_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_FUNCTION_HALO_H
 
 #include "accuracy/complement/face_table.h"
 #include "core/parallel/halo.h"
