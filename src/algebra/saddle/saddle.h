@@ -4,7 +4,7 @@
 
 #include "algebra/krylov/goal.h"
 #include "algebra/krylov/preconditioner.h"
-#include "algebra/saddle/coupling.h"
+#include "algebra/saddle/factors.h"
 
 /* What stands beside A u = f in a mixed form (coupling.h). */
 typedef struct OstSaddle {
@@ -36,5 +36,10 @@ OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle,
  */
 OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report);
+
+/* Collective. The same by factors of both equations: corrections for the true residual until they no longer shrink.
+ * The report's errors are the next correction, with some caution. */
+OstStatus ost_saddle_correct(const OstCgSystem *system, const OstSaddleFactors *factors, const OstSaddle *saddle,
+                             const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
 #endif
