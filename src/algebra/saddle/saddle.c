@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/saddle/saddle.h"
 
+#include "algebra/krylov/energy_error.h"
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
@@ -452,6 +453,7 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
     int again;
     ost_lanczos_extremes(&run->lanczos, &smallest, &largest);
     goal->smallest = smallest;
+    report->error_estimate = report->energy_error = 0.0;
     report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
     if (goal->crude || goal->end == OST_END_PRECONDITIONER || !(smallest > 0.0))
         return OST_SUCCESS;
@@ -556,6 +558,22 @@ done:
     return status;
 }
 
+static int is_digit_left(const OstSolveReport *report)
+{
+    return report->error_estimate > 0.0 && report->error_estimate < ost_least_digit;
+}
+
+/* The residual is as small as rounding allows, but so small an eigenvalue was met that nothing is known of u. Factors
+ * do not go by eigenvalues. */
+static void leave_rounding(OstGoal *goal)
+{
+    if (goal->end != OST_END_ROUNDING)
+        return;
+    goal->end = OST_END_STALLED;
+    snprintf(goal->words, sizeof goal->words, "after %d iterations the residual is rounding's, but u is not known",
+             goal->convergence.count);
+}
+
 OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
@@ -567,6 +585,8 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
     OST_TRY_DONE(create(&run));
     OST_TRY_DONE(run_passes(&run));
     OST_TRY_DONE(report_error(&run, report));
+    if (!goal->crude && !is_digit_left(report))
+        leave_rounding(goal);
 done:
     ost_progress(run.ctx, "solve", -1.0);
     destroy(&run);
