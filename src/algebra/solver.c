@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/solver_data.h"
+#include "algebra/solver.h"
 
 #include "algebra/krylov/cg.h"
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
+#include "algebra/solver_data.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
 #include "core/error.h"
@@ -53,7 +54,7 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
         if (options->method == OST_METHOD_PLAIN)
             status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
         else if (options->method == OST_METHOD_DIRECT)
-            status = ost_direct_create(solver->matrix, options->factor_memory, &solver->direct);
+            status = ost_solver_factor_direct(solver, options->factor_memory);
         else
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
@@ -496,7 +497,7 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     OstCgSystem system;
     OstPreconditioner preconditioner;
     *found = 0;
-    if (solver->method == OST_METHOD_AUTO || !(solver->smallest > 0.0))
+    if (!ost_solver_has_preconditioner(solver) || !(solver->smallest > 0.0))
         return OST_SUCCESS;
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     ost_solver_system(solver, &system, &preconditioner);
@@ -511,7 +512,7 @@ OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z,
     OstCgSystem system;
     OstPreconditioner preconditioner;
     double *scaled = NULL;
-    *found = solver->method != OST_METHOD_AUTO;
+    *found = ost_solver_has_preconditioner(solver);
     if (!*found)
         return OST_SUCCESS;
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));

@@ -3,8 +3,9 @@
 #define ORTHOSTAT_ALGEBRA_SOLVER_DATA_H
 
 #include "algebra/direct/direct.h"
+#include "algebra/matrix/geometry.h"
 #include "algebra/multigrid/metric.h"
-#include "algebra/solver.h"
+#include "algebra/solver_aim.h"
 #include "algebra/trilinos/epetra.h"
 #include "algebra/trilinos/smoothed_aggregation.h"
 
@@ -35,6 +36,13 @@ struct OstSolver {
 
 /* Local. What the current strategy iterates on, and its preconditioner. */
 void ost_solver_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner);
+
+/* Local. Has the current strategy one? Factors of both equations of a mixed form alone are none of A. */
+int ost_solver_has_preconditioner(const OstSolver *solver);
+
+/* Collective. Sets up solver->direct. Where A cannot be factored, as it is indefinite, but both equations of the aim's
+ * mixed form can, and the second holds what A does not, solver->whole takes its place. */
+OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
 
 /* Collective. Improves u and the pressures of solver->saddle by the current strategy, as ost_saddle_solve. */
 OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/solver.h"
 #include "algebra/solver_data.h"
 #include "core/error.h"
 
@@ -17,18 +18,45 @@ void ost_solver_system(const OstSolver *solver, OstCgSystem *system, OstPrecondi
         ost_direct_system(solver->direct, system, preconditioner);
 }
 
-/* A's factors serve as preconditioner where those of both equations do not fit. */
-static OstStatus factor_both(OstSolver *solver)
+int ost_solver_has_preconditioner(const OstSolver *solver)
+{
+    return solver->plain || solver->metric || solver->direct;
+}
+
+/* Makes solver->whole, or leaves it NULL where memory does not allow it or rounding. */
+static OstStatus factor_both(OstSolver *solver, const OstCoupling *coupling)
 {
     if (solver->whole)
         return OST_SUCCESS;
     ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
-    const OstStatus status = ost_saddle_factors_create(solver->matrix, solver->saddle->coupling,
-                                                       solver->options.factor_memory, &solver->whole);
+    const OstStatus status =
+        ost_saddle_factors_create(solver->matrix, coupling, solver->options.factor_memory, &solver->whole);
     ost_ledger_leave(solver->ctx);
     if (status != OST_SUCCESS)
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: no factors of both equations: %s", ost_error_text(solver->ctx));
-    return status == OST_OUT_OF_MEMORY || status == OST_NOT_CONVERGED ? OST_SUCCESS : status;
+    return status == OST_OUT_OF_MEMORY || status == OST_NOT_CONVERGED || status == OST_LIMIT_EXCEEDED ? OST_SUCCESS
+                                                                                                      : status;
+}
+
+OstStatus ost_solver_factor_direct(OstSolver *solver, double memory)
+{
+    const OstCoupling *coupling = solver->aim.coupling;
+    const OstStatus status = ost_direct_create(solver->matrix, memory, &solver->direct);
+    if (!coupling || (status != OST_NOT_CONVERGED && status != OST_INVALID_INPUT))
+        return status;
+    OST_TRY(factor_both(solver, coupling));
+    return solver->whole && ost_saddle_factors_negative(solver->whole) == 0 ? OST_SUCCESS : status;
+}
+
+OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known)
+{
+    ost_saddle_factors_destroy(&solver->whole); /* of other values, perhaps */
+    OST_TRY(factor_both(solver, coupling));
+    *known = solver->whole != NULL;
+    *negative = *known ? ost_saddle_factors_negative(solver->whole) : 0;
+    if (!solver->direct)
+        ost_saddle_factors_destroy(&solver->whole);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
@@ -38,8 +66,8 @@ OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u
     ost_solver_system(solver, &system, &preconditioner);
     if (solver->metric)
         ost_metric_report(solver->metric, report);
-    if (solver->direct)
-        OST_TRY(factor_both(solver));
+    if (solver->direct) /* whose factors serve where those of both equations do not fit */
+        OST_TRY(factor_both(solver, solver->saddle->coupling));
     if (solver->whole) {
         snprintf(report->engine, sizeof report->engine, "MUMPS factors of both equations");
         return ost_saddle_correct(&system, solver->whole, solver->saddle, f, u, goal, report);
@@ -54,7 +82,7 @@ static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *furt
 {
     OstCgSystem system;
     OstPreconditioner preconditioner;
-    if (solver->method == OST_METHOD_AUTO)
+    if (!ost_solver_has_preconditioner(solver))
         return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
     ost_solver_system(solver, &system, &preconditioner);
     report->method = solver->method;

@@ -14,7 +14,7 @@
 /* The truth of a mixed form, A u + B' p = f, B u - C p = 0: the residual of both equations, in twice the precision, is
  * solved for by factors until a correction changes nothing that double precision holds. */
 
-enum { MOST_PASSES = 60, FEWEST_ROUNDINGS = 8, MOST_ROUNDINGS = 64, FIRST_ROUNDING = 1000 };
+enum { MOST_PASSES = 200, FEWEST_ROUNDINGS = 8, MOST_ROUNDINGS = 64, FIRST_ROUNDING = 1000 };
 
 static const double settled = 1e-14;
 
