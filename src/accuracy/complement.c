@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/complement.h"
 
-#include "accuracy/function_halo.h"
+#include "accuracy/faces/function_halo.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"

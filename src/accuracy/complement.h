@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_H
 #define ORTHOSTAT_ACCURACY_COMPLEMENT_H
 
-#include "accuracy/face_table.h"
+#include "accuracy/faces/face_table.h"
 #include "assembly/supports.h"
 #include "element/element.h"
 

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
-#include "accuracy/earlier.h"
-#include "accuracy/loads.h"
-#include "accuracy/operator.h"
+#include "accuracy/search.h"
 #include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -17,9 +15,6 @@
 /* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second.
  * Gains of pairs of steps are taken to fall by no less than the ratio. On linear tets that lock they fall, and then
  * stay for long: more is asked for there. */
-typedef struct Enough {
-    double rest, gain;
-} Enough;
 static const Enough enough_of_linear = {0.45, 0.2}, enough_of_locked = {0.25, 0.115}, enough_of_quadratic = {0.45, 1.0};
 static const double largest_ratio = 0.75;
 
@@ -32,27 +27,6 @@ enum { most_pairs = 12 };
  * step was as large beside its first (within the factor): then they are taken to, unless it is too much of the whole.
  * Seen on beams and tubes, linear and quadratic: the size differs by up to 6 % from that of all steps. */
 static const double alike = 1.3, most_of_tail = 0.5;
-
-enum { MOST_TAILS = 16 };
-
-/* Of errors for which more than one pair of steps was taken: the second step over the first, and what all steps add
- * over what the first pair does. */
-typedef struct Tails {
-    int count;
-    double second[MOST_TAILS], whole[MOST_TAILS];
-} Tails;
-
-struct OstEstimate {
-    const OstProblem *problem;
-    OstComplement complement;
-    OstSurplusLoads loads;
-    OstOperator stiffness;
-    double *inverse;     /* of the functions' blocks, once they are known */
-    int has_inverse;     /* of linear theory */
-    OstEarlier *earlier; /* what was found for other loads; or NULL */
-    Tails tails;         /* of them */
-    Enough enough;
-};
 
 void ost_estimate_destroy(OstEstimate **estimate)
 {
@@ -87,6 +61,7 @@ static OstStatus create(OstEstimate *estimate)
     OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
     estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL, NULL};
     estimate->enough = find_enough(problem);
+    estimate->enough_of_adjoint = problem->mesh->nodes_per_tet == 4 ? enough_of_locked : estimate->enough;
     OstStatus status = ost_light_tets_create(problem, &estimate->complement, &estimate->stiffness.light);
     OST_THEN(OST_NEW(problem->ctx, &estimate->inverse, 6 * (size_t)estimate->complement.count));
     return ost_agree(problem->ctx, status);
@@ -110,7 +85,7 @@ OstStatus ost_estimate_remember(OstEstimate *estimate)
 }
 
 /* Takes the stiffness to u. */
-static OstStatus move(OstEstimate *estimate, const double *u)
+OstStatus ost_search_move(OstEstimate *estimate, const double *u)
 {
     const int is_linear = ost_problem_is_linear(estimate->problem);
     estimate->stiffness.turned_by = is_linear ? NULL : u;
@@ -135,22 +110,7 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
 
 /* --- conjugate gradients on elements and complement --- */
 
-/* Vectors: 3 numbers for each row of the system, then 3 for each function; in most of them those of ghosts are 0. */
-typedef struct Search {
-    OstEstimate *estimate;
-    OstSolver *solver;
-    size_t rows, all; /* numbers of the rows, and of both */
-    double *r, *p, *q, *e;
-    double *z;         /* of the rows alone */
-    double *u, *force; /* of nodes: a displacement, and forces on it */
-    double longer;     /* by what e is short of in its work on the residual, as extrapolated: a factor */
-    double energy;     /* of this rank's tets, under u; NAN: not known */
-    int turns;         /* directions found so far */
-    int is_short;      /* were later steps taken to be as those of an earlier load? */
-    int failed;        /* is the preconditioner, or the stiffness, not positive definite? */
-} Search;
-
-static OstStatus open_search(OstEstimate *estimate, OstSolver *solver, Search *search)
+OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search)
 {
     const OstProblem *problem = estimate->problem;
     OstContext *ctx = problem->ctx;
@@ -168,7 +128,7 @@ static OstStatus open_search(OstEstimate *estimate, OstSolver *solver, Search *s
     return OST_SUCCESS;
 }
 
-static void close_search(Search *search)
+void ost_search_close(Search *search)
 {
     OST_FREE(search->r);
     OST_FREE(search->z);
@@ -176,7 +136,7 @@ static void close_search(Search *search)
     OST_FREE(search->force);
 }
 
-static OstStatus dot(const Search *search, const double *a, const double *b, double *product)
+OstStatus ost_search_dot(const Search *search, const double *a, const double *b, double *product)
 {
     *product = 0.0;
     for (size_t i = 0; i < search->all; i++)
@@ -185,7 +145,7 @@ static OstStatus dot(const Search *search, const double *a, const double *b, dou
 }
 
 /* The rows' part of forces on nodes. */
-static OstStatus take_rows(const Search *search, double *vector)
+OstStatus ost_search_rows(const Search *search, double *vector)
 {
     return ost_system_take_rows(search->estimate->problem->system, search->force, vector);
 }
@@ -201,7 +161,7 @@ static OstStatus multiply(Search *search)
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, search->u, search->force);
     ost_complement_project(&search->estimate->complement, of_functions);
-    return take_rows(search, search->q);
+    return ost_search_rows(search, search->q);
 }
 
 /* z = B r on the rows. The elements' own unknowns take part in every other step: hardly more steps are needed so, and a
@@ -251,7 +211,7 @@ static OstStatus go_on(Search *search, double weight, double *gain)
 {
     double curvature = 0.0;
     OST_TRY(multiply(search));
-    OST_TRY(dot(search, search->p, search->q, &curvature));
+    OST_TRY(ost_search_dot(search, search->p, search->q, &curvature));
     search->failed = !(curvature > 0.0);
     const double length = search->failed ? 0.0 : weight / curvature;
     for (size_t i = 0; i < search->all; i++) {
@@ -327,12 +287,13 @@ static OstStatus take_pair(Search *search, double *weight, double *of_step, doub
 }
 
 /* Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found before. */
-static OstStatus iterate(Search *search, double start, double *square)
+OstStatus ost_search_iterate(Search *search, double start, double *square)
 {
     OstContext *ctx = search->estimate->problem->ctx;
-    const Enough *enough = &search->estimate->enough;
+    const OstEstimate *estimate = search->estimate;
+    const Enough *enough = search->of_adjoint ? &estimate->enough_of_adjoint : &estimate->enough;
     double weight = 0.0, of_step = 0.0, gain = 0.0, sum = start, first = 0.0, second = 0.0;
-    Tails *tails = search->estimate->earlier ? &search->estimate->tails : NULL;
+    Tails *tails = search->estimate->earlier && !search->of_adjoint ? &search->estimate->tails : NULL;
     int learns = tails != NULL;
     *square = start;
     search->turns = 0;
@@ -389,12 +350,12 @@ static OstStatus iterate_from(Search *search, double *square)
     OstEarlier *earlier = search->estimate->earlier;
     double start;
     OST_TRY(ost_earlier_start(earlier, search->r, &start));
-    OST_TRY(iterate(search, start, square));
+    OST_TRY(ost_search_iterate(search, start, square));
     return search->failed ? OST_SUCCESS : ost_earlier_finish(earlier, search->r, search->e);
 }
 
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
-static OstStatus find_residual(Search *search, double t, const double *u)
+OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
     const OstEstimate *estimate = search->estimate;
     const OstProblem *problem = estimate->problem;
@@ -409,7 +370,7 @@ static OstStatus find_residual(Search *search, double t, const double *u)
         if (!ost_complement_owns(complement, (OstLocal)k))
             memset(of_functions + 3 * k, 0, 3 * sizeof *of_functions);
     ost_complement_project(complement, of_functions);
-    return take_rows(search, search->r);
+    return ost_search_rows(search, search->r);
 }
 
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
@@ -438,7 +399,7 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     return OST_SUCCESS;
 }
 
-static OstStatus share(Search *search, double square, double *tet_error, double *stress)
+OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress)
 {
     const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
@@ -473,11 +434,11 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     *found = (OstAnswerError){0};
     if (!estimate->problem->scene)
         return OST_SUCCESS;
-    OstStatus status = move(estimate, u);
-    OST_THEN(open_search(estimate, solver, &search));
-    OST_THEN(find_residual(&search, t, u));
+    OstStatus status = ost_search_move(estimate, u);
+    OST_THEN(ost_search_open(estimate, solver, &search));
+    OST_THEN(ost_search_residual(&search, t, u));
     const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
-    OST_THEN(has_earlier ? iterate_from(&search, &square) : iterate(&search, 0.0, &square));
+    OST_THEN(has_earlier ? iterate_from(&search, &square) : ost_search_iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.failed) {
         if (surplus->displacement || search.is_short)
             status = settle(&search);
@@ -485,107 +446,10 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
             lengthen(&search);
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
-            OST_THEN(share(&search, square, surplus->tet_error, surplus->stress));
+            OST_THEN(ost_search_share(&search, square, surplus->tet_error, surplus->stress));
         if (surplus->displacement)
             OST_THEN(hand_out(&search, surplus->displacement));
     }
-    close_search(&search);
-    return status;
-}
-
-/* --- a quantity of interest --- */
-
-/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
-static OstStatus adjoint_load(Search *search, const OstInterest *interest)
-{
-    const OstProblem *problem = search->estimate->problem;
-    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
-    if (interest->load) {
-        memcpy(search->force, interest->load, numbers * sizeof *search->force);
-    } else {
-        memset(search->p, 0, search->all * sizeof *search->p);
-        ost_operator_apply(&search->estimate->stiffness, interest->moved, search->p + search->rows, search->force,
-                           search->q + search->rows);
-        if (problem->supports->spring)
-            ost_spring_force(problem->supports, -1.0, interest->moved, search->force);
-        for (size_t i = 0; i < numbers; i++)
-            search->force[i] = -search->force[i];
-    }
-    return take_rows(search, search->q);
-}
-
-/* r: what z leaves of the adjoint problem on the functions. */
-static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
-{
-    const OstProblem *problem = search->estimate->problem;
-    const OstComplement *complement = &search->estimate->complement;
-    double *of_functions = search->r + search->rows;
-    OstSolveReport report;
-    OST_TRY(adjoint_load(search, interest));
-    OST_TRY(ost_solver_solve(search->solver, search->q, search->z, &report));
-    OST_TRY(ost_system_displacement(problem->system, 0.0, search->z, search->u));
-    for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)
-        search->u[i] += interest->moved[i];
-    memset(search->p, 0, search->all * sizeof *search->p);
-    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
-    for (size_t k = 0; k < (size_t)complement->count; k++)
-        for (size_t i = 3 * k; i < 3 * k + 3; i++)
-            of_functions[i] = ost_complement_owns(complement, (OstLocal)k) ? -of_functions[i] : 0.0;
-    ost_complement_project(complement, of_functions);
-    return OST_SUCCESS;
-}
-
-/* The work of u's residual on e, the surplus of z. */
-static OstStatus work_on(Search *search, double t, const double *u, double *work)
-{
-    memset(search->r, 0, search->all * sizeof *search->r);
-    OST_TRY(find_residual(search, t, u));
-    OST_TRY(dot(search, search->r, search->e, work));
-    *work *= search->longer;
-    return OST_SUCCESS;
-}
-
-/* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
-static OstStatus share_interest(const Search *search, const double *of_adjoint, double error, double *share)
-{
-    const double least_of_sum = 0.1;
-    const OstProblem *problem = search->estimate->problem;
-    double sum = 0.0;
-    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++) {
-        share[tet] = sqrt(fmax(share[tet], 0.0) * fmax(of_adjoint[tet], 0.0));
-        sum += share[tet];
-    }
-    OST_TRY(ost_sum(problem->ctx, 1, &sum));
-    const double factor = sum > 0.0 ? fmax(fabs(error) / sum, least_of_sum) : 0.0;
-    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
-        share[tet] *= factor;
-    return OST_SUCCESS;
-}
-
-OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                                const OstInterest *interest, double *error, double *tet_share)
-{
-    const OstProblem *problem = estimate->problem;
-    Search search = {0};
-    double square = 0.0, *of_adjoint = NULL;
-    *error = NAN;
-    OstStatus status = move(estimate, u);
-    OST_THEN(open_search(estimate, solver, &search));
-    OST_TRY_DONE(ost_agree(
-        problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
-    OST_TRY_DONE(adjoint_residual(&search, interest));
-    memset(search.z, 0, search.rows * sizeof *search.z);
-    OST_TRY_DONE(iterate(&search, 0.0, &square));
-    if (search.failed)
-        goto done;
-    OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));
-    OST_TRY_DONE(share(&search, square, of_adjoint, NULL));
-    OST_TRY_DONE(work_on(&search, t, u, error));
-    if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
-        *error = -*error;
-    OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
-done:
-    OST_FREE(of_adjoint);
-    close_search(&search);
+    ost_search_close(&search);
     return status;
 }
