@@ -151,7 +151,7 @@ static void what_has_no_mixed_form_says_so(void **state)
     static const struct {
         const char *order, *nu, *rest, *message;
     } refused[] = {{"1", "0.5", "large_rotation: off\n", "element: {order: 2}"},
-                   {"2", "0.5", "large_rotation: on\nformulation: classical\n", "large_rotation: off"},
+                   {"2", "0.5", "large_rotation: on\nformulation: classical\n", "Set formulation: consistent"},
                    {"2", "0.5", "", "rotations are large"}};
     for (int i = 0; i < 4; i++) {
         char text[1024];
