@@ -77,6 +77,8 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
         ost_metric_strengthen(solver->metric, options);
     } else {
         destroy_strategy(solver);
+        if (options->method != OST_METHOD_DIRECT)
+            OST_TRY(ost_geometry_renew(&solver->geometry));
         if (options->method == OST_METHOD_PLAIN)
             status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
         else if (options->method == OST_METHOD_DIRECT)
@@ -217,7 +219,8 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
 {
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
-    OstStatus status = find_misalignment(solver, &facts);
+    OstStatus status = ost_geometry_renew(&solver->geometry);
+    OST_THEN(find_misalignment(solver, &facts));
     solver->steps = 0;
     if (status != OST_SUCCESS)
         return status;

@@ -76,7 +76,7 @@ static void an_isotropic_body_carries_no_axes(void **state)
     assert_int_equal(after.varying, 0);
     assert_int_equal(after.orthotropy_entries, before.orthotropy_entries);
     assert_int_equal(after.varying_entries, before.varying_entries);
-    assert_null(field->tet_axes);
+    assert_null(field->tet_turn);
     assert_null(field->region_axes);
     for (OstLocal t = 0; t < TETS; t++)
         assert_tet_is(field, t, &materials[0], world);
@@ -98,7 +98,7 @@ static void fixed_axes_cost_nothing_per_tet(void **state)
     assert_int_equal(after.varying, 0);
     assert_int_equal(after.orthotropy_entries, before.orthotropy_entries + 1);
     assert_int_equal(after.varying_entries, before.varying_entries);
-    assert_null(field->tet_axes);
+    assert_null(field->tet_turn);
     for (OstLocal t = 0; t < TETS; t++)
         assert_tet_is(field, t, &material, fixed.fixed);
     const size_t held = ost_ledger_bytes(ctx) - bytes_before;
