@@ -7,7 +7,8 @@
 #include <string.h>
 
 /* Where the blocks right of the diagonal will be. As rows ascend, those of a row are the mirrors in their order:
- * next[r] is the entry of row r that is the next one. Returns 0 where an entry has no mirror. */
+ * next[r] is the entry of row r that is the next one. Returns 0 where
+ * an entry has no mirror. */
 static int list(const OstBlockMatrix *matrix, OstLocal *next, OstLocal *upper, OstLocal *mirror)
 {
     OstLocal kept = 0, left = 0;
@@ -23,6 +24,9 @@ static int list(const OstBlockMatrix *matrix, OstLocal *next, OstLocal *upper, O
         next[row] = diagonal + 1;
         kept += matrix->row_start[row + 1] - diagonal;
     }
+    for (OstLocal row = 0; row < matrix->rows; row++) /* is each of them a mirror? Ghosts have no rows here. */
+        if (next[row] < matrix->row_start[row + 1] && matrix->column[next[row]] < matrix->rows)
+            return 0;
     return 1;
 }
 
