@@ -39,17 +39,18 @@ void ost_row_geometry_release(OstRowGeometry *rows)
     OST_FREE(rows->modes);
 }
 
-static void release(void *rows)
+static void release(void *data)
 {
-    ost_row_geometry_release(rows);
+    OstRowGeometry *rows = data;
+    if (!rows->kept)
+        ost_row_geometry_release(rows);
 }
 
 static OstStatus renew(void *data, OstSolverGeometry *geometry)
 {
     OstRowGeometry *rows = data;
-    if (rows->coordinates)
-        return OST_SUCCESS;
-    OST_TRY(fill(rows));
+    if (!rows->coordinates)
+        OST_TRY(fill(rows));
     geometry->coordinates = rows->coordinates;
     geometry->metric = rows->metric;
     geometry->modes = rows->modes;

@@ -12,6 +12,7 @@ typedef struct OstRowGeometry {
     const OstSystem *system;
     const OstMaterialField *field;
     int with_metric;
+    int kept; /* by somebody who has changed the modes, even if lent */
 } OstRowGeometry;
 
 /* Collective. */
@@ -20,7 +21,7 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
 void ost_row_geometry_release(OstRowGeometry *rows);
 
 /* Local. From now on a solver releases the arrays while it does not need them: modes, positions and metric take 72
- * bytes an unknown. Not where somebody changes the modes. */
+ * bytes an unknown. Whoever changes the modes sets `kept`. */
 void ost_row_geometry_lend(OstRowGeometry *rows);
 
 #endif
