@@ -165,8 +165,8 @@ static OstStatus take_step(const Search *search, Correction *correction, double 
     return OST_SUCCESS;
 }
 
-/* *idle: did the last steps gain nothing? */
-static OstStatus iterate(Search *search, Correction *correction, OstErrors *errors, int *idle)
+/* Until the error is small, or the last steps gain nothing. */
+static OstStatus iterate(Search *search, Correction *correction, OstErrors *errors)
 {
     OstErrors best = *errors;
     int idle_steps = 0;
@@ -183,19 +183,20 @@ static OstStatus iterate(Search *search, Correction *correction, OstErrors *erro
         idle_steps = gains ? 0 : idle_steps + 1;
         best = gains ? *errors : best;
     }
-    *idle = idle_steps == FEW;
     return OST_SUCCESS;
 }
 
 /* What the solver finds for a residual is by the rounded stiffness, and to a tenth. If a mode is softer by the tets,
- * its error is larger by as much: the Lanczos coefficients show it. Where steps gain nothing more, the residual is the
- * rounding of the tets' forces, and what it is taken for may be small by chance. */
-static void allow_for(const OstLanczos *lanczos, int idle, OstErrors *errors)
+ * its error is larger by as much: the Lanczos coefficients show it. Where the steps ended before the error was small,
+ * they may not have met the softest mode, or the residual is the rounding of the tets' forces, and what it is taken for
+ * may be small by chance. */
+static void allow_for(const OstLanczos *lanczos, OstErrors *errors)
 {
     static const double caution = 3.0, chance = 10.0;
     double smallest, largest_value;
     ost_lanczos_extremes(lanczos, &smallest, &largest_value);
-    const double factor = (idle ? chance : caution) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
+    const double factor =
+        (largest(errors) > small_error ? chance : caution) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
     errors->displacement *= factor;
     errors->reaction *= factor;
     errors->stress *= factor;
@@ -208,15 +209,14 @@ static OstStatus correct(Search *search, OstErrors *errors)
     const size_t rows = 3 * (size_t)search->problem->system->matrix->rows;
     const size_t owned = 3 * (size_t)search->problem->mesh->owned_nodes;
     Correction correction = {.step = NULL};
-    int idle = 0;
     OstStatus status = OST_NEW(ctx, &correction.step, 2 * rows + owned);
     OST_THEN(OST_NEW(ctx, &correction.of_nodes, 3 * (size_t)search->problem->mesh->node_count));
     OST_THEN(ost_lanczos_create(ctx, MOST_CORRECTIONS, &correction.lanczos));
     OST_TRY_DONE(ost_agree(ctx, status));
     correction.before = correction.step + rows;
     correction.force = correction.before + rows;
-    OST_TRY_DONE(iterate(search, &correction, errors, &idle));
-    allow_for(&correction.lanczos, idle, errors);
+    OST_TRY_DONE(iterate(search, &correction, errors));
+    allow_for(&correction.lanczos, errors);
 done:
     ost_lanczos_destroy(&correction.lanczos);
     OST_FREE(correction.step);
