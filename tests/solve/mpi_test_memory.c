@@ -48,7 +48,7 @@ static void an_unknown_takes_little_memory(void **state)
 static void and_not_twice_as_much_where_errors_are_estimated(void **state)
 {
     (void)state;
-    assert_true(bytes_an_unknown("") < shared(1640.0));
+    assert_true(bytes_an_unknown("") < shared(1450.0));
 }
 
 static const struct CMUnitTest tests[] = {
