@@ -9,13 +9,12 @@ OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScalin
     OST_TRY(OST_NEW(matrix->ctx, source, 1));
     **source = (OstDoubleMatrix){.ctx = matrix->ctx,
                                  .size = 3,
-                                 .borrowed = 1,
+                                 .of = matrix,
                                  .scaling = scaling,
                                  .rows = matrix->rows,
                                  .columns = matrix->columns,
                                  .row_start = matrix->row_start,
                                  .column = matrix->column,
-                                 .value = matrix->value,
                                  .halo = matrix->halo};
     return OST_SUCCESS;
 }
@@ -24,7 +23,7 @@ void ost_double_matrix_destroy(OstDoubleMatrix **source)
 {
     if (!*source)
         return;
-    if (!(*source)->borrowed) {
+    if (!(*source)->of) {
         OST_FREE((*source)->row_start);
         OST_FREE((*source)->column);
         OST_FREE((*source)->value);

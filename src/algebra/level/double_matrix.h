@@ -11,7 +11,7 @@
 typedef struct OstDoubleMatrix {
     OstContext *ctx;
     int size;                  /* of a block (row-major): 3 or 6 */
-    int borrowed;              /* arrays and halo belong to a block matrix */
+    const OstBlockMatrix *of;  /* whose arrays and halo these are; NULL: its own */
     const OstScaling *scaling; /* of that block matrix, or NULL; the caller's */
     OstLocal rows, columns;
     OstLocal *row_start, *column; /* columns ascend within a row */
@@ -32,9 +32,12 @@ OstStatus ost_double_matrix_numbers(const OstDoubleMatrix *matrix, OstGlobal fir
 OST_UNROLLED const double *ost_double_matrix_block(const OstDoubleMatrix *matrix, int size, OstLocal i, OstLocal k,
                                                    double room[9])
 {
-    const double *block = matrix->value + (size_t)(size * size) * (size_t)k;
-    if (size != 3 || !matrix->scaling)
-        return block;
+    double turned[9];
+    if (size != 3 || !matrix->of)
+        return matrix->value + (size_t)(size * size) * (size_t)k;
+    if (!matrix->scaling)
+        return ost_block_matrix_block(matrix->of, i, k, room);
+    const double *block = ost_block_matrix_block(matrix->of, i, k, turned);
     ost_scaling_block(matrix->scaling, i, matrix->column[k], block, room);
     return room;
 }
