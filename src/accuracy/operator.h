@@ -35,4 +35,10 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
 void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy,
                          double *stress);
 
+/* Local. Of each tet, ghosts included, `factor` times the stress of a displacement at its nodes, 6 numbers each; by
+ * linear theory.
+ */
+void ost_operator_node_stress(const OstOperator *operator, const double * u, const double *w, double factor,
+                              float *stress);
+
 #endif
