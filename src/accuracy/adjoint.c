@@ -10,23 +10,24 @@
 #include <math.h>
 #include <string.h>
 
-/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z. */
+/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. */
 static OstStatus adjoint_load(Search *search, const OstInterest *interest)
 {
+    OstSteps *steps = &search->steps;
+    const OstOperator *stiffness = &search->estimate->stiffness;
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     if (interest->load) {
-        memcpy(search->force, interest->load, numbers * sizeof *search->force);
+        memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
     } else {
-        memset(search->p, 0, search->all * sizeof *search->p);
-        ost_operator_apply(&search->estimate->stiffness, interest->moved, search->p + search->rows, search->force,
-                           search->q + search->rows);
-        if (problem->supports->spring)
-            ost_spring_force(problem->supports, -1.0, interest->moved, search->force);
+        memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
+        ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
         for (size_t i = 0; i < numbers; i++)
-            search->force[i] = -search->force[i];
+            steps->force[i] *= -stiffness->unit;
+        if (problem->supports->spring)
+            ost_spring_force(problem->supports, 1.0, interest->moved, steps->force);
     }
-    return ost_search_rows(search, search->q);
+    return ost_steps_take_rows(steps, steps->q.rows);
 }
 
 /* Ends the solve of an adjoint problem where its error is a small share of z. That is w and what the solve adds to it,
@@ -42,8 +43,8 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
 {
     const AdjointStop *stop = data;
     double work = 0.0;
-    for (size_t i = 0; i < stop->search->rows; i++)
-        work += stop->search->q[i] * u[i];
+    for (size_t i = 0; i < stop->search->steps.rows; i++)
+        work += stop->search->steps.q.rows[i] * u[i];
     OST_TRY(ost_sum(stop->search->estimate->problem->ctx, 1, &work));
     ost_log(stop->search->estimate->problem->ctx, OST_LOG_VERBOSE, "adjoint problem: error of the equations %.2e",
             error);
@@ -55,11 +56,11 @@ static OstStatus energy_of_given(const Search *search, const OstInterest *intere
 {
     *energy = 0.0;
     for (size_t i = 0; interest->moved && i < 3 * (size_t)search->estimate->problem->mesh->owned_nodes; i++)
-        *energy -= search->force[i] * interest->moved[i];
+        *energy -= search->steps.force[i] * interest->moved[i];
     return ost_sum(search->estimate->problem->ctx, 1, energy);
 }
 
-/* search->u: the displacement z, to an error of that share in the norm of the energy, or 0: to the solver's residual.
+/* steps.u: the displacement z, to an error of that share in the norm of the energy, or 0: to the solver's residual.
  */
 static OstStatus solve_adjoint(Search *search, const OstInterest *interest, double share)
 {
@@ -68,38 +69,43 @@ static OstStatus solve_adjoint(Search *search, const OstInterest *interest, doub
     OstSolveReport report;
     OST_TRY(adjoint_load(search, interest));
     OST_TRY(energy_of_given(search, interest, &stop.of_given));
-    ost_solver_aim(search->solver, (OstSolverAim){.stop = share > 0.0 ? &stop.stop : NULL});
-    const OstStatus solved = ost_solver_solve(search->solver, search->q, search->z, &report);
-    ost_solver_aim(search->solver, (OstSolverAim){0});
+    OstSteps *steps = &search->steps;
+    ost_solver_aim(steps->solver, (OstSolverAim){.stop = share > 0.0 ? &stop.stop : NULL});
+    const OstStatus solved = ost_solver_solve(steps->solver, steps->q.rows, steps->z, &report);
+    ost_solver_aim(steps->solver, (OstSolverAim){0});
     OST_TRY(solved);
-    return ost_system_displacement(search->estimate->problem->system, 0.0, search->z, search->u);
+    return ost_system_displacement(search->estimate->problem->system, 0.0, steps->z, steps->u);
 }
 
-/* r: what z, search->u, leaves of the adjoint problem on the functions. */
+/* r: what z, steps.u, leaves of the adjoint problem on the functions. */
 static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
 {
+    OstSteps *steps = &search->steps;
     const OstProblem *problem = search->estimate->problem;
-    const OstComplement *complement = &search->estimate->complement;
-    double *of_functions = search->r + search->rows;
-    for (size_t i = 0; interest->moved && i < 3 * (size_t)problem->mesh->node_count; i++)
-        search->u[i] += interest->moved[i];
-    memset(search->p, 0, search->all * sizeof *search->p);
-    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
-    for (size_t k = 0; k < (size_t)complement->count; k++)
-        for (size_t i = 3 * k; i < 3 * k + 3; i++)
-            of_functions[i] = ost_complement_owns(complement, (OstLocal)k) ? -of_functions[i] : 0.0;
-    ost_complement_project(complement, of_functions);
-    memset(search->z, 0, search->rows * sizeof *search->z);
+    const size_t numbers = 3 * (size_t)problem->mesh->node_count;
+    for (size_t i = 0; interest->moved && i < numbers; i++)
+        steps->u[i] += interest->moved[i];
+    double most = ost_search_largest(numbers, steps->u);
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    steps->size = most > 0.0 ? most : 1.0;
+    for (size_t i = 0; i < numbers; i++)
+        steps->u[i] /= steps->size;
+    memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
+    ost_operator_apply(&search->estimate->stiffness, steps->u, steps->p.functions, steps->force, steps->r.functions);
+    for (size_t i = 0; i < OST_PER_FUNCTION * steps->functions; i++)
+        steps->r.functions[i] = -steps->r.functions[i];
+    ost_complement_project(&search->estimate->complement, steps->r.functions);
     return OST_SUCCESS;
 }
 
 /* The work of u's residual on e, the surplus of z. */
 static OstStatus work_on(Search *search, double t, const double *u, double *work)
 {
-    memset(search->r, 0, search->all * sizeof *search->r);
+    OstSteps *steps = &search->steps;
+    const double size = steps->size;
     OST_TRY(ost_search_residual(search, t, u));
-    OST_TRY(ost_search_dot(search, search->r, search->e, work));
-    *work *= search->longer;
+    OST_TRY(ost_steps_dot(steps, &steps->r, &steps->e, work));
+    *work *= search->longer * size * steps->size * search->estimate->stiffness.unit;
     return OST_SUCCESS;
 }
 
@@ -135,17 +141,17 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
     OST_TRY_DONE(solve_adjoint(&search, interest, 0.0));
     OST_TRY_DONE(adjoint_residual(&search, interest));
     OST_TRY_DONE(ost_search_iterate(&search, 0.0, &square));
-    if (search.failed)
+    if (search.steps.failed)
         goto done;
-    OST_TRY_DONE(ost_system_displacement(problem->system, 0.0, search.e, search.u));
-    OST_TRY_DONE(ost_search_share(&search, square, of_adjoint, NULL));
+    OST_TRY_DONE(ost_search_displacement(&search));
+    OST_TRY_DONE(ost_search_share(&search, ost_search_true_square(&search, square), of_adjoint, NULL));
     OST_TRY_DONE(work_on(&search, t, u, error));
     if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
         *error = -*error;
     OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
 done:
     OST_FREE(of_adjoint);
-    ost_search_close(&search);
+    ost_steps_close(&search.steps);
     return status;
 }
 
@@ -153,8 +159,9 @@ done:
 
 struct OstAdjoint {
     OstContext *ctx;
-    size_t nodes, all;
-    float *e;  /* the surplus of z, lengthened; NULL: there is none */
+    size_t nodes;
+    OstEnriched e; /* the surplus of z, lengthened, over `size` */
+    double size;
     double *z; /* 3 × owned_nodes: what the solve adds to the given motion */
 };
 
@@ -162,7 +169,8 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
 {
     if (!*adjoint)
         return;
-    OST_FREE((*adjoint)->e);
+    OST_FREE((*adjoint)->e.rows);
+    OST_FREE((*adjoint)->e.functions);
     OST_FREE((*adjoint)->z);
     OST_FREE(*adjoint);
 }
@@ -172,11 +180,13 @@ static OstStatus find_adjoint(Search *search, const OstInterest *interest, doubl
     double square;
     search->of_adjoint = 1;
     OST_TRY(solve_adjoint(search, interest, share));
-    memcpy(adjoint->z, search->u, adjoint->nodes * sizeof *adjoint->z);
+    memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     OST_TRY(adjoint_residual(search, interest));
     OST_TRY(ost_search_iterate(search, 0.0, &square));
-    for (size_t i = 0; i < adjoint->all && !search->failed; i++)
-        adjoint->e[i] = (float)(search->longer * search->e[i]);
+    adjoint->size = search->longer * search->steps.size;
+    memcpy(adjoint->e.rows, search->steps.e.rows, search->steps.rows * sizeof *adjoint->e.rows);
+    memcpy(adjoint->e.functions, search->steps.e.functions,
+           OST_PER_FUNCTION * search->steps.functions * sizeof *adjoint->e.functions);
     return OST_SUCCESS;
 }
 
@@ -190,15 +200,16 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const Ost
     OST_THEN(ost_search_open(estimate, solver, &search));
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
-        **adjoint = (OstAdjoint){problem->ctx, 3 * (size_t)problem->mesh->owned_nodes, search.all, NULL, NULL};
-        status = OST_NEW(problem->ctx, &(*adjoint)->e, search.all);
+        **adjoint = (OstAdjoint){.ctx = problem->ctx, .nodes = 3 * (size_t)problem->mesh->owned_nodes};
+        status = OST_NEW(problem->ctx, &(*adjoint)->e.rows, search.steps.rows);
+        OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->e.functions, OST_PER_FUNCTION * search.steps.functions));
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
         status = ost_agree(problem->ctx, status);
     }
     OST_THEN(find_adjoint(&search, interest, share, *adjoint));
-    if (status != OST_SUCCESS || search.failed)
+    if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
-    ost_search_close(&search);
+    ost_steps_close(&search.steps);
     return status;
 }
 
@@ -208,11 +219,9 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
     OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, NULL, &search));
     OST_THEN(ost_search_residual(&search, t, u));
-    *error = 0.0;
-    for (size_t i = 0; status == OST_SUCCESS && i < adjoint->all; i++)
-        *error -= search.r[i] * (double)adjoint->e[i];
-    OST_THEN(ost_sum(adjoint->ctx, 1, error));
-    ost_search_close(&search);
+    OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
+    *error *= status == OST_SUCCESS ? -adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
+    ost_steps_close(&search.steps);
     return status;
 }
 

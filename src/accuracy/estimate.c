@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
+#include "accuracy/blocks.h"
 #include "accuracy/search.h"
-#include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -35,7 +35,7 @@ void ost_estimate_destroy(OstEstimate **estimate)
     ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
-    OST_FREE((*estimate)->inverse);
+    OST_FREE((*estimate)->factor);
     ost_earlier_destroy(&(*estimate)->earlier);
     OST_FREE(*estimate);
 }
@@ -59,11 +59,13 @@ static OstStatus create(OstEstimate *estimate)
     const OstProblem *problem = estimate->problem;
     OST_TRY(ost_complement_create(problem->mesh, problem->supports, &estimate->complement));
     OST_TRY(ost_surplus_loads_create(problem, &estimate->complement, &estimate->loads));
-    estimate->stiffness = (OstOperator){problem, &estimate->complement, NULL, NULL};
+    OstOperator *stiffness = &estimate->stiffness;
+    *stiffness = (OstOperator){.problem = problem, .complement = &estimate->complement};
+    OST_TRY(ost_operator_unit(problem, &stiffness->unit));
     estimate->enough = find_enough(problem);
     estimate->enough_of_adjoint = problem->mesh->nodes_per_tet == 4 ? enough_of_locked : estimate->enough;
-    OstStatus status = ost_light_tets_create(problem, &estimate->complement, &estimate->stiffness.light);
-    OST_THEN(OST_NEW(problem->ctx, &estimate->inverse, 6 * (size_t)estimate->complement.count));
+    OstStatus status = ost_light_tets_create(problem, &estimate->complement, stiffness->unit, &stiffness->light);
+    OST_THEN(OST_NEW(problem->ctx, &estimate->factor, OST_PER_BLOCK * (size_t)estimate->complement.count));
     return ost_agree(problem->ctx, status);
 }
 
@@ -80,8 +82,9 @@ OstStatus ost_estimate_remember(OstEstimate *estimate)
     const OstProblem *problem = estimate->problem;
     if (!problem->scene || !ost_problem_is_linear(problem) || estimate->earlier)
         return OST_SUCCESS;
-    const size_t size = 3 * ((size_t)problem->system->matrix->rows + (size_t)estimate->complement.count);
-    return ost_agree(problem->ctx, ost_earlier_create(problem->ctx, size, &estimate->earlier));
+    return ost_agree(problem->ctx,
+                     ost_earlier_create(problem->ctx, 3 * (size_t)problem->system->matrix->rows,
+                                        OST_PER_FUNCTION * (size_t)estimate->complement.count, &estimate->earlier));
 }
 
 /* Takes the stiffness to u. */
@@ -89,10 +92,10 @@ OstStatus ost_search_move(OstEstimate *estimate, const double *u)
 {
     const int is_linear = ost_problem_is_linear(estimate->problem);
     estimate->stiffness.turned_by = is_linear ? NULL : u;
-    if (is_linear && estimate->has_inverse)
+    if (is_linear && estimate->has_factor)
         return OST_SUCCESS;
-    estimate->has_inverse = is_linear;
-    return ost_agree(estimate->problem->ctx, ost_operator_diagonal(&estimate->stiffness, estimate->inverse));
+    estimate->has_factor = is_linear;
+    return ost_agree(estimate->problem->ctx, ost_operator_blocks(&estimate->stiffness, estimate->factor));
 }
 
 OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
@@ -108,139 +111,12 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
     return status;
 }
 
-/* --- conjugate gradients on elements and complement --- */
+/* --- the error --- */
 
 OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search)
 {
-    const OstProblem *problem = estimate->problem;
-    OstContext *ctx = problem->ctx;
-    *search = (Search){.estimate = estimate, .solver = solver};
-    search->rows = 3 * (size_t)problem->system->matrix->rows;
-    search->all = search->rows + 3 * (size_t)estimate->complement.count;
-    OstStatus status = OST_NEW(ctx, &search->r, 4 * search->all);
-    OST_THEN(OST_NEW(ctx, &search->z, search->rows));
-    OST_THEN(OST_NEW(ctx, &search->u, 3 * (size_t)problem->mesh->node_count));
-    OST_THEN(OST_NEW(ctx, &search->force, 3 * (size_t)problem->mesh->owned_nodes));
-    OST_TRY(ost_agree(ctx, status));
-    search->p = search->r + search->all;
-    search->q = search->p + search->all;
-    search->e = search->q + search->all;
-    return OST_SUCCESS;
-}
-
-void ost_search_close(Search *search)
-{
-    OST_FREE(search->r);
-    OST_FREE(search->z);
-    OST_FREE(search->u);
-    OST_FREE(search->force);
-}
-
-OstStatus ost_search_dot(const Search *search, const double *a, const double *b, double *product)
-{
-    *product = 0.0;
-    for (size_t i = 0; i < search->all; i++)
-        *product += a[i] * b[i];
-    return ost_sum(search->estimate->problem->ctx, 1, product);
-}
-
-/* The rows' part of forces on nodes. */
-OstStatus ost_search_rows(const Search *search, double *vector)
-{
-    return ost_system_take_rows(search->estimate->problem->system, search->force, vector);
-}
-
-/* q = A p */
-static OstStatus multiply(Search *search)
-{
-    const OstProblem *problem = search->estimate->problem;
-    double *of_functions = search->q + search->rows;
-    OST_TRY(ost_system_displacement(problem->system, 0.0, search->p, search->u));
-    OST_TRY(ost_complement_import(&search->estimate->complement, search->p + search->rows));
-    ost_operator_apply(&search->estimate->stiffness, search->u, search->p + search->rows, search->force, of_functions);
-    if (problem->supports->spring)
-        ost_spring_force(problem->supports, -1.0, search->u, search->force);
-    ost_complement_project(&search->estimate->complement, of_functions);
-    return ost_search_rows(search, search->q);
-}
-
-/* z = B r on the rows. The elements' own unknowns take part in every other step: hardly more steps are needed so, and a
- * multigrid cycle takes as long as several products with A. On quadratic tets, where that is most of the time, the
- * first pair of steps is without. */
-static OstStatus precondition(Search *search)
-{
-    int found = 1;
-    const int first = search->estimate->complement.mesh->nodes_per_tet == 10 ? 2 : 1, turn = search->turns++;
-    if (turn >= first && (turn - first) % 2 == 0)
-        OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
-    else
-        memset(search->z, 0, search->rows * sizeof *search->z);
-    search->failed = !found;
-    return OST_SUCCESS;
-}
-
-/* z = B r of a function. */
-static inline void precondition_function(const Search *search, size_t k, double z[3])
-{
-    const double *b = search->estimate->inverse + 6 * k, *r = search->r + search->rows + 3 * k;
-    z[0] = b[0] * r[0] + b[3] * r[1] + b[5] * r[2];
-    z[1] = b[3] * r[0] + b[1] * r[1] + b[4] * r[2];
-    z[2] = b[5] * r[0] + b[4] * r[1] + b[2] * r[2];
-}
-
-/* r·z and z·q. (Those of the functions are found again where they are needed: so they take no memory.) */
-static OstStatus weigh(const Search *search, double sums[2])
-{
-    sums[0] = sums[1] = 0.0;
-    for (size_t i = 0; i < search->rows; i++) {
-        sums[0] += search->r[i] * search->z[i];
-        sums[1] += search->q[i] * search->z[i];
-    }
-    for (size_t k = 0; k < (size_t)search->estimate->complement.count; k++) {
-        const double *r = search->r + search->rows + 3 * k, *q = search->q + search->rows + 3 * k;
-        double z[3];
-        precondition_function(search, k, z);
-        sums[0] += r[0] * z[0] + r[1] * z[1] + r[2] * z[2];
-        sums[1] += q[0] * z[0] + q[1] * z[1] + q[2] * z[2];
-    }
-    return ost_sum(search->estimate->problem->ctx, 2, sums);
-}
-
-/* Goes along p: `gain` is what that adds to |e|_A², `weight` r·z before. */
-static OstStatus go_on(Search *search, double weight, double *gain)
-{
-    double curvature = 0.0;
-    OST_TRY(multiply(search));
-    OST_TRY(ost_search_dot(search, search->p, search->q, &curvature));
-    search->failed = !(curvature > 0.0);
-    const double length = search->failed ? 0.0 : weight / curvature;
-    for (size_t i = 0; i < search->all; i++) {
-        search->e[i] += length * search->p[i];
-        search->r[i] -= length * search->q[i];
-    }
-    *gain = length * weight;
-    return OST_SUCCESS;
-}
-
-/* The next direction, as if the preconditioner varied (Polak and Ribiere). */
-static OstStatus turn(Search *search, double gain, double *weight)
-{
-    const double before = *weight;
-    double sums[2];
-    OST_TRY(precondition(search));
-    OST_TRY(weigh(search, sums));
-    const double share = before > 0.0 ? -gain * sums[1] / (before * before) : 0.0;
-    *weight = sums[0];
-    for (size_t i = 0; i < search->rows; i++)
-        search->p[i] = search->z[i] + share * search->p[i];
-    for (size_t k = 0; k < (size_t)search->estimate->complement.count; k++) {
-        double *p = search->p + search->rows + 3 * k, z[3];
-        precondition_function(search, k, z);
-        for (int i = 0; i < 3; i++)
-            p[i] = z[i] + share * p[i];
-    }
-    search->failed |= !(*weight >= 0.0) || !isfinite(*weight);
-    return OST_SUCCESS;
+    *search = (Search){.estimate = estimate};
+    return ost_steps_open(&estimate->stiffness, estimate->factor, solver, &search->steps);
 }
 
 /* What all pairs of steps after this one would add to |e|_A², if gains go on falling as from the last to this. */
@@ -272,18 +148,9 @@ static void learn(Tails *tails, double second, double whole)
     tails->whole[tails->count++] = whole;
 }
 
-/* Two steps, of which at most one takes a multigrid cycle. `of_step`: what the last one added. */
-static OstStatus take_pair(Search *search, double *weight, double *of_step, double *gain)
+double ost_search_true_square(const Search *search, double square)
 {
-    *gain = 0.0;
-    for (int k = 0; k < 2 && !search->failed; k++) {
-        OST_TRY(turn(search, *of_step, weight));
-        if (search->failed || !(*weight > 0.0))
-            break;
-        OST_TRY(go_on(search, *weight, of_step));
-        *gain += *of_step;
-    }
-    return OST_SUCCESS;
+    return search->steps.size * search->steps.size * search->estimate->stiffness.unit * square;
 }
 
 /* Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found before. */
@@ -296,10 +163,10 @@ OstStatus ost_search_iterate(Search *search, double start, double *square)
     Tails *tails = search->estimate->earlier && !search->of_adjoint ? &search->estimate->tails : NULL;
     int learns = tails != NULL;
     *square = start;
-    search->turns = 0;
-    for (int k = 1; k <= most_pairs && !search->failed; k++) {
+    ost_steps_start(&search->steps);
+    for (int k = 1; k <= most_pairs && !search->steps.failed; k++) {
         const double last = gain;
-        OST_TRY(take_pair(search, &weight, &of_step, &gain));
+        OST_TRY(ost_steps_pair(&search->steps, &weight, &of_step, &gain));
         sum += gain;
         double to_come = gains_to_come(gain, last);
         if (k == 1) {
@@ -311,8 +178,8 @@ OstStatus ost_search_iterate(Search *search, double start, double *square)
             to_come = search->is_short ? learned : to_come;
         }
         *square = sum + to_come;
-        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k, sqrt(sum),
-                sqrt(to_come));
+        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k,
+                sqrt(ost_search_true_square(search, sum)), sqrt(ost_search_true_square(search, to_come)));
         const int falls =
             to_come <= (start > 0.0 ? small_rest_of_start : enough->rest) * *square && gain <= enough->gain * sum;
         const int known = start > 0.0 && gain <= little_new * sum;
@@ -325,22 +192,13 @@ OstStatus ost_search_iterate(Search *search, double start, double *square)
     return OST_SUCCESS;
 }
 
-/* What is left on the elements' own unknowns, once more: few steps have little of a displacement far from where its
- * error is made. */
-static OstStatus settle(Search *search)
-{
-    int found = 0;
-    OST_TRY(ost_solver_precondition(search->solver, search->r, search->z, &found));
-    for (size_t i = 0; i < search->rows && found; i++)
-        search->e[i] += search->z[i];
-    return OST_SUCCESS;
-}
-
 /* Makes up for the steps that were not taken. */
 static void lengthen(Search *search)
 {
-    for (size_t i = 0; i < search->all; i++)
-        search->e[i] *= search->longer;
+    for (size_t i = 0; i < search->steps.rows; i++)
+        search->steps.e.rows[i] *= search->longer;
+    for (size_t i = 0; i < OST_PER_FUNCTION * search->steps.functions; i++)
+        search->steps.e.functions[i] *= (float)search->longer;
     search->longer = 1.0;
 }
 
@@ -349,42 +207,60 @@ static OstStatus iterate_from(Search *search, double *square)
 {
     OstEarlier *earlier = search->estimate->earlier;
     double start;
-    OST_TRY(ost_earlier_start(earlier, search->r, &start));
+    OST_TRY(ost_earlier_start(earlier, &search->steps.r, &start));
     OST_TRY(ost_search_iterate(search, start, square));
-    return search->failed ? OST_SUCCESS : ost_earlier_finish(earlier, search->r, search->e);
+    return search->steps.failed ? OST_SUCCESS : ost_earlier_finish(earlier, &search->steps.r, &search->steps.e);
+}
+
+double ost_search_largest(size_t count, const double *numbers)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < count; i++)
+        most = fabs(numbers[i]) > most ? fabs(numbers[i]) : most;
+    return most;
 }
 
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
+    OstSteps *steps = &search->steps;
     const OstEstimate *estimate = search->estimate;
     const OstProblem *problem = estimate->problem;
-    const OstComplement *complement = &estimate->complement;
-    double *of_functions = search->r + search->rows;
-    OST_TRY(ost_agree(problem->ctx,
-                      ost_operator_force(&estimate->stiffness, t, u, search->force, of_functions, &search->energy)));
-    for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
-        of_functions[i] = -of_functions[i];
-    ost_surplus_loads_add(&estimate->loads, problem, complement, t, u, of_functions);
-    for (size_t k = 0; k < (size_t)complement->count; k++)
-        if (!ost_complement_owns(complement, (OstLocal)k))
-            memset(of_functions + 3 * k, 0, 3 * sizeof *of_functions);
-    ost_complement_project(complement, of_functions);
-    return ost_search_rows(search, search->r);
+    const double unit = estimate->stiffness.unit;
+    double *left = ost_steps_spare(steps), most; /* f - A u */
+    OST_TRY(
+        ost_agree(problem->ctx, ost_operator_force(&estimate->stiffness, t, u, steps->force, left, &search->energy)));
+    ost_surplus_loads_add(&estimate->loads, problem, &estimate->complement, t, u, left);
+    OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
+    most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    steps->size = most > 0.0 ? most / unit : 1.0;
+    ost_steps_take_residual(steps, left, steps->size * unit);
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->r.rows[i] /= steps->size * unit;
+    return OST_SUCCESS;
 }
 
+OstStatus ost_search_displacement(Search *search)
+{
+    return ost_system_displacement(search->estimate->problem->system, 0.0, search->steps.e.rows, search->steps.u);
+}
+
+/* `square` is in the case's units. */
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
 {
     const OstProblem *problem = search->estimate->problem;
     double most[2] = {0.0}, energy = 0.0;
-    OST_TRY(ost_system_displacement(problem->system, 0.0, search->e, search->u));
+    OST_TRY(ost_search_displacement(search));
     for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
         double better[3];
         for (size_t i = 0; i < 3; i++)
-            better[i] = u[3 * n + i] + search->u[3 * n + i];
-        most[0] = fmax(most[0], ost_norm3(search->u + 3 * n));
-        most[1] = fmax(most[1], ost_norm3(better));
+            better[i] = u[3 * n + i] + search->steps.size * search->steps.u[3 * n + i];
+        const double of_error = ost_norm3(search->steps.u + 3 * n), of_better = ost_norm3(better);
+        most[0] = of_error > most[0] ? of_error : most[0];
+        most[1] = of_better > most[1] ? of_better : most[1];
     }
+    most[0] *= search->steps.size;
     OST_TRY(ost_max(problem->ctx, 2, most));
     if (isnan(search->energy)) {
         OST_TRY(ost_problem_energy(problem, t, u, &energy));
@@ -403,10 +279,10 @@ OstStatus ost_search_share(Search *search, double square, double *tet_error, dou
 {
     const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
-    OST_TRY(ost_complement_import(&search->estimate->complement, search->e + search->rows));
-    ost_operator_energy(&search->estimate->stiffness, search->u, search->e + search->rows, tet_error, stress);
+    OST_TRY(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
+    ost_operator_energy(&search->estimate->stiffness, search->steps.u, search->steps.e.functions, tet_error, stress);
     for (size_t i = 0; i < 6 * (size_t)problem->mesh->owned_tets && stress; i++)
-        stress[i] *= search->longer;
+        stress[i] *= search->longer * search->steps.size;
     for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
         sum += tet_error[tet];
     OST_TRY(ost_sum(problem->ctx, 1, &sum));
@@ -420,9 +296,9 @@ static OstStatus hand_out(Search *search, double *surplus)
 {
     const OstProblem *problem = search->estimate->problem;
     if (problem->free_body)
-        OST_TRY(ost_free_body_centre(problem->mesh, search->u));
+        OST_TRY(ost_free_body_centre(problem->mesh, search->steps.u));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        surplus[i] = search->longer * search->u[i];
+        surplus[i] = search->longer * search->steps.size * search->steps.u[i];
     return OST_SUCCESS;
 }
 
@@ -439,9 +315,10 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     OST_THEN(ost_search_residual(&search, t, u));
     const int has_earlier = estimate->earlier && !estimate->stiffness.turned_by; /* of the same stiffness */
     OST_THEN(has_earlier ? iterate_from(&search, &square) : ost_search_iterate(&search, 0.0, &square));
-    if (status == OST_SUCCESS && !search.failed) {
+    if (status == OST_SUCCESS && !search.steps.failed) {
+        square = ost_search_true_square(&search, square);
         if (surplus->displacement || search.is_short)
-            status = settle(&search);
+            status = ost_steps_settle(&search.steps);
         if (search.is_short)
             lengthen(&search);
         OST_THEN(compare(&search, t, u, square, found));
@@ -453,6 +330,6 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         if (surplus->displacement)
             OST_THEN(hand_out(&search, surplus->displacement));
     }
-    ost_search_close(&search);
+    ost_steps_close(&search.steps);
     return status;
 }

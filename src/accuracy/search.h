@@ -4,8 +4,7 @@
 
 #include "accuracy/earlier.h"
 #include "accuracy/loads.h"
-#include "accuracy/operator.h"
-#include "algebra/solver.h"
+#include "accuracy/steps.h"
 
 /* The conjugate gradients of an estimate, on elements and complement: for accuracy/estimate.c, and for adjoint problems
  * (accuracy/adjoint.c). */
@@ -29,50 +28,45 @@ typedef struct OstEstimate {
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;
-    double *inverse;                  /* of the functions' blocks, once they are known */
-    int has_inverse;                  /* of linear theory */
+    float *factor;                    /* of the functions' blocks, once they are known */
+    int has_factor;                   /* of linear theory */
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
     Tails tails;                      /* of them */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
 } OstEstimate;
 
-/* Vectors: 3 numbers for each row of the system, then 3 for each function; in most of them those of ghosts are 0. */
 typedef struct Search {
+    OstSteps steps;
     OstEstimate *estimate;
-    OstSolver *solver;
-    size_t rows, all; /* numbers of the rows, and of both */
-    double *r, *p, *q, *e;
-    double *z;         /* of the rows alone */
-    double *u, *force; /* of nodes: a displacement, and forces on it */
-    double longer;     /* by what e is short of in its work on the residual, as extrapolated: a factor */
-    double energy;     /* of this rank's tets, under u; NAN: not known */
-    int turns;         /* directions found so far */
-    int of_adjoint;    /* is the error that of an adjoint problem, unlike those of loads? */
-    int is_short;      /* were later steps taken to be as those of an earlier load? */
-    int failed;        /* is the preconditioner, or the stiffness, not positive definite? */
+    double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double energy;  /* of this rank's tets, under u; NAN: not known */
+    int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
+    int is_short;   /* were later steps taken to be as those of an earlier load? */
 } Search;
 
 /* Collective. Takes the stiffness to u. */
 OstStatus ost_search_move(OstEstimate *estimate, const double *u);
 
-/* Collective. Close it also after a failure. */
+/* Collective. Close its steps also after a failure. */
 OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search);
-void ost_search_close(Search *search);
-
-/* Collective. a·b of all numbers. */
-OstStatus ost_search_dot(const Search *search, const double *a, const double *b, double *product);
-
-/* Collective. The rows' part of search->force. */
-OstStatus ost_search_rows(const Search *search, double *vector);
 
 /* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u);
 
-/* Collective. Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found
- * before. */
+/* Collective. Pairs of steps until what is to come of |e|² is small; `start` is that of the part of e that was found
+ * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
 
-/* Collective. Each tet's share of `square`, of the error whose nodes' part is search->u; its mean stress, or NULL. */
+/* Local. A square in the case's units. */
+double ost_search_true_square(const Search *search, double square);
+
+/* Collective. steps.u: e at the nodes. */
+OstStatus ost_search_displacement(Search *search);
+
+/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u; its mean stress, or NULL. */
 OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress);
+
+/* Local. The largest absolute value of some numbers. */
+double ost_search_largest(size_t count, const double *numbers);
 
 #endif
