@@ -42,7 +42,7 @@ static void take_own_order(const OstMesh *mesh, OstBatch *batch)
     ost_batch_gather_vectors(batch, (int)nodes, mesh->coordinates, batch->x);
 }
 
-static void gather_functions(const OstComplement *complement, const OstBatch *batch, const double *values, OstSimd *w)
+static void gather_functions(const OstComplement *complement, const OstBatch *batch, const float *values, OstSimd *w)
 {
     OstLocal function[OST_MAX_FUNCTIONS];
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -50,7 +50,7 @@ static void gather_functions(const OstComplement *complement, const OstBatch *ba
         for (int k = 0; k < ost_complement_per_tet(complement); k++)
             for (int i = 0; i < 3; i++)
                 w[3 * k + i][slot] = (k < 6 ? ost_complement_turn_of(complement, batch->tet[slot], k) : 1.0) *
-                                     values[3 * (size_t)function[k] + (size_t)i];
+                                     (double)values[OST_PER_FUNCTION * (size_t)function[k] + (size_t)i];
     }
 }
 
@@ -69,7 +69,7 @@ static void take_stress(const OstElasticity *at_nodes, int nodes, const OstSimd 
     }
 }
 
-void ost_operator_node_stress(const OstOperator *operator, const double * u, const double *w, double factor,
+void ost_operator_node_stress(const OstOperator *operator, const double * u, const float *w, double factor,
                               float *stress)
 {
     const OstProblem *problem = operator->problem;
