@@ -51,6 +51,7 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
         ost_metric_strengthen(solver->metric, options);
     } else {
         destroy_strategy(solver);
+        OST_TRY(ost_geometry_renew(&solver->geometry));
         if (options->method == OST_METHOD_PLAIN)
             status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
         else if (options->method == OST_METHOD_DIRECT)
@@ -169,10 +170,10 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
 {
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
-    OstStatus status = find_misalignment(solver, &facts);
+    OstStatus status = OST_SUCCESS;
     solver->steps = 0;
-    if (status != OST_SUCCESS)
-        return status;
+    OST_TRY(ost_geometry_renew(&solver->geometry));
+    OST_TRY(find_misalignment(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
     if (may_change(solver) && solver->aim.first > solver->plan.first)
         solver->plan.first = solver->aim.first;

@@ -141,7 +141,7 @@ static void fill_entries(const OstDoubleMatrix *matrix, const OstGlobal *number,
 {
     const int size = matrix->size;
     MUMPS_INT8 n = 0;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const OstLocal j = matrix->column[k];

@@ -23,7 +23,7 @@ static OstStatus mean_diagonal(const OstBlockMatrix *matrix, double *mean)
 {
     *mean = 0.0;
     for (OstLocal row = 0; row < matrix->rows; row++) {
-        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
+        const double *block = ost_block_matrix_diagonal(matrix, row);
         *mean += block[0] + block[4] + block[8];
     }
     OST_TRY(ost_sum(matrix->ctx, 1, mean));
