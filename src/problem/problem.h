@@ -62,6 +62,7 @@ OstStatus ost_problem_displacement(const OstProblem *problem, double t, const do
 /* Collective. Halves the memory of a linear problem's stiffness (algebra/matrix/fold.h). Whoever asks for its arrays
  * or for other values gets it whole again; not while a solver uses it. */
 OstStatus ost_problem_fold_stiffness(OstProblem *problem);
+OstStatus ost_problem_unfold_stiffness(OstProblem *problem);
 
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.
  */

@@ -82,6 +82,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstNewton *newton = NULL;
     OstNewtonState state = {0};
     ost_problem_take_formulation(problem, problem->beyond_linear);
+    OST_TRY(ost_problem_unfold_stiffness(problem));
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
