@@ -44,6 +44,7 @@ typedef struct Tails {
 
 struct OstEstimate {
     const OstProblem *problem;
+    int is_shared; /* is all but the loads another's? */
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;
@@ -58,6 +59,11 @@ void ost_estimate_destroy(OstEstimate **estimate)
 {
     if (!*estimate)
         return;
+    if ((*estimate)->is_shared) {
+        ost_surplus_loads_clear(&(*estimate)->loads);
+        OST_FREE(*estimate);
+        return;
+    }
     ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
     ost_complement_clear(&(*estimate)->complement);
@@ -131,6 +137,19 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
     if (status != OST_SUCCESS)
         ost_estimate_destroy(estimate);
     return status;
+}
+
+OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared)
+{
+    if (problem->scene)
+        OST_TRY(move(estimate, NULL));
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, shared, 1)));
+    **shared = *estimate;
+    (*shared)->problem = (*shared)->stiffness.problem = problem;
+    (*shared)->is_shared = 1;
+    (*shared)->loads = (OstSurplusLoads){0};
+    (*shared)->earlier = NULL;
+    return problem->scene ? ost_surplus_loads_create(problem, &estimate->complement, &(*shared)->loads) : OST_SUCCESS;
 }
 
 /* --- conjugate gradients on elements and complement --- */

@@ -52,6 +52,10 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
 
+/* Collective. An estimate for another loading, which uses what this one keeps and is destroyed before it. Of linear
+ * theory. */
+OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared);
+
 void ost_estimate_destroy(OstEstimate **estimate);
 
 #endif

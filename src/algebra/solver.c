@@ -1,51 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/solver.h"
+#include "algebra/solver_data.h"
 
-#include "algebra/direct/direct.h"
 #include "algebra/krylov/cg.h"
-#include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
-#include "algebra/multigrid/metric.h"
 #include "algebra/solver_options.h"
-#include "algebra/solver_plan.h"
 #include "algebra/trilinos/epetra.h"
-#include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-struct OstSolver {
-    OstContext *ctx;
-    const OstBlockMatrix *matrix;
-    OstSolverGeometry geometry;
-    OstSolverOptions options; /* the user's */
-    OstSolverAim aim;
-    const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
-    int aged;                /* have the matrix's values changed since the current strategy was built? */
-    int precise;             /* has single precision been found too little for the coarse levels? */
-    OstSolverPlan plan;
-    /* the current strategy: */
-    OstMethod method;              /* AUTO if there is none */
-    OstSmoothedAggregation *plain; /* one of these three is set up */
-    OstMetric *metric;
-    OstDirect *direct;
-    OstEpetraMap *map;
-    double nonzeros;         /* of the matrix, over all ranks */
-    double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
-    double setup_seconds;    /* for all strategies so far */
-    double strategy_seconds; /* setup of the current one, until it is added to a step */
-    int steps;               /* strategies that could not be built before the current one */
-    OstSolveStep step[OST_MAX_STEPS];
-};
-
 /* May the solver take another strategy? Not if the user has chosen the method. */
 static int may_change(const OstSolver *solver)
 {
-    return solver->plan.options.method == OST_METHOD_AUTO;
+    return solver->plan.options.method == OST_METHOD_AUTO && !solver->is_shared;
 }
 
 /* Records how a strategy ended. If there are too many, the last place is overwritten, so that the final one is there.
@@ -89,21 +61,11 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
     return status;
 }
 
-static void current_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner)
-{
-    *system = (OstCgSystem){.matrix = solver->matrix};
-    *preconditioner = (OstPreconditioner){.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
-    if (solver->metric)
-        ost_metric_system(solver->metric, system, preconditioner);
-    if (solver->direct)
-        ost_direct_system(solver->direct, system, preconditioner);
-}
-
 static OstStatus improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     OstPreconditioner preconditioner;
     OstCgSystem system;
-    current_system(solver, &system, &preconditioner);
+    ost_solver_system(solver, &system, &preconditioner);
     if (solver->metric)
         ost_metric_report(solver->metric, report);
     snprintf(report->engine, sizeof report->engine, "Bramble-Pasciak CG, %s",
@@ -122,7 +84,7 @@ static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal 
         return ost_direct_solve(solver->direct, f, u, goal, report);
     OstPreconditioner cycle;
     OstCgSystem system;
-    current_system(solver, &system, &cycle);
+    ost_solver_system(solver, &system, &cycle);
     ost_smoothed_aggregation_report(solver->plain, report);
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML V-cycle of %d levels of its own", report->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
@@ -140,13 +102,13 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
 {
     OstSolverOptions options;
     for (;; method++) {
-        const double start = ost_seconds();
+        const double start = ost_own_seconds(solver->ctx);
         ost_solver_strategy_options(&solver->plan.options, method, &options);
         options.precise = solver->precise;
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = set_up(solver, &options);
         ost_ledger_leave(solver->ctx);
-        solver->strategy_seconds = ost_seconds() - start;
+        solver->strategy_seconds = ost_own_seconds(solver->ctx) - start;
         solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
@@ -275,8 +237,10 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    destroy_strategy(*solver);
-    ost_epetra_map_destroy(&(*solver)->map);
+    if (!(*solver)->is_shared)
+        destroy_strategy(*solver);
+    if (!(*solver)->is_shared)
+        ost_epetra_map_destroy(&(*solver)->map);
     OST_FREE(*solver);
 }
 
@@ -303,7 +267,7 @@ done:
 /* Improves u by the current strategy. */
 static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const double start = ost_seconds();
+    const double start = ost_own_seconds(solver->ctx);
     const int before = goal->iterations;
     const OstStatus status = improve(solver, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
@@ -314,9 +278,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
-    step->seconds = ost_seconds() - start + solver->strategy_seconds;
+    step->seconds = ost_own_seconds(solver->ctx) - start + solver->strategy_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
-            ost_method_name(step->method), report->engine, step->iterations, ost_seconds() - start,
+            ost_method_name(step->method), report->engine, step->iterations, ost_own_seconds(solver->ctx) - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
     return status;
@@ -374,6 +338,7 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
 
 /* The user's stop, for a system solved with f and u divided by `size`. */
 typedef struct ScaledStop {
+    OstContext *ctx;
     OstErrorStop stop;
     const OstErrorStop *user;
     double size;
@@ -387,7 +352,7 @@ typedef struct ScaledStop {
 static OstStatus ask_user(void *data, const double *u, double error, double *next)
 {
     ScaledStop *scaled = data;
-    const double start = ost_seconds();
+    const double start = ost_own_seconds(scaled->ctx);
     for (size_t i = 0; i < scaled->n; i++)
         scaled->u[i] = scaled->size * u[i];
     for (size_t i = 0; i < scaled->m; i++)
@@ -397,7 +362,7 @@ static OstStatus ask_user(void *data, const double *u, double error, double *nex
     *next /= scaled->size;
     for (size_t i = 0; i < scaled->m; i++)
         scaled->p[i] /= scaled->size;
-    scaled->seconds += ost_seconds() - start;
+    scaled->seconds += ost_own_seconds(scaled->ctx) - start;
     return status;
 }
 
@@ -469,7 +434,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
-    ScaledStop stop = {.stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
+    ScaledStop stop = {
+        .ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
     double *scaled = NULL;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &stop.size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n : n)));
@@ -492,7 +458,7 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
 {
     const size_t n = 3 * (size_t)solver->matrix->rows, m = (size_t)saddle->coupling->rows;
     ScaledStop stop = {
-        .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n, .p = saddle->p, .m = m};
+        .ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n, .p = saddle->p, .m = m};
     double *scaled = NULL, size;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n + m : n + m)));
@@ -527,10 +493,10 @@ OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, con
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds(), setup = solver->setup_seconds;
+    const double start = ost_own_seconds(solver->ctx), setup = solver->setup_seconds;
     const OstStatus status = saddle ? solve_mixed(solver, saddle, f, u, report) : solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
+    report->solve_seconds += ost_own_seconds(solver->ctx) - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
 }
@@ -538,62 +504,4 @@ OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, con
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     return ost_solver_solve_mixed(solver, NULL, f, u, report);
-}
-
-static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,
-                                   double *u, OstSolveReport *report)
-{
-    OstCgSystem system;
-    OstPreconditioner preconditioner;
-    if (solver->method == OST_METHOD_AUTO)
-        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
-    current_system(solver, &system, &preconditioner);
-    report->method = solver->method;
-    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s", solver->direct ? "MUMPS factors" : "ML cycle");
-    return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, &report->iterations,
-                           &report->relative_residual);
-}
-
-OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
-                                       const double *f, double *u, OstSolveReport *report)
-{
-    memset(report, 0, sizeof *report);
-    report->plan = solver->plan;
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds();
-    const OstStatus status = solve_unsymmetric(solver, further, relative, f, u, report);
-    report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds = ost_seconds() - start;
-    ost_ledger_leave(solver->ctx);
-    return status;
-}
-
-OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
-{
-    OstCgSystem system;
-    OstPreconditioner preconditioner;
-    *found = 0;
-    if (solver->method == OST_METHOD_AUTO || !(solver->smallest > 0.0))
-        return OST_SUCCESS;
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    current_system(solver, &system, &preconditioner);
-    const OstStatus status =
-        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
-    ost_ledger_leave(solver->ctx);
-    return status;
-}
-
-OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found)
-{
-    OstCgSystem system;
-    OstPreconditioner preconditioner;
-    double *scaled = NULL;
-    *found = solver->method != OST_METHOD_AUTO;
-    if (!*found)
-        return OST_SUCCESS;
-    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
-    current_system(solver, &system, &preconditioner);
-    const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
-    OST_FREE(scaled);
-    return status;
 }

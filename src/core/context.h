@@ -34,6 +34,8 @@ struct OstContext {
     OstAccount stack[OST_LEDGER_DEPTH];
     int depth;
     double clock; /* until when seconds are booked */
+    struct OstTogether *together; /* whose task is running (core/together/); NULL: none */
+    double elsewhere;             /* seconds in which that task waited */
     size_t bytes;
     size_t peak_bytes;
 };

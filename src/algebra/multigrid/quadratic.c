@@ -2,6 +2,7 @@
 #include "algebra/multigrid/quadratic.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 
 #include <string.h>
@@ -75,5 +76,51 @@ OstStatus ost_quadratic_level_restrict(const OstQuadraticLevel *level, const dou
     }
     OST_TRY(ost_halo_add_to_owners(level->space.matrix->halo, 3, level->coarse));
     ost_scaling_to_scaled(level->linear, level->coarse, c);
+    return OST_SUCCESS;
+}
+
+/* y = M x, and y = M' x, M being 3 × 3. */
+static inline void apply3(const double *m, const OstColumns *x, OstColumns *y)
+{
+    for (int r = 0; r < 3; r++)
+        y[r] = m[3 * r] * x[0] + m[3 * r + 1] * x[1] + m[3 * r + 2] * x[2];
+}
+
+static inline void apply3_transposed(const double *m, const OstColumns *x, OstColumns *y)
+{
+    for (int r = 0; r < 3; r++)
+        y[r] = m[r] * x[0] + m[3 + r] * x[1] + m[6 + r] * x[2];
+}
+
+OST_KERNEL OstStatus ost_quadratic_level_prolong_columns(const OstQuadraticLevel *level, const OstColumns *c,
+                                                         OstColumns *room, OstColumns *x)
+{
+    for (size_t n = 0; n < (size_t)level->linear->rows; n++)
+        apply3_transposed(level->linear->factor + 9 * n, c + 3 * n, room + 3 * n);
+    OST_TRY(ost_halo_import(level->space.matrix->halo, 3 * sizeof(OstColumns), room));
+    for (size_t n = 0; n < (size_t)level->quadratic->rows; n++) {
+        OstColumns sum[3] = {{0}};
+        for (size_t k = PARENTS * n; k < PARENTS * (n + 1); k++)
+            for (size_t i = 0; i < 3 && level->space.parents[k] >= 0; i++)
+                sum[i] += level->space.weights[k] * room[3 * (size_t)level->space.parents[k] + i];
+        apply3_transposed(level->quadratic->inverse + 9 * n, sum, x + 3 * n);
+    }
+    return OST_SUCCESS;
+}
+
+OST_KERNEL OstStatus ost_quadratic_level_restrict_columns(const OstQuadraticLevel *level, const OstColumns *x,
+                                                          OstColumns *room, OstColumns *c)
+{
+    memset(room, 0, 3 * (size_t)level->space.matrix->columns * sizeof *room);
+    for (size_t n = 0; n < (size_t)level->quadratic->rows; n++) {
+        OstColumns fine[3];
+        apply3(level->quadratic->inverse + 9 * n, x + 3 * n, fine);
+        for (size_t k = PARENTS * n; k < PARENTS * (n + 1); k++)
+            for (size_t i = 0; i < 3 && level->space.parents[k] >= 0; i++)
+                room[3 * (size_t)level->space.parents[k] + i] += level->space.weights[k] * fine[i];
+    }
+    OST_TRY(ost_halo_add_to_owners(level->space.matrix->halo, 3 * OST_COLUMNS, (double *)room));
+    for (size_t n = 0; n < (size_t)level->linear->rows; n++)
+        apply3(level->linear->factor + 9 * n, room + 3 * n, c + 3 * n);
     return OST_SUCCESS;
 }
