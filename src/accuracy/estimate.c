@@ -4,6 +4,7 @@
 #include "accuracy/earlier.h"
 #include "accuracy/loads.h"
 #include "accuracy/operator.h"
+#include "algebra/matrix/vector.h"
 #include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -59,16 +60,13 @@ void ost_estimate_destroy(OstEstimate **estimate)
 {
     if (!*estimate)
         return;
-    if ((*estimate)->is_shared) {
-        ost_surplus_loads_clear(&(*estimate)->loads);
-        OST_FREE(*estimate);
-        return;
-    }
-    ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
-    ost_complement_clear(&(*estimate)->complement);
-    OST_FREE((*estimate)->inverse);
-    ost_earlier_destroy(&(*estimate)->earlier);
+    if (!(*estimate)->is_shared) {
+        ost_light_tets_destroy(&(*estimate)->stiffness.light);
+        ost_complement_clear(&(*estimate)->complement);
+        OST_FREE((*estimate)->inverse);
+        ost_earlier_destroy(&(*estimate)->earlier);
+    }
     OST_FREE(*estimate);
 }
 
@@ -197,10 +195,7 @@ static void close_search(Search *search)
 
 static OstStatus dot(const Search *search, const double *a, const double *b, double *product)
 {
-    *product = 0.0;
-    for (size_t i = 0; i < search->all; i++)
-        *product += a[i] * b[i];
-    return ost_sum(search->estimate->problem->ctx, 1, product);
+    return ost_vector_dot(search->estimate->problem->ctx, search->all, a, b, product);
 }
 
 /* The rows' part of forces on nodes. */
@@ -309,16 +304,11 @@ static double gains_to_come(double gain, double last)
     return gain * ratio / (1.0 - ratio);
 }
 
-static int is_alike(double a, double b)
-{
-    return a <= alike * b && b <= alike * a;
-}
-
 /* What steps after the first pair would add, as with an earlier load; NAN: none was alike. */
 static double learned_to_come(const Tails *tails, double second, double gain)
 {
     for (int k = 0; k < tails->count; k++)
-        if (is_alike(second, tails->second[k]))
+        if (second <= alike * tails->second[k] && tails->second[k] <= alike * second)
             return (tails->whole[k] - 1.0) * gain;
     return NAN;
 }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "element/biot.h"
 #include "element/large_rotation.h"
 #include "element/shape_functions.h"
@@ -334,6 +335,7 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
 
 /* What the forces are wanted for. */
 typedef struct Sum {
+    OstOperator operator;
     OstFormulation formulation;
     double eigen_share;
     const double *u, *w; /* w: NULL for a state */
@@ -342,33 +344,67 @@ typedef struct Sum {
     double *force, *of_functions;
 } Sum;
 
-static void sum_forces(const OstOperator *operator, Sum * sum)
+/* Of a batch, which is gathered. */
+static void add_forces(const OstOperator *operator, const Cells * cells, const OstElement *element, Sum *sum)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+    ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
+    if (sum->w)
+        gather_functions(cells, sum->w, more);
+    find_forces(cells, element, sum->formulation, moved, sum->w ? more : NULL, at_nodes, at_functions);
+    add_to_functions(operator, cells, at_functions, sum->of_functions);
+    if (!sum->w)
+        sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
+    if (sum->missing && cells->straight && cells->batch.elasticity.points == 1)
+        return; /* both integrate without error */
+    for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
+        at_nodes[n] = -at_nodes[n];
+    add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
+    if (sum->missing)
+        add_own(operator, cells, element, sum->u, sum->force);
+}
+
+/* Sums of one kind: all of a state, or all of small displacements. */
+static void sum_several(const OstOperator *operator, int count, void *const *sum)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
+    clear_cells(operator, !((const Sum *)sum[0])->w, ((const Sum *)sum[0])->eigen_share, &cells);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        gather(operator, first, mesh->tet_count, &cells);
+        for (int k = 0; k < count; k++)
+            add_forces(operator, & cells, element, sum[k]);
+    }
+}
+
+/* OstServe: of linear theory, on one complement. */
+static OstStatus sum_states(void *complement, int count, void *const *sum)
+{
+    (void)complement;
+    sum_several(&((const Sum *)sum[0])->operator, count, sum);
+    return OST_SUCCESS;
+}
+
+static OstStatus sum_products(void *complement, int count, void *const *sum)
+{
+    return sum_states(complement, count, sum);
+}
+
+static void sum_forces(const OstOperator *operator, Sum * sum)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstMaterialField *field = operator->problem->field;
+    void *const alone = sum;
     memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
     memset(sum->of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * sum->of_functions);
-    clear_cells(operator, !sum->w, sum->eigen_share, &cells);
     sum->work = 0.0;
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
-        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
-        gather(operator, first, mesh->tet_count, &cells);
-        ost_batch_gather_vectors(&cells.batch, cells.nodes, sum->u, moved);
-        if (sum->w)
-            gather_functions(&cells, sum->w, more);
-        find_forces(&cells, element, sum->formulation, moved, sum->w ? more : NULL, at_nodes, at_functions);
-        add_to_functions(operator, & cells, at_functions, sum->of_functions);
-        if (!sum->w)
-            sum->work += work_of(&cells, mesh->owned_tets, moved, at_nodes);
-        if (sum->missing && cells.straight && cells.batch.elasticity.points == 1)
-            continue; /* both integrate without error */
-        for (int n = 0; n < 3 * cells.nodes && sum->missing; n++)
-            at_nodes[n] = -at_nodes[n];
-        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, sum->force);
-        if (sum->missing)
-            add_own(operator, & cells, element, sum->u, sum->force);
-    }
+    sum->operator= * operator;
+    if (operator->turned_by || sum->formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field))
+        sum_several(operator, 1, &alone);
+    else
+        (void)ost_together(mesh->ctx, sum->w ? sum_products : sum_states, (void *)operator->complement, sum);
 }
 
 OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,

@@ -9,7 +9,7 @@
 #include "algebra/trilinos/epetra.h"
 #include "algebra/trilinos/smoothed_aggregation.h"
 
-/* Only solver.c and solver_uses.c read it. */
+/* Only solver_run.c and solver_uses.c read it. */
 struct OstSolver {
     OstContext *ctx;
     const OstBlockMatrix *matrix;

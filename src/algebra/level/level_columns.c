@@ -108,8 +108,7 @@ void ost_level_matrix_add_columns(const OstLevelMatrix *matrix, float scale, Ost
 enum { TILE = 6 }; /* rows of a block at a time: a node's six, or two nodes' three */
 
 /* out = rows `from` on of value × in; the matrix is symmetric. */
-OST_UNROLLED void multiply_tile(int rows, int side, const float *value, const OstLightColumns *in,
-                                OstLightColumns *out)
+OST_UNROLLED void multiply_tile(int rows, int side, const float *value, const OstLightColumns *in, OstLightColumns *out)
 {
     OstLightColumns sum[TILE];
     for (int r = 0; r < rows; r++)

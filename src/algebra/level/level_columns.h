@@ -8,7 +8,8 @@
 
 /* What a level does with one vector (level_matrix.h, smoother_blocks.h, prolongator.h), with OST_COLUMNS side by side
  * (algebra/matrix/columns.h). They are in single precision, as the entries are: a register then holds all columns, and
- * an entry is read once for them. `one`: room for one vector of the length of x, or c, by which ghosts are exchanged. */
+ * an entry is read once for them. `one`: room for one vector of the length of x, or c, by which ghosts are exchanged.
+ */
 
 /* Collective over neighbours. y += scale A x. The matrix must not have a rest (ost_level_matrix_keep_rest). */
 void ost_level_matrix_add_columns(const OstLevelMatrix *matrix, float scale, OstLightColumns *x, OstLightColumns *y,

@@ -123,7 +123,8 @@ static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
     const int finest = quadratic ? 1 : 0; /* level of the linear tets */
     cycle->count = levels->count + finest;
     if (quadratic)
-        cycle->level[0] = (OstCycleLevel){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
+        cycle->level[0] =
+            (OstCycleLevel){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
     for (int l = 0; l < levels->count; l++)
         cycle->level[finest + l] = (OstCycleLevel){
             .matrix = levels->matrix[l], .smoother = levels->smoother[l], .prolongator = levels->prolongator[l]};

@@ -3,11 +3,13 @@
 #define ORTHOSTAT_ALGEBRA_MULTIGRID_CYCLE_DATA_H
 
 #include "algebra/multigrid/coarsest.h"
-#include "algebra/multigrid/cycle.h"
+#include "algebra/multigrid/levels.h"
+#include "algebra/multigrid/quadratic.h"
 #include "algebra/trilinos/cycle.h"
 
 enum { OST_COARSEST_SWEEPS = 10 }; /* where the coarsest level is smoothed; a fixed number keeps the cycle symmetric */
 
+typedef struct OstCycle OstCycle;
 typedef struct OstCycleColumns OstCycleColumns;
 
 /* A level, or the whole cycle; only cycle.c and cycle_columns.c read them. */
@@ -28,7 +30,7 @@ struct OstCycle {
     OstCoarsest *coarsest;
     int count; /* of levels, the quadratic one included */
     OstCycleLevel level[OST_MAX_LEVELS + 1];
-    OstMlCycle *ml;            /* NULL if there is only one level */
+    OstMlCycle *ml;           /* NULL if there is only one level */
     OstCycleColumns *columns; /* the same for several vectors; NULL before it is asked for */
 };
 

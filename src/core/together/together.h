@@ -14,8 +14,8 @@ typedef OstStatus OstServe(void *common, int count, void *const *request);
 
 enum { OST_MOST_TOGETHER = 8 };
 
-/* Collective. Runs the tasks 0 to count - 1, OST_MOST_TOGETHER at the most. Raises OST_OUT_OF_MEMORY, before any has begun, if there is no room for
- * their stacks. A task cannot begin others. */
+/* Collective. Runs the tasks 0 to count - 1, OST_MOST_TOGETHER at the most. Raises OST_OUT_OF_MEMORY, before any has
+ * begun, if there is no room for their stacks. A task cannot begin others. */
 OstStatus ost_together_run(OstContext *ctx, int count, void (*task)(void *data, int number), void *data);
 
 /* Inside a task: returns when the request has been served. Elsewhere it is served at once, alone. To be called by all

@@ -9,7 +9,8 @@
 typedef struct OstCompanion {
     const OstScene *scene; /* of the load case */
     unsigned fields;       /* asked for */
-    OstResult *result;     /* NULL: it did not come through, and is to be solved alone */
+    int is_tried;
+    OstResult *result; /* NULL: it did not come through, and is to be solved alone */
 } OstCompanion;
 
 /* Collective. May loadings of this analysis, which is made, be solved in company? By linear theory, multigrid, and

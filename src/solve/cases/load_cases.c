@@ -5,8 +5,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "problem/cases/load_case.h"
 #include "core/together/together.h"
+#include "problem/cases/load_case.h"
 #include "problem/scene_data.h"
 #include "solve/cases/company.h"
 
@@ -19,6 +19,7 @@ struct OstLoadCases {
     int made_for; /* the group of problem and analysis; -1: there are none */
     OstProblem *problem;
     OstAnalysis *analysis;
+    int alone;           /* has none of a company come through? */
     OstCompanion *ahead; /* of each: what it was solved for in the company of another, if it was */
 };
 
@@ -150,16 +151,18 @@ static void go_on(OstLoadCases *cases)
                 cases->next = k;
 }
 
-/* The next case and those that follow it with the same stiffness, each with what is asked of it. */
+/* The next case and those that follow it with the same stiffness, each with the fields that are to be expected: its
+ * own, unless the next one is asked for others than those. */
 static int choose_company(const OstLoadCases *cases, int most, unsigned fields, OstCompanion *companion, int *number)
 {
+    const int own = fields == ost_scene_result_fields(cases->scene[cases->next]);
     int count = 0;
     for (int k = cases->next; k < cases->count && count < most; k++) {
-        if (cases->is_done[k] || cases->group[k] != cases->group[cases->next] || cases->ahead[k].fields)
+        if (cases->is_done[k] || cases->group[k] != cases->group[cases->next] || cases->ahead[k].is_tried)
             continue;
         number[count] = k;
         companion[count++] = (OstCompanion){
-            .scene = cases->scene[k], .fields = k == cases->next ? fields : ost_scene_result_fields(cases->scene[k])};
+            .scene = cases->scene[k], .fields = own ? ost_scene_result_fields(cases->scene[k]) : fields, .is_tried = 1};
     }
     return count;
 }
@@ -175,8 +178,11 @@ static OstStatus solve_in_company(OstLoadCases *cases, unsigned fields)
     if (count < OST_FEWEST_COLUMNS)
         return OST_SUCCESS;
     OST_TRY(ost_company_solve(cases->analysis, count, companion));
-    for (int k = 0; k < count; k++)
+    cases->alone = 1;
+    for (int k = 0; k < count; k++) {
         cases->ahead[number[k]] = companion[k];
+        cases->alone &= !companion[k].result;
+    }
     return OST_SUCCESS;
 }
 
@@ -185,7 +191,7 @@ OstStatus ost_load_cases_solve(OstLoadCases *cases, unsigned fields, OstResult *
     OstCompanion *ahead = &cases->ahead[cases->next];
     OstStatus status = OST_SUCCESS;
     *result = NULL;
-    if (!ahead->fields && cases->left >= OST_FEWEST_COLUMNS) {
+    if (!ahead->is_tried && !cases->alone && cases->left >= OST_FEWEST_COLUMNS) {
         status = make_problem(cases);
         OST_THEN(ost_analysis_make_common(cases->analysis, fields));
         if (status == OST_SUCCESS && ost_company_suits(cases->analysis))

@@ -434,8 +434,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
-    ScaledStop stop = {
-        .ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
+    ScaledStop stop = {.ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
     double *scaled = NULL;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &stop.size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n : n)));
@@ -457,8 +456,12 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
                              OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows, m = (size_t)saddle->coupling->rows;
-    ScaledStop stop = {
-        .ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n, .p = saddle->p, .m = m};
+    ScaledStop stop = {.ctx = solver->ctx,
+                       .stop = {.ask = ask_user, .data = &stop},
+                       .user = solver->aim.stop,
+                       .n = n,
+                       .p = saddle->p,
+                       .m = m};
     double *scaled = NULL, size;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n + m : n + m)));
