@@ -52,6 +52,21 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
 
+/* The adjoint problem of a reaction, solved once for all loads on the same supports, by linear theory. */
+typedef struct OstAdjoint OstAdjoint;
+
+/* Collective. *adjoint is NULL where none can be found. Its equations are solved to an error of this share of z in the
+ * norm of the energy; 0: to the solver's residual. */
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const OstInterest *interest, double share,
+                             OstAdjoint **adjoint);
+void ost_adjoint_destroy(OstAdjoint **adjoint);
+
+/* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem. */
+OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error);
+
+/* Local. What z has beside the given motion, 3 × owned_nodes; 0 where that is. */
+const double *ost_adjoint_displacement(const OstAdjoint *adjoint);
+
 /* Collective. An estimate for another loading, which uses what this one keeps and is destroyed before it. Of linear
  * theory. */
 OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared);

@@ -51,6 +51,14 @@ static int watches_stress(const OstProblem *problem)
     return any && !problem->pressures;
 }
 
+static int watches_reaction(const OstProblem *problem)
+{
+    int any = 0;
+    for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++)
+        any |= problem->scene->c->watches[w].kind == OST_WATCH_REACTION;
+    return any;
+}
+
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
 {
     const OstMesh *mesh = result->mesh;
@@ -101,7 +109,20 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
     return OST_SUCCESS;
 }
 
-static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
+/* Of watched reactions, one for each quantity; along a path they would take an adjoint problem a step. */
+static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstLinear *linear = analysis->work;
+    if (!problem->scene || problem->scene->c->path_steps > 0)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
+    return ost_reactions_find(problem, estimate, linear->stiffness.solver, t, result->displacement,
+                              result->answer.relative, analysis->serves_several ? &analysis->reactions : NULL,
+                              result->reactions);
+}
+
+static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     OstContext *ctx = result->ctx;
     const OstLinear *linear = analysis->work;
@@ -116,6 +137,8 @@ static OstStatus estimate_tets(const OstAnalysis *analysis, OstEstimate *estimat
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known && asks_of_quantity(analysis->problem))
         OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
+    if (result->answer.known)
+        OST_TRY_DONE(estimate_reactions(analysis, estimate, t, result));
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
@@ -128,13 +151,14 @@ done:
     return status;
 }
 
-OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result)
+OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *result)
 {
     OstEstimate *estimate = NULL;
     OstProblem state = *analysis->problem; /* with the answer's pressure, if it has one */
     state.field = result->field;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    const int has_all = result->answer.known && !asks_of_quantity(analysis->problem);
+    const int has_all =
+        result->answer.known && !asks_of_quantity(analysis->problem) && !watches_reaction(analysis->problem);
     const int needs_own = !has_all && !analysis->estimate;
     OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
     OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));

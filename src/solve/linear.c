@@ -261,7 +261,8 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     OstErrors errors = {0};
-    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U);
+    const int may_stop = analysis->options.algebraic_fraction > 0.0 && (result->asked >> OST_FIELD_ERROR & 1U) &&
+                         ost_reactions_allow_stop(problem);
     result->checks.rigid_motion = linear->rigid_motion;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));

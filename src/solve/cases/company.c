@@ -43,6 +43,7 @@ OstStatus ost_company_most(OstContext *ctx, int *most)
 static void release(Member *member)
 {
     ost_solver_destroy(&member->linear.stiffness.solver);
+    ost_reactions_clear(&member->analysis.reactions);
     ost_estimate_destroy(&member->analysis.estimate);
     OST_FREE(member->linear.rhs);
     OST_FREE(member->linear.v);
@@ -79,6 +80,7 @@ static OstStatus join(const OstAnalysis *analysis, Member *member)
     member->linear.stiffness.solver = NULL;
     member->analysis = *analysis;
     member->analysis.problem = member->problem;
+    member->analysis.reactions = (OstReactions){0};
     member->analysis.work = &member->linear;
     member->analysis.options.algebraic_fraction = member->companion->scene->c->solver.algebraic_fraction;
     member->analysis.in_company = 1;
