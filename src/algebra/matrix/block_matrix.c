@@ -96,10 +96,10 @@ static OstStatus apply_all(void *common, int count, void *const *request)
         x[k] = ((const Product *)request[k])->x;
         y[k] = ((const Product *)request[k])->y;
     }
-    if (count >= OST_FEWEST_COLUMNS)
-        return apply_columns(common, count, x, y);
-    for (int k = 0; k < count; k++)
-        OST_TRY(apply_one(common, request[k]));
+    for (int k = 0, next = 1; k < count; k += next) {
+        next = ost_columns_next(count - k);
+        OST_TRY(next > 1 ? apply_columns(common, next, x + k, y + k) : apply_one(common, request[k]));
+    }
     return OST_SUCCESS;
 }
 

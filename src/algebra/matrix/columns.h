@@ -15,6 +15,12 @@ typedef float OstLightColumns __attribute__((vector_size(32), aligned(4), may_al
 /* Fewer than these are quicker one after another. */
 enum { OST_FEWEST_COLUMNS = 3 };
 
+/* Local. How many of `left` vectors are taken side by side next: 1 where they are quicker one after another. */
+static inline int ost_columns_next(int left)
+{
+    return left < OST_FEWEST_COLUMNS ? 1 : left < OST_COLUMNS ? left : OST_COLUMNS;
+}
+
 /* Local. Puts `count` vectors of n numbers side by side; the columns that are left are 0. */
 void ost_columns_pack(size_t n, int count, const double *const *vector, double *columns);
 

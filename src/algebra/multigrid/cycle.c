@@ -197,10 +197,11 @@ static OstStatus apply_all(void *common, int count, void *const *request)
         r[k] = ((const Request *)request[k])->r;
         z[k] = ((const Request *)request[k])->z;
     }
-    if (count >= OST_FEWEST_COLUMNS && ost_cycle_columns_fit(cycle))
-        return ost_cycle_columns_apply(cycle, count, r, z);
-    for (int k = 0; k < count; k++)
-        OST_TRY(apply_one(cycle, request[k]));
+    const int fit = ost_cycle_columns_fit(cycle);
+    for (int k = 0, next = 1; k < count; k += next) {
+        next = fit ? ost_columns_next(count - k) : 1;
+        OST_TRY(next > 1 ? ost_cycle_columns_apply(cycle, next, r + k, z + k) : apply_one(cycle, request[k]));
+    }
     return OST_SUCCESS;
 }
 

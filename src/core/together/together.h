@@ -12,7 +12,7 @@
 /* Serves requests of one kind. `common`: what they have in common, by which they are told from others. */
 typedef OstStatus OstServe(void *common, int count, void *const *request);
 
-enum { OST_MOST_TOGETHER = 8 };
+enum { OST_MOST_TOGETHER = 16 };
 
 /* Collective. Runs the tasks 0 to count - 1, OST_MOST_TOGETHER at the most. Raises OST_OUT_OF_MEMORY, before any has
  * begun, if there is no room for their stacks. A task cannot begin others. */
