@@ -35,32 +35,29 @@ int ost_block_factor(const double symmetric[6], double least, float factor[OST_P
 
 typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
 
-static inline Eight root(Eight x)
+/* 1 / root of the pivot, or of the least that it may be */
+static inline void invert_root(const Eight *pivot, const Eight *least, Eight *inverse)
 {
     for (int slot = 0; slot < WIDTH; slot++)
-        x[slot] = sqrtf(x[slot]);
-    return x;
-}
-
-static inline Eight larger(Eight a, Eight b)
-{
-    for (int slot = 0; slot < WIDTH; slot++)
-        a[slot] = a[slot] > b[slot] ? a[slot] : b[slot];
-    return a;
+        (*inverse)[slot] = 1.0F / sqrtf((*pivot)[slot] > (*least)[slot] ? (*pivot)[slot] : (*least)[slot]);
 }
 
 static inline void factor_eight(Eight a[6])
 {
-    const Eight one = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
-    const Eight n0 = one / root(a[0]), l10 = a[3] * n0, l20 = a[5] * n0;
-    const Eight n1 = one / root(larger(a[1] - l10 * l10, least_pivot * a[1])), l21 = (a[4] - l20 * l10) * n1;
-    const Eight n2 = one / root(larger(a[2] - l20 * l20 - l21 * l21, least_pivot * a[2]));
-    a[0] = n0;
-    a[1] = n1;
-    a[2] = n2;
-    a[3] = -l10 * n0 * n1;
-    a[4] = -l21 * n1 * n2;
-    a[5] = (l10 * l21 * n1 - l20) * n0 * n2;
+    Eight n[3], pivot = a[0], least = least_pivot * a[0];
+    invert_root(&pivot, &least, &n[0]);
+    const Eight l10 = a[3] * n[0], l20 = a[5] * n[0];
+    pivot = a[1] - l10 * l10;
+    least = least_pivot * a[1];
+    invert_root(&pivot, &least, &n[1]);
+    const Eight l21 = (a[4] - l20 * l10) * n[1];
+    pivot = a[2] - l20 * l20 - l21 * l21;
+    least = least_pivot * a[2];
+    invert_root(&pivot, &least, &n[2]);
+    memcpy(a, n, sizeof n);
+    a[3] = -l10 * n[0] * n[1];
+    a[4] = -l21 * n[1] * n[2];
+    a[5] = (l10 * l21 * n[1] - l20) * n[0] * n[2];
 }
 
 /* Are `WIDTH` functions from `first` on all there, free, and this rank's? */
@@ -109,19 +106,19 @@ OST_KERNEL void ost_blocks_factor(const OstComplement *complement, float *block)
 
 /* --- vectors --- */
 
-/* N r, and N'y. The fourth numbers are zeros, which shuffles put where a matrix has none. */
-static inline Four factor_times(const Four *diagonal, const Four *others, const Four *r)
+/* y = N r, and z = N'y. The fourth numbers are zeros, which shuffles put where a matrix has none. */
+static inline void multiply(const Four *diagonal, const Four *others, const Four *r, Four *y)
 {
-    return *diagonal * *r +
-           __builtin_shufflevector(*others, *others, 3, 0, 1, 3) * __builtin_shufflevector(*r, *r, 3, 0, 1, 3) +
-           __builtin_shufflevector(*others, *others, 3, 3, 2, 3) * __builtin_shufflevector(*r, *r, 3, 3, 0, 3);
+    *y = *diagonal * *r +
+         __builtin_shufflevector(*others, *others, 3, 0, 1, 3) * __builtin_shufflevector(*r, *r, 3, 0, 1, 3) +
+         __builtin_shufflevector(*others, *others, 3, 3, 2, 3) * __builtin_shufflevector(*r, *r, 3, 3, 0, 3);
 }
 
-static inline Four transposed_times(const Four *diagonal, const Four *others, const Four *y)
+static inline void multiply_transposed(const Four *diagonal, const Four *others, const Four *y, Four *z)
 {
-    return *diagonal * *y +
-           __builtin_shufflevector(*others, *others, 0, 1, 3, 3) * __builtin_shufflevector(*y, *y, 1, 2, 3, 3) +
-           __builtin_shufflevector(*others, *others, 2, 3, 3, 3) * __builtin_shufflevector(*y, *y, 2, 3, 3, 3);
+    *z = *diagonal * *y +
+         __builtin_shufflevector(*others, *others, 0, 1, 3, 3) * __builtin_shufflevector(*y, *y, 1, 2, 3, 3) +
+         __builtin_shufflevector(*others, *others, 2, 3, 3, 3) * __builtin_shufflevector(*y, *y, 2, 3, 3, 3);
 }
 
 static inline double total(const Four *sum)
@@ -143,7 +140,9 @@ OST_KERNEL void ost_blocks_step(size_t count, const float *factor, double length
             const Four of_q = *(const Four *)(q + at), left = *(Four *)(r + at) - by * of_q;
             *(Four *)(e + at) += by * *(const Four *)(p + at);
             *(Four *)(r + at) = left;
-            const Four y = factor_times(&n[0], &n[1], &left), z = transposed_times(&n[0], &n[1], &y);
+            Four y, z;
+            multiply(&n[0], &n[1], &left, &y);
+            multiply_transposed(&n[0], &n[1], &y, &z);
             rz += y * y;
             qz += of_q * z;
         }
@@ -157,9 +156,10 @@ OST_KERNEL void ost_blocks_turn(size_t count, const float *factor, const float *
     const Four by = {(float)share, (float)share, (float)share, (float)share};
     for (size_t k = 0; k < count; k++) {
         const Four *n = (const Four *)(factor + OST_PER_BLOCK * k);
-        const Four y = factor_times(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k));
-        Four *to = (Four *)(p + OST_PER_FUNCTION * k);
-        *to = transposed_times(&n[0], &n[1], &y) + by * *to;
+        Four y, z, *to = (Four *)(p + OST_PER_FUNCTION * k);
+        multiply(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k), &y);
+        multiply_transposed(&n[0], &n[1], &y, &z);
+        *to = z + by * *to;
     }
 }
 

@@ -3,13 +3,12 @@
 #define ORTHOSTAT_ALGEBRA_SOLVER_DATA_H
 
 #include "algebra/direct/direct.h"
+#include "algebra/matrix/geometry.h"
 #include "algebra/multigrid/metric.h"
-#include "algebra/solver.h"
-#include "algebra/solver_plan.h"
+#include "algebra/solver_aim.h"
 #include "algebra/trilinos/epetra.h"
 #include "algebra/trilinos/smoothed_aggregation.h"
 
-/* Only solver_run.c and solver_uses.c read it. */
 struct OstSolver {
     OstContext *ctx;
     const OstBlockMatrix *matrix;
@@ -26,6 +25,7 @@ struct OstSolver {
     OstSmoothedAggregation *plain; /* one of these three is set up */
     OstMetric *metric;
     OstDirect *direct;
+    OstSaddleFactors *whole; /* beside `direct`, of a mixed form's both equations; NULL if there are none */
     OstEpetraMap *map;
     double nonzeros;         /* of the matrix, over all ranks */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
@@ -35,7 +35,18 @@ struct OstSolver {
     OstSolveStep step[OST_MAX_STEPS];
 };
 
-/* Local. The system that the current strategy iterates on, and its preconditioner. */
+/* Local. What the current strategy iterates on, and its preconditioner. */
 void ost_solver_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner);
+
+/* Local. Has the current strategy one? Factors of both equations of a mixed form alone are none of A. */
+int ost_solver_has_preconditioner(const OstSolver *solver);
+
+/* Collective. Sets up solver->direct. Where A cannot be factored, as it is indefinite, but both equations of the aim's
+ * mixed form can, and the second holds what A does not, solver->whole takes its place. */
+OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
+
+/* Collective. Improves u and the pressures of solver->saddle by the current strategy, as ost_saddle_solve. */
+OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,
+                                   OstSolveReport *report);
 
 #endif

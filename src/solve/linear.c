@@ -37,6 +37,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     OstProblem *problem = analysis->problem;
     OST_TRY(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     ost_problem_release_scatter(problem);
+    OST_TRY(ost_problem_fold_stiffness(problem));
     OstLinear *linear = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &linear, 1)));
     analysis->work = linear;
@@ -49,6 +50,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
+    ost_row_geometry_lend(&linear->stiffness.rows);
     return ost_guard_stiffness(problem, linear->stiffness.rows.modes, &linear->rigid_motion, before);
 }
 

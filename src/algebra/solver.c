@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "algebra/solver_data.h"
+#include "algebra/solver.h"
 
 #include "algebra/krylov/cg.h"
+#include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
+#include "algebra/solver_data.h"
 #include "algebra/solver_options.h"
-#include "algebra/trilinos/epetra.h"
+#include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -36,6 +38,7 @@ static void destroy_strategy(OstSolver *solver)
     ost_smoothed_aggregation_destroy(&solver->plain);
     ost_metric_destroy(&solver->metric);
     ost_direct_destroy(&solver->direct);
+    ost_saddle_factors_destroy(&solver->whole);
     solver->method = OST_METHOD_AUTO;
 }
 
@@ -49,10 +52,11 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
         ost_metric_strengthen(solver->metric, options);
     } else {
         destroy_strategy(solver);
+        OST_TRY(ost_geometry_renew(&solver->geometry));
         if (options->method == OST_METHOD_PLAIN)
             status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
         else if (options->method == OST_METHOD_DIRECT)
-            status = ost_direct_create(solver->matrix, options->factor_memory, &solver->direct);
+            status = ost_solver_factor_direct(solver, options->factor_memory);
         else
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
@@ -61,23 +65,11 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
     return status;
 }
 
-static OstStatus improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
-{
-    OstPreconditioner preconditioner;
-    OstCgSystem system;
-    ost_solver_system(solver, &system, &preconditioner);
-    if (solver->metric)
-        ost_metric_report(solver->metric, report);
-    snprintf(report->engine, sizeof report->engine, "Bramble-Pasciak CG, %s",
-             solver->direct ? "MUMPS factors" : "ML cycle");
-    return ost_saddle_solve(&system, &preconditioner, solver->saddle, f, u, goal, report);
-}
-
 /* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
 static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     if (solver->saddle)
-        return improve_mixed(solver, f, u, goal, report);
+        return ost_solver_improve_mixed(solver, f, u, goal, report);
     if (solver->metric)
         return ost_metric_improve(solver->metric, f, u, goal, report);
     if (solver->direct)
@@ -179,10 +171,10 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
 {
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
-    OstStatus status = find_misalignment(solver, &facts);
+    OstStatus status = OST_SUCCESS;
     solver->steps = 0;
-    if (status != OST_SUCCESS)
-        return status;
+    OST_TRY(ost_geometry_renew(&solver->geometry));
+    OST_TRY(find_misalignment(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
     if (may_change(solver) && solver->aim.first > solver->plan.first)
         solver->plan.first = solver->aim.first;
@@ -237,10 +229,10 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    if (!(*solver)->is_shared)
+    if (!(*solver)->is_shared) {
         destroy_strategy(*solver);
-    if (!(*solver)->is_shared)
         ost_epetra_map_destroy(&(*solver)->map);
+    }
     OST_FREE(*solver);
 }
 
@@ -507,4 +499,48 @@ OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, con
 OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     return ost_solver_solve_mixed(solver, NULL, f, u, report);
+}
+
+OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    *found = 0;
+    if (!ost_solver_has_preconditioner(solver) || !(solver->smallest > 0.0))
+        return OST_SUCCESS;
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    ost_solver_system(solver, &system, &preconditioner);
+    const OstStatus status =
+        ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
+    ost_ledger_leave(solver->ctx);
+    return status;
+}
+
+OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found)
+{
+    OstCgSystem system;
+    OstPreconditioner preconditioner;
+    double *scaled = NULL;
+    *found = ost_solver_has_preconditioner(solver);
+    if (!*found)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
+    ost_solver_system(solver, &system, &preconditioner);
+    const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
+    OST_FREE(scaled);
+    return status;
+}
+
+int ost_solver_shares(const OstSolver *solver)
+{
+    return solver->metric != NULL;
+}
+
+OstStatus ost_solver_share(const OstSolver *solver, OstSolver **shared)
+{
+    OST_TRY(OST_NEW(solver->ctx, shared, 1));
+    **shared = *solver;
+    (*shared)->is_shared = 1;
+    (*shared)->aim = (OstSolverAim){0};
+    return OST_SUCCESS;
 }
