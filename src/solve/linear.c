@@ -241,9 +241,9 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     OstSolveStop stop;
     state.field = result->field;
     OST_TRY(ost_result_allow_error(problem, result));
-    OST_TRY(ost_solve_stop_open(
-        &state, linear->stiffness.solver, analysis->options.algebraic_fraction, analysis->estimate,
-        &(OstSurplus){result->tet_error, result->surplus, result->stress_surplus}, &result->answer, &stop));
+    const OstSurplus surplus = ost_result_surplus(result);
+    OST_TRY(ost_solve_stop_open(&state, linear->stiffness.solver, analysis->options.algebraic_fraction,
+                                analysis->estimate, &surplus, &result->answer, &stop));
     const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
     ost_solve_stop_close(&stop);
     return solved;

@@ -48,7 +48,7 @@ static void find_own(List *list, OstGlobal first)
 {
     const OstDoubleMatrix *matrix = list->matrix;
     const OstCoupling *coupling = list->coupling;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < matrix->rows; i++) {
         list->u_number[i] = first + 3 * (OstGlobal)i;
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
@@ -92,7 +92,7 @@ static void add(OstMumpsEntries *entries, OstGlobal row, OstGlobal column, doubl
 static void list_stiffness(List *list)
 {
     const OstDoubleMatrix *matrix = list->matrix;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const OstLocal j = matrix->column[k];
