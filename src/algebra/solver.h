@@ -56,9 +56,10 @@ OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupli
 
 /* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the
  * solver was last built with, of whatever matrix that was: A may be indefinite, S unsymmetric. The report has method,
- * iterations and ||M^-1 r|| / ||M^-1 f||, which may be larger than `relative` after many iterations. */
-OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
-                                       const double *f, double *u, OstSolveReport *report);
+ * iterations and ||M^-1 r|| / ||M^-1 f||, which may be larger than `relative` after many iterations. `saddle`: what
+ * stands beside A in a mixed form, or NULL; the further part then has u and p. */
+OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,
+                                       double relative, const double *f, double *u, OstSolveReport *report);
 
 /* Collective, after ost_solver_solve. The error that this residual leaves in u, by the strategy that the solve ended
  * with (ost_error_of_residual; account OST_LEDGER_SOLVE). *found: 0 also if that strategy's eigenvalues are not known.

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/saddle/unsymmetric.h"
 #include "algebra/solver.h"
 #include "algebra/solver_data.h"
 #include "core/error.h"
@@ -77,28 +78,35 @@ OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u
     return ost_saddle_solve(&system, &preconditioner, solver->saddle, f, u, goal, report);
 }
 
-static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,
-                                   double *u, OstSolveReport *report)
+static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,
+                                   double relative, const double *f, double *u, OstSolveReport *report)
 {
     OstCgSystem system;
     OstPreconditioner preconditioner;
-    if (!ost_solver_has_preconditioner(solver))
+    int *iterations = &report->iterations;
+    double *residual = &report->relative_residual;
+    if (saddle && solver->method == OST_METHOD_DIRECT)
+        OST_TRY(factor_both(solver, saddle->coupling));
+    if (!ost_solver_has_preconditioner(solver) && !solver->whole)
         return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
     ost_solver_system(solver, &system, &preconditioner);
     report->method = solver->method;
-    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s", solver->direct ? "MUMPS factors" : "ML cycle");
-    return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, &report->iterations,
-                           &report->relative_residual);
+    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s",
+             solver->method == OST_METHOD_DIRECT ? "MUMPS factors" : "ML cycle");
+    if (saddle)
+        return ost_saddle_solve_unsymmetric(&system, &preconditioner, solver->whole, saddle, further, relative, f, u,
+                                            iterations, residual);
+    return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, iterations, residual);
 }
 
-OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
-                                       const double *f, double *u, OstSolveReport *report)
+OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,
+                                       double relative, const double *f, double *u, OstSolveReport *report)
 {
     memset(report, 0, sizeof *report);
     report->plan = solver->plan;
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
     const double start = ost_seconds();
-    const OstStatus status = solve_unsymmetric(solver, further, relative, f, u, report);
+    const OstStatus status = solve_unsymmetric(solver, saddle, further, relative, f, u, report);
     report->setup_seconds = solver->setup_seconds;
     report->solve_seconds = ost_seconds() - start;
     ost_ledger_leave(solver->ctx);

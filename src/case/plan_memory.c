@@ -8,10 +8,11 @@
 /* Bytes at the peak of a run, when the solver is made or solves. Where arrays follow from the data structures (of
  * mesh.h, block_matrix.h, level_matrix.h, prolongator.h) their sizes are stated; the rest, marked as measured, is
  * fitted to the ledgers of tubes, blocks, beams and octants with 1 to 30 hexes across. */
-static const double block_bytes = 72.0 + 4.0;                /* nine doubles and a column */
-static const double row_bytes = 8.0 + 4.0 + 4.0 + 4.0 + 4.0; /* label, start, diagonal, both maps of nodes and rows */
-static const double node_bytes = 96.0;                       /* displacement, load, supports, free motions */
-static const double vectors = 9.0;                           /* of three doubles a node, in the solver and around it */
+static const double block_bytes = 72.0 + 4.0;     /* nine doubles and a column */
+static const double left_block_bytes = 4.0 + 4.0; /* left of the diagonal: a column, and where its transpose is */
+static const double row_bytes = 8.0 + 5.0 * 4.0;  /* label, start, diagonal twice, both maps of nodes and rows */
+static const double node_bytes = 96.0;            /* displacement, load, supports, free motions */
+static const double vectors = 9.0;                /* of three doubles a node, in the solver and around it */
 
 /* The mesh, its halo and its surface, for each vertex, tet and face on the surface; quadratic tets have their edges'
  * nodes on top. Measured. */
@@ -22,18 +23,18 @@ static const struct {
 /* Multigrid. Of a node of linear tets: half the blocks in single precision with their column; diagonal, smoother's
  * factors and vectors; more, measured, with each aggregate: a row of the coarse matrix, and columns of the prolongator.
  */
-static const double half_block_bytes = 40.0, smoother_bytes = 360.0;
+static const double half_block_bytes = 40.0, smoother_bytes = 264.0;
 static const double prolongator_bytes = 370.0, column_bytes = 76.0;
 /* An aggregate has as many bytes far from the surface, and as many less at a wall of one hex (see thinness). */
 static const double aggregate_bytes = 8.5e3, aggregate_inside = 32e3, aggregate_decay = 1.4;
 static const double single_coarse = 0.72; /* of that, where there is one coarse level */
-static const double quadratic_node_bytes = 690.0;
+static const double quadratic_node_bytes = 480.0;
 
-/* While it is made: the coarse matrix in double precision and its sums, for each node; smaller aggregates have more of
- * it. Measured. */
-static const double galerkin_bytes = 80.0, galerkin_inside = 700.0, galerkin_decay = 1.5;
+/* While it is made: one triangle of the coarse matrix in double precision, for each node; smaller aggregates have more
+ * of it. Measured. */
+static const double galerkin_bytes = 40.0, galerkin_inside = 300.0, galerkin_decay = 1.5;
 static const double galerkin_power = 1.7, usual_aggregate = 38.0;
-static const double quadratic_transient = 380.0;
+static const double quadratic_transient = 200.0;
 
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
@@ -141,7 +142,8 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
         node_bytes * counts->nodes +
         halo_factor(counts->nodes, ranks) * (mesh_bytes[q].vertex * counts->vertices +
                                              mesh_bytes[q].tet * counts->tets + mesh_bytes[q].face * counts->surface);
-    plan->bytes_matrix = counts->blocks * block_bytes + counts->nodes * row_bytes;
+    const double left = 0.5 * (counts->blocks - counts->nodes); /* of the diagonal */
+    plan->bytes_matrix = (counts->blocks - left) * block_bytes + left * left_block_bytes + counts->nodes * row_bytes;
     if (plan->solver.first != OST_METHOD_DIRECT && plan->solver.first != OST_METHOD_PLAIN)
         foretell_hierarchy(plan, ranks, &plan->levels);
     plan->bytes_solver = solver_bytes(plan);

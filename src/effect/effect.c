@@ -38,7 +38,7 @@ static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
 static void varying_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->varying > 0)
-        on(state, 72.0 * f->tets, "%s", f->varying_reason);
+        on(state, 32.0 * f->tets, "%s", f->varying_reason);
     else
         off(state, f->orthotropic > 0 ? "the axes are uniform in each region" : "an isotropic body needs no axes");
 }

@@ -389,8 +389,12 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
         OST_TRY(make_pattern(problem));
     OstBlockMatrix *matrix = problem->system->matrix;
     const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
-    if (fills || stiffness)
-        OST_TRY(ost_agree(problem->ctx, ost_block_matrix_unfold(matrix)));
+    if (fills || stiffness) {
+        ost_ledger_enter(problem->ctx, OST_LEDGER_PATTERN);
+        const OstStatus status = ost_block_matrix_unfold(matrix);
+        ost_ledger_leave(problem->ctx);
+        OST_TRY(ost_agree(problem->ctx, status));
+    }
     if (fills && !problem->system->block_of_tet)
         OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
     if (fills)

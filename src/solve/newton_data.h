@@ -116,6 +116,9 @@ OstStatus ost_newton_move_volume(OstNewton *newton, const double *displaced, dou
 /* Collective. The norm of both residuals, in forces. */
 OstStatus ost_newton_mixed_norm(const OstNewton *newton, double *norm);
 
+/* Local. The second equation of a linear system for the correction; empty without pressures. */
+OstSaddle ost_newton_saddle(const OstNewton *newton, const double *rhs);
+
 /* Collective. Solves both equations for newton->correction. */
 OstStatus ost_newton_solve_mixed(OstNewton *newton, const double *rhs);
 

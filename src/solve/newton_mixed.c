@@ -53,8 +53,15 @@ OstStatus ost_newton_mixed_norm(const OstNewton *newton, double *norm)
     return ost_saddle_size(problem->system->matrix, &saddle, newton->residual, norm);
 }
 
+OstSaddle ost_newton_saddle(const OstNewton *newton, const double *rhs)
+{
+    if (!ost_newton_is_mixed(newton))
+        return (OstSaddle){0};
+    return (OstSaddle){newton->problem->coupling, rhs + unknowns(newton), newton->correction + unknowns(newton)};
+}
+
 OstStatus ost_newton_solve_mixed(OstNewton *newton, const double *rhs)
 {
-    const OstSaddle saddle = {newton->problem->coupling, rhs + unknowns(newton), newton->correction + unknowns(newton)};
+    const OstSaddle saddle = ost_newton_saddle(newton, rhs);
     return ost_solver_solve_mixed(newton->stiffness->solver, &saddle, rhs, newton->correction, &newton->solve);
 }

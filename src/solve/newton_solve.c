@@ -113,7 +113,7 @@ OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, d
  * part. GMRES solves with it, preconditioned by the definite stiffness of some earlier state. */
 typedef struct Skew {
     OstNewton *newton;
-    double *moved;   /* 3 × node_count */
+    double *moved;   /* newton->count */
     double *product; /* 3 × owned_nodes */
 } Skew;
 
@@ -143,11 +143,12 @@ static OstStatus solve_skew(OstNewton *newton, double forcing, const double *rhs
     const OstMesh *mesh = newton->problem->mesh;
     Skew skew = {.newton = newton};
     const OstFurtherPart further = {.data = &skew, .add = add_skew};
-    OstStatus status = OST_NEW(newton->ctx, &skew.moved, 3 * (size_t)mesh->node_count);
+    const OstSaddle mixed = ost_newton_saddle(newton, rhs);
+    OstStatus status = OST_NEW(newton->ctx, &skew.moved, newton->count);
     OST_THEN(OST_NEW(newton->ctx, &skew.product, 3 * (size_t)mesh->owned_nodes));
     status = ost_agree(newton->ctx, status);
-    OST_THEN(ost_solver_solve_unsymmetric(newton->stiffness->solver, &further, forcing, rhs, newton->correction,
-                                          &newton->solve));
+    OST_THEN(ost_solver_solve_unsymmetric(newton->stiffness->solver, mixed.coupling ? &mixed : NULL, &further, forcing,
+                                          rhs, newton->correction, &newton->solve));
     OST_FREE(skew.moved);
     OST_FREE(skew.product);
     return status;

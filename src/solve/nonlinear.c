@@ -41,8 +41,7 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
 
 int ost_nonlinear_may_be_mixed(const OstProblem *problem)
 {
-    return problem->beyond_linear == OST_FORMULATION_LINEAR ||
-           (problem->beyond_linear == OST_FORMULATION_CONSISTENT && problem->conservative);
+    return problem->beyond_linear != OST_FORMULATION_CLASSICAL;
 }
 
 /* The state without load, and what the linear solution predicts. */
@@ -59,7 +58,7 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
     return OST_SUCCESS;
 }
 
-/* Without an energy Newton's method has no mixed form: it goes on with the mean dilatation, and a solver of that
+/* The classical formulation has no mixed form: Newton's method goes on with the mean dilatation, and a solver of that
  * stiffness. */
 static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
 {

@@ -10,46 +10,27 @@
 /* Iterations, for each of which GMRES keeps a vector: it does not start anew. */
 enum { MOST = 100 };
 
+/* AztecOO cannot pass on the first failure inside a callback. */
 typedef struct Gmres {
-    const OstCgSystem *system;
-    const OstPreconditioner *preconditioner;
-    const OstFurtherPart *further;
-    size_t n;
-    double *product;  /* n */
-    double *unscaled; /* with room for ghosts */
-    OstStatus status; /* the first failure inside a callback: AztecOO cannot pass it on */
+    const OstGmresSystem *system;
+    OstStatus status;
 } Gmres;
-
-/* y = M^-1 S (A + further) S^T p */
-static OstStatus apply(Gmres *gmres, const double *p, double *y)
-{
-    const OstScaling *scaling = gmres->system->scaling;
-    if (scaling)
-        ost_scaling_from_scaled(scaling, p, gmres->unscaled);
-    else if (gmres->n > 0)
-        memcpy(gmres->unscaled, p, gmres->n * sizeof *p);
-    OST_TRY(ost_block_matrix_apply(gmres->system->matrix, gmres->unscaled, gmres->product));
-    OST_TRY(gmres->further->add(gmres->further->data, gmres->unscaled, gmres->product));
-    if (scaling)
-        ost_scaling_to_scaled(scaling, gmres->product, gmres->product);
-    return gmres->preconditioner->apply(gmres->preconditioner->data, gmres->product, y);
-}
 
 static void multiply(double *p, double *y, AZ_MATRIX *matrix, int *configuration)
 {
     Gmres *gmres = AZ_get_matvec_data(matrix);
     (void)configuration;
     if (gmres->status == OST_SUCCESS)
-        gmres->status = apply(gmres, p, y);
+        gmres->status = gmres->system->apply(gmres->system->data, p, y);
     if (gmres->status != OST_SUCCESS)
-        memset(y, 0, gmres->n * sizeof *y);
+        memset(y, 0, gmres->system->n * sizeof *y);
 }
 
 static void iterate(Gmres *gmres, double relative, double *b, double *x, double *outcome)
 {
     int configuration[AZ_PROC_SIZE], options[AZ_OPTIONS_SIZE];
     double parameters[AZ_PARAMS_SIZE];
-    AZ_set_proc_config(configuration, ost_comm(gmres->system->matrix->ctx));
+    AZ_set_proc_config(configuration, ost_comm(gmres->system->ctx));
     AZ_defaults(options, parameters);
     options[AZ_solver] = AZ_gmres;
     options[AZ_precond] = AZ_none;
@@ -59,44 +40,79 @@ static void iterate(Gmres *gmres, double relative, double *b, double *x, double 
     options[AZ_kspace] = MOST;
     options[AZ_max_iter] = MOST;
     parameters[AZ_tol] = relative;
-    AZ_MATRIX *matrix = AZ_matrix_create((int)gmres->n);
+    AZ_MATRIX *matrix = AZ_matrix_create((int)gmres->system->n);
     AZ_set_MATFREE(matrix, gmres, multiply);
     AZ_iterate(x, b, options, parameters, outcome, configuration, matrix, NULL, NULL);
     AZ_matrix_destroy(&matrix);
 }
 
-/* M^-1 S f */
-static OstStatus precondition(Gmres *gmres, const double *f, double *b)
+OstStatus ost_gmres_iterate(const OstGmresSystem *system, double relative, double *b, double *x, int *iterations,
+                            double *residual)
 {
-    if (gmres->system->scaling)
-        ost_scaling_to_scaled(gmres->system->scaling, f, gmres->product);
-    else if (gmres->n > 0)
-        memcpy(gmres->product, f, gmres->n * sizeof *f);
-    return gmres->preconditioner->apply(gmres->preconditioner->data, gmres->product, b);
+    Gmres gmres = {.system = system};
+    double outcome[AZ_STATUS_SIZE] = {0};
+    OST_TRY(ost_memory_foresee(system->ctx, (double)((MOST + 4) * system->n * sizeof(double)), "AztecOO's GMRES"));
+    memset(x, 0, system->n * sizeof *x);
+    iterate(&gmres, relative, b, x, outcome);
+    *iterations = (int)outcome[AZ_its];
+    *residual = outcome[AZ_scaled_r];
+    return gmres.status;
+}
+
+/* A symmetric matrix with a further part. */
+typedef struct Further {
+    const OstCgSystem *system;
+    const OstPreconditioner *preconditioner;
+    const OstFurtherPart *part;
+    size_t n;
+    double *product;  /* n */
+    double *unscaled; /* with room for ghosts */
+} Further;
+
+/* y = M^-1 S (A + part) S^T p */
+static OstStatus apply(void *data, const double *p, double *y)
+{
+    const Further *further = data;
+    const OstScaling *scaling = further->system->scaling;
+    if (scaling)
+        ost_scaling_from_scaled(scaling, p, further->unscaled);
+    else if (further->n > 0)
+        memcpy(further->unscaled, p, further->n * sizeof *p);
+    OST_TRY(ost_block_matrix_apply(further->system->matrix, further->unscaled, further->product));
+    OST_TRY(further->part->add(further->part->data, further->unscaled, further->product));
+    if (scaling)
+        ost_scaling_to_scaled(scaling, further->product, further->product);
+    return further->preconditioner->apply(further->preconditioner->data, further->product, y);
+}
+
+/* M^-1 S f */
+static OstStatus precondition(const Further *further, const double *f, double *b)
+{
+    if (further->system->scaling)
+        ost_scaling_to_scaled(further->system->scaling, f, further->product);
+    else if (further->n > 0)
+        memcpy(further->product, f, further->n * sizeof *f);
+    return further->preconditioner->apply(further->preconditioner->data, further->product, b);
 }
 
 OstStatus ost_gmres_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner,
-                          const OstFurtherPart *further, double relative, const double *f, double *u, int *iterations,
+                          const OstFurtherPart *part, double relative, const double *f, double *u, int *iterations,
                           double *residual)
 {
     const OstBlockMatrix *matrix = system->matrix;
     OstContext *ctx = matrix->ctx;
     const size_t n = 3 * (size_t)matrix->rows;
-    Gmres gmres = {.system = system, .preconditioner = preconditioner, .further = further, .n = n};
-    double outcome[AZ_STATUS_SIZE] = {0}, *right_side = NULL;
+    Further further = {.system = system, .preconditioner = preconditioner, .part = part, .n = n};
+    const OstGmresSystem gmres = {.ctx = ctx, .n = n, .data = &further, .apply = apply};
+    double *right_side = NULL;
     OstStatus status;
-    OST_TRY(ost_memory_foresee(ctx, (double)((MOST + 4) * n * sizeof(double)), "AztecOO's GMRES"));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &right_side, 2 * n + 3 * (size_t)matrix->columns)));
-    gmres.product = right_side + n;
-    gmres.unscaled = right_side + 2 * n;
-    memset(u, 0, n * sizeof *u);
-    OST_TRY_DONE(precondition(&gmres, f, right_side));
-    iterate(&gmres, relative, right_side, u, outcome);
-    OST_TRY_DONE(gmres.status);
+    further.product = right_side + n;
+    further.unscaled = right_side + 2 * n;
+    OST_TRY_DONE(precondition(&further, f, right_side));
+    OST_TRY_DONE(ost_gmres_iterate(&gmres, relative, right_side, u, iterations, residual));
     if (system->scaling)
         ost_scaling_from_scaled(system->scaling, u, u);
-    *iterations = (int)outcome[AZ_its];
-    *residual = outcome[AZ_scaled_r];
 done:
     OST_FREE(right_side);
     return status;

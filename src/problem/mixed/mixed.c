@@ -14,7 +14,8 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(ost_problem_function_displacement(problem, function, none, prescribed));
     ost_ledger_enter(problem->ctx, OST_EFFECT_MIXED);
-    status = ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR, share, prescribed, g, NULL);
+    status =
+        ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR, share, prescribed, g, NULL);
     ost_ledger_leave(problem->ctx);
     for (OstLocal i = 0; i < problem->pressures->owned; i++)
         g[i] = -g[i];
@@ -68,9 +69,8 @@ OstStatus ost_problem_leave_mixed(OstProblem *problem)
     const int region = ost_field_incompressible(problem->field);
     if (region >= 0)
         return OST_RAISE(problem->ctx, OST_INVALID_INPUT,
-                         "material '%s' is incompressible (nu = 1/2), and rotations are large here, which pressure on "
-                         "a surface with a free rim and formulation: classical can follow only below 1/2, as 0.4999; "
-                         "or say large_rotation: off, for linear theory",
+                         "material '%s' is incompressible (nu = 1/2), and rotations are large here, which formulation: "
+                         "classical can follow only below 1/2, as 0.4999; set formulation: consistent",
                          problem->field->material[region].name);
     ost_problem_release_stiffness(problem);
     ost_pressure_space_destroy(&problem->pressures);
