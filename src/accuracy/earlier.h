@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_EARLIER_H
 #define ORTHOSTAT_ACCURACY_EARLIER_H
 
-#include "accuracy/enriched.h"
+#include "accuracy/complement/complement.h"
 #include "orthostat/context.h"
 
 enum { OST_MOST_EARLIER = 8 };

@@ -32,11 +32,13 @@ void ost_estimate_destroy(OstEstimate **estimate)
 {
     if (!*estimate)
         return;
-    ost_light_tets_destroy(&(*estimate)->stiffness.light);
     ost_surplus_loads_clear(&(*estimate)->loads);
-    ost_complement_clear(&(*estimate)->complement);
-    OST_FREE((*estimate)->factor);
-    ost_earlier_destroy(&(*estimate)->earlier);
+    if (!(*estimate)->is_shared) {
+        ost_light_tets_destroy(&(*estimate)->stiffness.light);
+        ost_complement_clear(&(*estimate)->complement);
+        OST_FREE((*estimate)->factor);
+        ost_earlier_destroy(&(*estimate)->earlier);
+    }
     OST_FREE(*estimate);
 }
 
@@ -109,6 +111,19 @@ OstStatus ost_estimate_create(const OstProblem *problem, OstEstimate **estimate)
     if (status != OST_SUCCESS)
         ost_estimate_destroy(estimate);
     return status;
+}
+
+OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared)
+{
+    if (problem->scene)
+        OST_TRY(ost_search_move(estimate, NULL));
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, shared, 1)));
+    **shared = *estimate;
+    (*shared)->problem = (*shared)->stiffness.problem = problem;
+    (*shared)->is_shared = 1;
+    (*shared)->loads = (OstSurplusLoads){0};
+    (*shared)->earlier = NULL;
+    return problem->scene ? ost_surplus_loads_create(problem, &estimate->complement, &(*shared)->loads) : OST_SUCCESS;
 }
 
 /* --- the error --- */

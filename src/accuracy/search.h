@@ -25,6 +25,7 @@ typedef struct Tails {
 
 typedef struct OstEstimate {
     const OstProblem *problem;
+    int is_shared; /* is all but the loads another's? */
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_STEPS_H
 #define ORTHOSTAT_ACCURACY_STEPS_H
 
-#include "accuracy/enriched.h"
+#include "accuracy/complement/complement.h"
 #include "accuracy/operator.h"
 #include "algebra/solver.h"
 

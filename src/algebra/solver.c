@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@
 /* May the solver take another strategy? Not if the user has chosen the method. */
 static int may_change(const OstSolver *solver)
 {
-    return solver->plan.options.method == OST_METHOD_AUTO;
+    return solver->plan.options.method == OST_METHOD_AUTO && !solver->is_shared;
 }
 
 /* Records how a strategy ended. If there are too many, the last place is overwritten, so that the final one is there.
@@ -93,13 +94,13 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
 {
     OstSolverOptions options;
     for (;; method++) {
-        const double start = ost_seconds();
+        const double start = ost_own_seconds(solver->ctx);
         ost_solver_strategy_options(&solver->plan.options, method, &options);
         options.precise = solver->precise;
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = set_up(solver, &options);
         ost_ledger_leave(solver->ctx);
-        solver->strategy_seconds = ost_seconds() - start;
+        solver->strategy_seconds = ost_own_seconds(solver->ctx) - start;
         solver->setup_seconds += solver->strategy_seconds;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
@@ -228,8 +229,10 @@ void ost_solver_destroy(OstSolver **solver)
 {
     if (!*solver)
         return;
-    destroy_strategy(*solver);
-    ost_epetra_map_destroy(&(*solver)->map);
+    if (!(*solver)->is_shared) {
+        destroy_strategy(*solver);
+        ost_epetra_map_destroy(&(*solver)->map);
+    }
     OST_FREE(*solver);
 }
 
@@ -256,7 +259,7 @@ done:
 /* Improves u by the current strategy. */
 static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const double start = ost_seconds();
+    const double start = ost_own_seconds(solver->ctx);
     const int before = goal->iterations;
     const OstStatus status = improve(solver, f, u, goal, report);
     const char *outcome = status != OST_SUCCESS          ? ost_error_text(solver->ctx)
@@ -267,9 +270,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     step->iterations = goal->iterations - before;
     step->factor = step->iterations > 0 ? ost_convergence_whole_factor(&goal->convergence) : 0.0;
     step->relative_residual = goal->start > 0.0 ? goal->norm / goal->start : 0.0;
-    step->seconds = ost_seconds() - start + solver->strategy_seconds;
+    step->seconds = ost_own_seconds(solver->ctx) - start + solver->strategy_seconds;
     ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s (%s): %d iterations in %.3f s to a residual of %.2e: %s",
-            ost_method_name(step->method), report->engine, step->iterations, ost_seconds() - start,
+            ost_method_name(step->method), report->engine, step->iterations, ost_own_seconds(solver->ctx) - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
     return status;
@@ -327,6 +330,7 @@ static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, O
 
 /* The user's stop, for a system solved with f and u divided by `size`. */
 typedef struct ScaledStop {
+    OstContext *ctx;
     OstErrorStop stop;
     const OstErrorStop *user;
     double size;
@@ -340,7 +344,7 @@ typedef struct ScaledStop {
 static OstStatus ask_user(void *data, const double *u, double error, double *next)
 {
     ScaledStop *scaled = data;
-    const double start = ost_seconds();
+    const double start = ost_own_seconds(scaled->ctx);
     for (size_t i = 0; i < scaled->n; i++)
         scaled->u[i] = scaled->size * u[i];
     for (size_t i = 0; i < scaled->m; i++)
@@ -350,7 +354,7 @@ static OstStatus ask_user(void *data, const double *u, double error, double *nex
     *next /= scaled->size;
     for (size_t i = 0; i < scaled->m; i++)
         scaled->p[i] /= scaled->size;
-    scaled->seconds += ost_seconds() - start;
+    scaled->seconds += ost_own_seconds(scaled->ctx) - start;
     return status;
 }
 
@@ -422,7 +426,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
 static OstStatus solve(OstSolver *solver, const double *f, double *u, OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows;
-    ScaledStop stop = {.stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
+    ScaledStop stop = {.ctx = solver->ctx, .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n};
     double *scaled = NULL;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &stop.size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n : n)));
@@ -444,8 +448,12 @@ static OstStatus solve_mixed(OstSolver *solver, const OstSaddle *saddle, const d
                              OstSolveReport *report)
 {
     const size_t n = 3 * (size_t)solver->matrix->rows, m = (size_t)saddle->coupling->rows;
-    ScaledStop stop = {
-        .stop = {.ask = ask_user, .data = &stop}, .user = solver->aim.stop, .n = n, .p = saddle->p, .m = m};
+    ScaledStop stop = {.ctx = solver->ctx,
+                       .stop = {.ask = ask_user, .data = &stop},
+                       .user = solver->aim.stop,
+                       .n = n,
+                       .p = saddle->p,
+                       .m = m};
     double *scaled = NULL, size;
     OST_TRY(ost_vector_size(solver->ctx, n, f, &size));
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, stop.user ? 2 * n + m : n + m)));
@@ -480,10 +488,10 @@ OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, con
     report->steps = solver->steps;
     memcpy(report->step, solver->step, sizeof solver->step);
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds(), setup = solver->setup_seconds;
+    const double start = ost_own_seconds(solver->ctx), setup = solver->setup_seconds;
     const OstStatus status = saddle ? solve_mixed(solver, saddle, f, u, report) : solve(solver, f, u, report);
     report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds += ost_seconds() - start - (solver->setup_seconds - setup);
+    report->solve_seconds += ost_own_seconds(solver->ctx) - start - (solver->setup_seconds - setup);
     ost_ledger_leave(solver->ctx);
     return status;
 }
@@ -521,4 +529,18 @@ OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z,
     const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
     OST_FREE(scaled);
     return status;
+}
+
+int ost_solver_shares(const OstSolver *solver)
+{
+    return solver->metric != NULL;
+}
+
+OstStatus ost_solver_share(const OstSolver *solver, OstSolver **shared)
+{
+    OST_TRY(OST_NEW(solver->ctx, shared, 1));
+    **shared = *solver;
+    (*shared)->is_shared = 1;
+    (*shared)->aim = (OstSolverAim){0};
+    return OST_SUCCESS;
 }

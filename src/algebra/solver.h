@@ -70,4 +70,10 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
  * *found: 0 if the solver has no strategy. */
 OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z, int *found);
 
+/* Local. A solver for a task of its own (core/together): it uses what this one has built, and must be destroyed first.
+ * It never changes the strategy: a solve that would ends with OST_NOT_CONVERGED. Only where ost_solver_shares: with a
+ * multigrid hierarchy, which serves several vectors at once. */
+int ost_solver_shares(const OstSolver *solver);
+OstStatus ost_solver_share(const OstSolver *solver, OstSolver **shared);
+
 #endif

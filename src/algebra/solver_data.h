@@ -17,6 +17,7 @@ struct OstSolver {
     OstSolverAim aim;
     const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
     int aged;                /* have the matrix's values changed since the current strategy was built? */
+    int is_shared;           /* are strategy and map another solver's? */
     int precise;             /* has single precision been found too little for the coarse levels? */
     OstSolverPlan plan;
     /* the current strategy: */

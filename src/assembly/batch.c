@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
 
+#include "core/together/together.h"
 #include "element/large_rotation.h"
 
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered)
@@ -57,24 +58,54 @@ void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double 
     ost_visit_means_of(mesh, field, OST_FORMULATION_LINEAR, t, u, visit, data);
 }
 
-void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
-                        const double *u, OstMeansVisit visit, void *data)
+/* A visit: as ost_visit_means_of. */
+typedef struct Request {
+    const OstMesh *mesh;
+    OstFormulation formulation;
+    double t;
+    const double *u;
+    OstMeansVisit visit;
+    void *data;
+} Request;
+
+static void visit_batch(const Request *request, const OstElement *element, const OstBatch *batch)
 {
+    OstSimd of_nodes[3 * OST_MAX_TET_NODES];
+    OstMeans means;
+    ost_batch_gather_vectors(batch, element->nodes, request->u, of_nodes);
+    if (request->formulation == OST_FORMULATION_LINEAR)
+        element->means(batch->x, &batch->elasticity, of_nodes, &means);
+    else
+        ost_large_rotation_means(element, request->formulation, batch->x, &batch->elasticity, of_nodes, &means);
+    request->visit(request->data, batch, element, of_nodes, &means);
+}
+
+/* OstServe: of one field. */
+static OstStatus visit_all(void *common, int count, void *const *request)
+{
+    const Request *first = request[0];
+    const OstMesh *mesh = first->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.eigen_share = t;
-    for (OstLocal first = 0; first < mesh->owned_tets; first += batch.count) {
-        OstSimd of_nodes[3 * OST_MAX_TET_NODES];
-        OstMeans means;
-        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->owned_tets);
-        if (formulation != OST_FORMULATION_LINEAR)
-            ost_batch_keep_alike(&batch, element, mesh, field);
-        ost_batch_gather_vectors(&batch, element->nodes, u, of_nodes);
-        if (formulation == OST_FORMULATION_LINEAR)
-            element->means(batch.x, &batch.elasticity, of_nodes, &means);
-        else
-            ost_large_rotation_means(element, formulation, batch.x, &batch.elasticity, of_nodes, &means);
-        visit(data, &batch, element, of_nodes, &means);
+    batch.elasticity.eigen_share = first->t;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet += batch.count) {
+        ost_batch_gather_from(&batch, element, mesh, common, tet, mesh->owned_tets);
+        if (first->formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, common);
+        for (int k = 0; k < count; k++)
+            visit_batch(request[k], element, &batch);
     }
+    return OST_SUCCESS;
+}
+
+void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
+                        const double *u, OstMeansVisit visit, void *data)
+{
+    Request request = {mesh, formulation, t, u, visit, data};
+    void *const alone = &request;
+    if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */
+        (void)visit_all((void *)field, 1, &alone);
+    else
+        (void)ost_together(mesh->ctx, visit_all, (void *)field, &request);
 }

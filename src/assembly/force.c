@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "element/large_rotation.h"
 
 #include <string.h>
@@ -29,38 +30,68 @@ OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field,
     return ost_internal_force_of(mesh, field, OST_FORMULATION_LINEAR, t, u, force, magnitude);
 }
 
+/* Where forces are wanted: as ost_internal_force_of. */
+typedef struct Request {
+    const OstMesh *mesh;
+    const OstMaterialField *field;
+    OstFormulation formulation;
+    double t;
+    const double *u;
+    double *force, *magnitude;
+} Request;
+
+/* Of one batch, which is gathered. */
+static void add_batch(const Request *request, const OstElement *element, const OstBatch *batch)
+{
+    OstSimd displacement[3 * OST_MAX_TET_NODES];
+    OstSimd of_tets[3 * OST_MAX_TET_NODES];
+    const OstLocal owned = request->mesh->owned_nodes;
+    ost_batch_gather_vectors(batch, element->nodes, request->u, displacement);
+    if (request->formulation == OST_FORMULATION_LINEAR)
+        element->force(batch->x, &batch->elasticity, displacement, of_tets);
+    else
+        ost_large_rotation_force(element, request->formulation, batch->x, &batch->elasticity, displacement, of_tets);
+    scatter(batch, element->nodes, of_tets, 1.0, owned, request->force);
+    if (!request->magnitude)
+        return;
+    element->magnitude(batch->x, &batch->elasticity, displacement, of_tets);
+    scatter(batch, element->nodes, of_tets, 1.0, owned, request->magnitude);
+}
+
+/* OstServe: of one field. */
+static OstStatus add_all(void *common, int count, void *const *request)
+{
+    const Request *first = request[0];
+    const OstMesh *mesh = first->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.eigen_share = first->t;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet += batch.count) {
+        ost_batch_gather_from(&batch, element, mesh, common, tet, mesh->tet_count);
+        if (first->formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, common);
+        for (int k = 0; k < count; k++)
+            add_batch(request[k], element, &batch);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
                                 double t, const double *u, double *force, double *magnitude)
 {
-    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
-    OstBatch batch;
-    OstSimd displacement[3 * OST_MAX_TET_NODES];
-    OstSimd of_tets[3 * OST_MAX_TET_NODES];
-    if (!element)
+    Request request = {mesh, field, formulation, t, u, force, magnitude};
+    void *const alone = &request;
+    if (!ost_element_of(mesh->nodes_per_tet))
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
                          mesh->nodes_per_tet);
     memset(force, 0, bytes);
     if (magnitude)
         memset(magnitude, 0, bytes);
-    ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.eigen_share = t;
-    for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
-        ost_batch_gather_from(&batch, element, mesh, field, first, mesh->tet_count);
-        if (formulation != OST_FORMULATION_LINEAR)
-            ost_batch_keep_alike(&batch, element, mesh, field);
-        ost_batch_gather_vectors(&batch, element->nodes, u, displacement);
-        if (formulation == OST_FORMULATION_LINEAR)
-            element->force(batch.x, &batch.elasticity, displacement, of_tets);
-        else
-            ost_large_rotation_force(element, formulation, batch.x, &batch.elasticity, displacement, of_tets);
-        scatter(&batch, element->nodes, of_tets, 1.0, mesh->owned_nodes, force);
-        if (!magnitude)
-            continue;
-        element->magnitude(batch.x, &batch.elasticity, displacement, of_tets);
-        scatter(&batch, element->nodes, of_tets, 1.0, mesh->owned_nodes, magnitude);
-    }
-    return OST_SUCCESS;
+    if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */
+        return add_all((void *)field, 1, &alone);
+    return ost_together(mesh->ctx, add_all, (void *)field, &request);
 }
 
 /* Is a displacement other than 0 prescribed at the node? */

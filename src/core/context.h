@@ -33,7 +33,9 @@ struct OstContext {
     int work_level;                            /* 1 + the level, or 0 */
     OstAccount stack[OST_LEDGER_DEPTH];
     int depth;
-    double clock; /* until when seconds are booked */
+    double clock;                 /* until when seconds are booked */
+    struct OstTogether *together; /* whose task is running (core/together/); NULL: none */
+    double elsewhere;             /* seconds in which that task waited */
     size_t bytes;
     size_t peak_bytes;
 };

@@ -6,7 +6,7 @@
 #include "orthostat/path.h"
 #include "recovery/recovery.h"
 #include "solve/distributing/distributing.h"
-#include "solve/strategy.h"
+#include "solve/linear.h"
 
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
@@ -95,6 +95,15 @@ static OstStatus keep_estimate(OstAnalysis *analysis)
     OST_THEN(ost_estimate_remember(analysis->estimate));
     ost_ledger_leave(analysis->ctx);
     return status;
+}
+
+OstStatus ost_analysis_make_common(OstAnalysis *analysis, unsigned fields)
+{
+    OST_TRY(ost_analysis_prepare(analysis));
+    OstStiffnessSolver *stiffness = &((OstLinear *)analysis->work)->stiffness;
+    if (!stiffness->solver)
+        OST_TRY(ost_stiffness_solver_make(stiffness));
+    return fields >> OST_FIELD_ERROR & 1U ? keep_estimate(analysis) : OST_SUCCESS;
 }
 
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)

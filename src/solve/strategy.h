@@ -30,6 +30,7 @@ struct OstAnalysis {
     OstEstimate *estimate;  /* of the discretisation error; kept where the analysis serves several loads, else NULL */
     OstReactions reactions; /* adjoint problems of watched ones, likewise */
     int serves_several;     /* loads are to follow, so that what they share is kept */
+    int in_company;         /* is it one of several that share a solver and run together? Linear theory alone will do */
     const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 
@@ -47,6 +48,9 @@ OstStatus ost_result_create(const OstProblem *problem, OstResult **result);
 
 /* Collective. Another loading has been given to the problem (problem/cases/load_case.h). */
 OstStatus ost_analysis_take_loading(OstAnalysis *analysis);
+
+/* Collective. Makes all that solves share: stiffness, solver and, where that is asked for, the estimate. */
+OstStatus ost_analysis_make_common(OstAnalysis *analysis, unsigned fields);
 
 /* Collective. Makes all that the next solve needs; all objections are raised as one failure. */
 OstStatus ost_analysis_prepare(OstAnalysis *analysis);

@@ -81,4 +81,11 @@ void ost_complement_face_values(int quadratic, const double at[3], double *value
 void ost_complement_gradients(int nodes, const double at[4], const OstPoint *point,
                               OstSimd gradient[OST_MAX_FUNCTIONS][3]);
 
+/* A vector of the elements' space and its complement: 3 numbers for each row of the system, and OST_PER_FUNCTION in
+ * single precision for each function. */
+typedef struct OstEnriched {
+    double *rows;
+    float *functions;
+} OstEnriched;
+
 #endif

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -111,8 +112,8 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
     OST_TRY(ost_vector_size(run->ctx, run->n, run->residual, &run->size));
     for (size_t i = 0; i < run->n; i++)
         run->residual[i] /= run->size;
-    const OstStatus status =
-        run->preconditioner->factors ? ost_cg_run_by_factors(run, u, goal) : ost_cg_run_by_aztec(run, u, goal);
+    const int by_own = run->preconditioner->factors || ost_together_any(run->ctx);
+    const OstStatus status = by_own ? ost_cg_run_by_own(run, u, goal) : ost_cg_run_by_aztec(run, u, goal);
     for (size_t i = 0; i < run->n; i++)
         u[i] *= run->size;
     if (scaling)

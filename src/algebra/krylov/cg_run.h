@@ -23,10 +23,10 @@ typedef struct OstCgRun {
 /* Collective. Improves u', which is 0 on entry, until the goal is reached or ended; overwrites r'. Raises
  * OST_NOT_CONVERGED if p·Ap is negative beyond rounding: the matrix is indefinite. AztecOO's
  * (algebra/trilinos/conjugate_gradients.c) needs a fixed, symmetric and positive definite preconditioner, and raises
- * OST_OUT_OF_MEMORY if there is no room for AztecOO's four vectors (it would end the process); the other, our own,
- * needs the factors of A. */
+ * OST_OUT_OF_MEMORY if there is no room for AztecOO's four vectors (it would end the process); our own
+ * (own_cg.c) are for the factors of A and for tasks that run together. */
 OstStatus ost_cg_run_by_aztec(OstCgRun *run, double *u, OstGoal *goal);
-OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal);
+OstStatus ost_cg_run_by_own(OstCgRun *run, double *u, OstGoal *goal);
 
 /* Collective over neighbours. y = A' p = S (A (S^T p)); leaves S^T p in run->unscaled. */
 OstStatus ost_cg_multiply(OstCgRun *run, const double *p, double *y);

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { LARGEST_BLOCK = 24, LARGEST_SIDE = 6 * LARGEST_BLOCK, MOST_STRIPS = 3 };
+enum { MOST_STRIPS = 3 };
 
 static const double softening = 1e-6; /* relative, of the diagonal */
 
@@ -31,13 +31,13 @@ static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, Os
     OstContext *ctx = blocks->ctx;
     OstLocal *start = NULL;
     OstStatus status = OST_SUCCESS;
-    const size_t room = (size_t)aggregates->count + (size_t)nodes / LARGEST_BLOCK + 1;
+    const size_t room = (size_t)aggregates->count + (size_t)nodes / OST_LARGEST_BLOCK + 1;
     OST_TRY_DONE(ost_aggregates_list(aggregates, nodes, &start, &blocks->node));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->node_start, room));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->value_start, room));
     for (OstLocal a = 0; a < aggregates->count; a++)
-        for (OstLocal from = start[a]; from < start[a + 1]; from += LARGEST_BLOCK) {
-            const OstLocal end = from + LARGEST_BLOCK < start[a + 1] ? from + LARGEST_BLOCK : start[a + 1];
+        for (OstLocal from = start[a]; from < start[a + 1]; from += OST_LARGEST_BLOCK) {
+            const OstLocal end = from + OST_LARGEST_BLOCK < start[a + 1] ? from + OST_LARGEST_BLOCK : start[a + 1];
             const size_t side = (size_t)blocks->size * (size_t)(end - from);
             const OstLocal b = blocks->count++;
             blocks->node_start[b + 1] = end;
@@ -140,9 +140,9 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, int uneven, OstSmooth
     double *dense = NULL;
     OstStatus status;
     OST_TRY_DONE(OST_NEW(blocks->ctx, &of_node, 2 * (size_t)matrix->rows));
-    OST_TRY_DONE(OST_NEW(blocks->ctx, &dense, 2 * LARGEST_SIDE * LARGEST_SIDE));
+    OST_TRY_DONE(OST_NEW(blocks->ctx, &dense, 2 * OST_LARGEST_SIDE * OST_LARGEST_SIDE));
     OstLocal *place = of_node + matrix->rows;
-    double *inverse = dense + LARGEST_SIDE * LARGEST_SIDE;
+    double *inverse = dense + OST_LARGEST_SIDE * OST_LARGEST_SIDE;
     for (OstLocal b = 0; b < blocks->count; b++)
         for (OstLocal k = blocks->node_start[b]; k < blocks->node_start[b + 1]; k++) {
             of_node[blocks->node[k]] = b;
@@ -185,7 +185,7 @@ done:
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
                                      OstSmootherBlocks **blocks)
 {
-    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = LARGEST_BLOCK};
+    const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = OST_LARGEST_BLOCK};
     OstAggregates *groups = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &groups);
@@ -236,7 +236,7 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, int fr
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal *node = blocks->node + blocks->node_start[b];
         const int nodes = blocks->node_start[b + 1] - blocks->node_start[b];
-        float in[LARGEST_SIDE + OST_PADDING], out[LARGEST_SIDE + OST_PADDING];
+        float in[OST_LARGEST_SIDE + OST_PADDING], out[OST_LARGEST_SIDE + OST_PADDING];
         for (int k = 0; k < nodes; k++)
             for (int c = 0; c < size; c++)
                 in[k * size + c] = (float)r[(size_t)size * (size_t)node[k] + (size_t)c];

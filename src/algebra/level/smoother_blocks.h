@@ -5,6 +5,9 @@
 #include "algebra/aggregation/graph.h"
 #include "algebra/level/level_matrix.h"
 
+/* The most nodes and rows of a block. */
+enum { OST_LARGEST_BLOCK = 24, OST_LARGEST_SIDE = 6 * OST_LARGEST_BLOCK };
+
 /* Block Jacobi: the inverses B^-1 of a matrix's diagonal blocks, over groups of nodes that do not overlap. */
 typedef struct OstSmootherBlocks {
     OstContext *ctx;

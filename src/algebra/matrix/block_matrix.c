@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/block_matrix.h"
 
+#include "algebra/matrix/columns.h"
 #include "core/error.h"
 #include "core/kernel.h"
 #include "core/memory.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <string.h>
@@ -85,11 +87,78 @@ void ost_block_matrix_multiply(const OstBlockMatrix *matrix, const double *x, do
     ost_ledger_multiplied(matrix->ctx, 9.0 * matrix->row_start[matrix->rows]);
 }
 
+/* A vector, with room for ghosts, and its product. */
+typedef struct Product {
+    double *x, *y;
+} Product;
+
+static OstStatus apply_one(const OstBlockMatrix *matrix, const Product *product)
+{
+    OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof(double), product->x));
+    ost_block_matrix_multiply(matrix, product->x, product->y);
+    return OST_SUCCESS;
+}
+
+/* As multiply_rows and multiply_folded; y is 0. */
+OST_KERNEL static void multiply_columns(const OstBlockMatrix *matrix, const OstColumns *restrict x,
+                                        OstColumns *restrict y)
+{
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        const OstColumns *own = x + 3 * (size_t)i;
+        const OstLocal first = matrix->upper ? matrix->diagonal[i] : matrix->row_start[i];
+        const double *a = matrix->value + 9 * (size_t)(matrix->upper ? matrix->upper[i] : first);
+        OstColumns sum[3] = {{0}};
+        for (OstLocal k = first; k < matrix->row_start[i + 1]; k++, a += 9) {
+            const OstLocal j = matrix->column[k];
+            const OstColumns *b = x + 3 * (size_t)j;
+            OstColumns *there = y + 3 * (size_t)j;
+            for (int r = 0; r < 3; r++)
+                sum[r] += a[3 * r] * b[0] + a[3 * r + 1] * b[1] + a[3 * r + 2] * b[2];
+            for (int c = 0; c < 3 && matrix->upper && j != i && j < matrix->rows; c++)
+                there[c] += a[c] * own[0] + a[3 + c] * own[1] + a[6 + c] * own[2];
+        }
+        for (int r = 0; r < 3; r++)
+            y[3 * (size_t)i + (size_t)r] += sum[r];
+    }
+    ost_ledger_multiplied(matrix->ctx, 9.0 * matrix->row_start[matrix->rows]);
+}
+
+static OstStatus apply_columns(const OstBlockMatrix *matrix, int count, const double *const *x, double *const *y)
+{
+    const size_t n = 3 * (size_t)matrix->rows;
+    double *columns = NULL;
+    OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &columns, OST_COLUMNS * (n + 3 * (size_t)matrix->columns))));
+    double *products = columns + 3 * OST_COLUMNS * (size_t)matrix->columns;
+    ost_columns_pack(n, count, x, columns);
+    const OstStatus status = ost_halo_import(matrix->halo, 3 * sizeof(OstColumns), columns);
+    if (status == OST_SUCCESS) {
+        multiply_columns(matrix, (const OstColumns *)columns, (OstColumns *)products);
+        ost_columns_unpack(n, count, products, y);
+    }
+    OST_FREE(columns);
+    return status;
+}
+
+/* OstServe. */
+static OstStatus apply_all(void *common, int count, void *const *request)
+{
+    const double *x[OST_MOST_TOGETHER];
+    double *y[OST_MOST_TOGETHER];
+    for (int k = 0; k < count; k++) {
+        x[k] = ((const Product *)request[k])->x;
+        y[k] = ((const Product *)request[k])->y;
+    }
+    for (int k = 0, next = 1; k < count; k += next) {
+        next = ost_columns_next(count - k);
+        OST_TRY(next > 1 ? apply_columns(common, next, x + k, y + k) : apply_one(common, request[k]));
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y)
 {
-    OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof *x, x));
-    ost_block_matrix_multiply(matrix, x, y);
-    return OST_SUCCESS;
+    Product product = {x, y};
+    return ost_together(matrix->ctx, apply_all, (void *)matrix, &product);
 }
 
 /* The unevaluated sum of two numbers. */

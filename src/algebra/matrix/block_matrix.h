@@ -47,8 +47,8 @@ static inline const double *ost_block_matrix_block(const OstBlockMatrix *matrix,
     return room;
 }
 
-/* Collective over neighbours. y = A x; x has room for 3 × columns numbers, its ghosts are filled here; y has 3 × rows.
- */
+/* Collective over neighbours. y = A x; x has room for 3 × columns numbers, its ghosts are overwritten; y has 3 × rows.
+ * Tasks (core/together) that ask for it of one matrix are served together. */
 OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y);
 
 /* Local. The same; the ghosts of x are already set. */

@@ -1,45 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/multigrid/cycle.h"
 
-#include "algebra/multigrid/coarsest.h"
-#include "algebra/trilinos/cycle.h"
+#include "algebra/multigrid/cycle_columns.h"
+#include "algebra/multigrid/cycle_data.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 
 #include <string.h>
 
-enum {
-    LARGEST_FACTORED = 50000, /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
-    COARSEST_SWEEPS = 10      /* of that smoothing; a fixed number keeps the cycle symmetric */
-};
+enum { LARGEST_FACTORED = 50000 }; /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
 
 static const double careful = 1.2; /* safety factor of an eigenvalue estimate that may be too low */
-
-typedef struct Level {
-    int number; /* of the finest: 0 */
-    const OstLevelMatrix *matrix;
-    OstSmoother *smoother;             /* NULL where the level is solved by factors */
-    const OstProlongator *prolongator; /* from the next level; or */
-    OstQuadraticLevel *quadratic;      /* which interpolates from the linear tets; neither on the coarsest level */
-    OstCoarsest *coarsest;             /* its factors; NULL if it is smoothed */
-    double *own;                       /* a vector of this level with room for ghosts */
-    double *coarse;                    /* a vector of the next level with room for the prolongator's ghosts */
-} Level;
-
-struct OstCycle {
-    OstLevels levels;
-    OstQuadraticLevel *quadratic;
-    OstCoarsest *coarsest;
-    int count; /* of levels, the quadratic one included */
-    Level level[OST_MAX_LEVELS + 1];
-    OstMlCycle *ml; /* NULL if there is only one level */
-};
 
 void ost_cycle_destroy(OstCycle **cycle)
 {
     if (!*cycle)
         return;
+    ost_cycle_columns_destroy(&(*cycle)->columns);
     ost_ml_cycle_destroy(&(*cycle)->ml);
     for (int l = 0; l < (*cycle)->count; l++) {
         OST_FREE((*cycle)->level[l].own);
@@ -68,12 +47,12 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
 }
 
 /* Books what follows to the level, and at the end to none. */
-static void enter(const Level *level)
+static void enter(const OstCycleLevel *level)
 {
     ost_ledger_level(level->matrix->ctx, level->number);
 }
 
-static OstStatus leave(const Level *level, OstStatus status)
+static OstStatus leave(const OstCycleLevel *level, OstStatus status)
 {
     ost_ledger_level(level->matrix->ctx, -1);
     return status;
@@ -82,7 +61,7 @@ static OstStatus leave(const Level *level, OstStatus status)
 /* y = A x */
 static OstStatus multiply(void *data, const double *x, double *y)
 {
-    const Level *level = data;
+    const OstCycleLevel *level = data;
     enter(level);
     const size_t n = ost_level_unknowns(level->matrix);
     if (n > 0) {
@@ -95,21 +74,21 @@ static OstStatus multiply(void *data, const double *x, double *y)
 
 static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
 {
-    const Level *level = data;
+    const OstCycleLevel *level = data;
     const int is_last = !level->prolongator && !level->quadratic;
     enter(level);
     if (is_last)
         ost_ledger_visited(level->matrix->ctx);
     if (level->coarsest)
         return leave(level, ost_coarsest_solve(level->coarsest, b, x));
-    for (int sweep = 0; sweep < (is_last ? COARSEST_SWEEPS : 1); sweep++)
+    for (int sweep = 0; sweep < (is_last ? OST_COARSEST_SWEEPS : 1); sweep++)
         ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0);
     return leave(level, OST_SUCCESS);
 }
 
 static OstStatus restrict_to(void *data, const double *fine, double *coarse)
 {
-    const Level *level = data;
+    const OstCycleLevel *level = data;
     enter(level);
     ost_ledger_visited(level->matrix->ctx);
     if (level->quadratic)
@@ -123,7 +102,7 @@ static OstStatus restrict_to(void *data, const double *fine, double *coarse)
 
 static OstStatus prolong(void *data, const double *coarse, double *fine)
 {
-    const Level *level = data;
+    const OstCycleLevel *level = data;
     const size_t n = ost_level_unknowns(level->matrix), coarse_n = ost_level_unknowns(level[1].matrix);
     enter(level);
     if (level->quadratic)
@@ -144,13 +123,14 @@ static OstStatus set_levels(OstContext *ctx, OstCycle *cycle)
     const int finest = quadratic ? 1 : 0; /* level of the linear tets */
     cycle->count = levels->count + finest;
     if (quadratic)
-        cycle->level[0] = (Level){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
+        cycle->level[0] =
+            (OstCycleLevel){.matrix = quadratic->matrix, .smoother = quadratic->smoother, .quadratic = quadratic};
     for (int l = 0; l < levels->count; l++)
-        cycle->level[finest + l] = (Level){
+        cycle->level[finest + l] = (OstCycleLevel){
             .matrix = levels->matrix[l], .smoother = levels->smoother[l], .prolongator = levels->prolongator[l]};
     cycle->level[cycle->count - 1].coarsest = cycle->coarsest;
     for (int l = 0; l < cycle->count; l++) {
-        Level *level = &cycle->level[l];
+        OstCycleLevel *level = &cycle->level[l];
         level->number = l;
         OST_TRY(ost_level_vector_create(ctx, level->matrix->size, (size_t)level->matrix->columns, &level->own));
         if (level->prolongator)
@@ -195,10 +175,41 @@ done:
     return status;
 }
 
+/* A vector to be preconditioned, and where the result goes. */
+typedef struct Request {
+    const double *r;
+    double *z;
+} Request;
+
+static OstStatus apply_one(OstCycle *cycle, const Request *request)
+{
+    return cycle->ml ? ost_ml_cycle_apply(cycle->ml, request->r, request->z)
+                     : smooth(&cycle->level[0], request->r, request->z, 1);
+}
+
+/* OstServe. */
+static OstStatus apply_all(void *common, int count, void *const *request)
+{
+    OstCycle *cycle = common;
+    const double *r[OST_MOST_TOGETHER];
+    double *z[OST_MOST_TOGETHER];
+    for (int k = 0; k < count; k++) {
+        r[k] = ((const Request *)request[k])->r;
+        z[k] = ((const Request *)request[k])->z;
+    }
+    const int fit = ost_cycle_columns_fit(cycle);
+    for (int k = 0, next = 1; k < count; k += next) {
+        next = fit ? ost_columns_next(count - k) : 1;
+        OST_TRY(next > 1 ? ost_cycle_columns_apply(cycle, next, r + k, z + k) : apply_one(cycle, request[k]));
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_cycle_apply(void *data, const double *r, double *z)
 {
     OstCycle *cycle = data;
-    return cycle->ml ? ost_ml_cycle_apply(cycle->ml, r, z) : smooth(&cycle->level[0], r, z, 1);
+    Request request = {r, z};
+    return ost_together(cycle->level[0].matrix->ctx, apply_all, cycle, &request);
 }
 
 void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -278,6 +279,7 @@ OstStatus ost_metric_improve(OstMetric *metric, const double *f, double *u, OstG
     OstCgSystem system;
     ost_metric_system(metric, &system, &cycle);
     ost_metric_report(metric, report);
-    snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML cycle of %d levels", metric->levels);
+    snprintf(report->engine, sizeof report->engine, "%s CG, ML cycle of %d levels",
+             ost_together_any(metric->ctx) ? "own" : "AztecOO", metric->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
 }

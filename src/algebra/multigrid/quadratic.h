@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ALGEBRA_MULTIGRID_QUADRATIC_H
 #define ORTHOSTAT_ALGEBRA_MULTIGRID_QUADRATIC_H
 
+#include "algebra/matrix/columns.h"
 #include "algebra/matrix/geometry.h"
 #include "algebra/multigrid/smoother.h"
 
@@ -28,5 +29,11 @@ void ost_quadratic_level_destroy(OstQuadraticLevel **level);
 /* Collective over neighbours. x = P' c, and c = P'ᵀ x; x has 3 × quadratic rows numbers, c 3 × linear rows. */
 OstStatus ost_quadratic_level_prolong(const OstQuadraticLevel *level, const double *c, double *x);
 OstStatus ost_quadratic_level_restrict(const OstQuadraticLevel *level, const double *x, double *c);
+
+/* The same with OST_COLUMNS vectors; `room` has 3 × linear columns. */
+OstStatus ost_quadratic_level_prolong_columns(const OstQuadraticLevel *level, const OstColumns *c, OstColumns *room,
+                                              OstColumns *x);
+OstStatus ost_quadratic_level_restrict_columns(const OstQuadraticLevel *level, const OstColumns *x, OstColumns *room,
+                                               OstColumns *c);
 
 #endif

@@ -60,15 +60,25 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
 }
 
 /* Chebyshev iteration: Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
+OstChebyshev ost_smoother_begin(const OstSmoother *smoother)
+{
+    const double upper = safety * smoother->largest, lower = smoother->largest / smoother->ratio;
+    const double centre = 0.5 * (upper + lower), half_width = 0.5 * (upper - lower), sigma = centre / half_width;
+    return (OstChebyshev){.add = 1.0 / centre, .rho = 1.0 / sigma, .sigma = sigma, .half_width = half_width};
+}
+
+void ost_smoother_next(OstChebyshev *steps)
+{
+    const double next = 1.0 / (2.0 * steps->sigma - steps->rho);
+    steps->keep = next * steps->rho;
+    steps->add = 2.0 * next / steps->half_width;
+    steps->rho = next;
+}
+
 void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
 {
     const size_t n = ost_level_unknowns(smoother->matrix);
-    const double upper = safety * smoother->largest;
-    const double lower = smoother->largest / smoother->ratio;
-    const double centre = 0.5 * (upper + lower);
-    const double half_width = 0.5 * (upper - lower);
-    const double sigma = centre / half_width;
-    double rho = 1.0 / sigma;
+    OstChebyshev steps = ost_smoother_begin(smoother);
     if (n > 0)
         memcpy(smoother->residual, b, n * sizeof(double));
     if (!from_zero) {
@@ -76,16 +86,14 @@ void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int f
             memcpy(smoother->direction, x, n * sizeof(double));
         ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
     }
-    OstBlockStep step = {
-        .keep = 0.0, .add = 1.0 / centre, .direction = smoother->direction, .x = x, .from_zero = from_zero};
+    OstBlockStep step = {.add = steps.add, .direction = smoother->direction, .x = x, .from_zero = from_zero};
     ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
     step.from_zero = 0;
     for (int k = 1; k < smoother->degree; k++) {
         ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
-        const double next = 1.0 / (2.0 * sigma - rho);
-        step.keep = next * rho;
-        step.add = 2.0 * next / half_width;
+        ost_smoother_next(&steps);
+        step.keep = steps.keep;
+        step.add = steps.add;
         ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
-        rho = next;
     }
 }

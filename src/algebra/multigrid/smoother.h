@@ -24,6 +24,16 @@ OstStatus ost_smoother_create_of(const OstLevelMatrix *matrix, const OstMetricGr
                                  const OstSolverOptions *options, OstSmoother **smoother);
 void ost_smoother_destroy(OstSmoother **smoother);
 
+/* The coefficients of the iteration's steps: direction = keep × direction + add × B^-1 r. The first has keep = 0. */
+typedef struct OstChebyshev {
+    double keep, add;
+    double rho, sigma, half_width;
+} OstChebyshev;
+
+/* Local. Those of the first step, and of the next. */
+OstChebyshev ost_smoother_begin(const OstSmoother *smoother);
+void ost_smoother_next(OstChebyshev *steps);
+
 /* Collective over neighbours. Improves x towards A x = b; with `from_zero`, x is taken as 0. */
 void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero);
 

@@ -90,9 +90,14 @@ done:
     return ost_agree(ctx, status);
 }
 
+int ost_exchange_any(const OstExchange *exchange)
+{
+    return exchange->messages[0] + exchange->messages[1] > 0;
+}
+
 static void book(const OstExchange *exchange, int back)
 {
-    if (exchange->messages[0] + exchange->messages[1] > 0)
+    if (ost_exchange_any(exchange))
         ost_ledger_sent(exchange->ctx, exchange->messages[back], exchange->bytes[back]);
 }
 

@@ -12,6 +12,9 @@ typedef struct OstExchange OstExchange;
 OstStatus ost_exchange_create(const OstHalo *halo, int width, OstExchange **exchange);
 void ost_exchange_destroy(OstExchange **exchange);
 
+/* Local. Has this rank a neighbour? */
+int ost_exchange_any(const OstExchange *exchange);
+
 /* Collective over neighbours. Copies owners' values into the ghosts of x. */
 void ost_exchange_import(const OstExchange *exchange, double *x);
 

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "orthostat/load_cases.h"
 
+#include "algebra/matrix/columns.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/together/together.h"
 #include "problem/cases/load_case.h"
 #include "problem/scene_data.h"
-#include "solve/strategy.h"
+#include "solve/cases/company.h"
 
 struct OstLoadCases {
     OstContext *ctx;
@@ -17,6 +19,8 @@ struct OstLoadCases {
     int made_for; /* the group of problem and analysis; -1: there are none */
     OstProblem *problem;
     OstAnalysis *analysis;
+    int alone;           /* has none of a company come through? */
+    OstCompanion *ahead; /* of each: what it was solved for in the company of another, if it was */
 };
 
 /* Cases of one stiffness: their supports are the same on every rank. */
@@ -45,6 +49,7 @@ static OstStatus fill(const OstScene *scene, OstLoadCases *cases)
     OstStatus status = OST_NEW(ctx, &cases->scene, cases->count);
     OST_THEN(OST_NEW(ctx, &cases->group, cases->count));
     OST_THEN(OST_NEW(ctx, &cases->is_done, cases->count));
+    OST_THEN(OST_NEW(ctx, &cases->ahead, cases->count));
     OST_TRY(ost_agree(ctx, status));
     for (int k = 0; k < cases->count; k++)
         OST_TRY(ost_scene_load_case(scene, k, &cases->scene[k]));
@@ -75,8 +80,11 @@ void ost_load_cases_destroy(OstLoadCases **cases)
     if (!*cases)
         return;
     release_analysis(*cases);
+    for (int k = 0; (*cases)->ahead && k < (*cases)->count; k++)
+        ost_result_destroy(&(*cases)->ahead[k].result);
     for (int k = 0; (*cases)->scene && k < (*cases)->count; k++)
         ost_scene_destroy(&(*cases)->scene[k]);
+    OST_FREE((*cases)->ahead);
     OST_FREE((*cases)->scene);
     OST_FREE((*cases)->group);
     OST_FREE((*cases)->is_done);
@@ -143,11 +151,59 @@ static void go_on(OstLoadCases *cases)
                 cases->next = k;
 }
 
+/* The next case and those that follow it with the same stiffness, each with the fields that are to be expected: its
+ * own, unless the next one is asked for others than those. */
+static int choose_company(const OstLoadCases *cases, int most, unsigned fields, OstCompanion *companion, int *number)
+{
+    const int own = fields == ost_scene_result_fields(cases->scene[cases->next]);
+    int count = 0;
+    for (int k = cases->next; k < cases->count && count < most; k++) {
+        if (cases->is_done[k] || cases->group[k] != cases->group[cases->next] || cases->ahead[k].is_tried)
+            continue;
+        number[count] = k;
+        companion[count++] = (OstCompanion){
+            .scene = cases->scene[k], .fields = own ? ost_scene_result_fields(cases->scene[k]) : fields, .is_tried = 1};
+    }
+    return count;
+}
+
+/* Solves the next case with others, where that pays. Those that do not come through are solved alone in their turn: so
+ * no failure here is the case's. */
+static OstStatus solve_in_company(OstLoadCases *cases, unsigned fields)
+{
+    OstCompanion companion[OST_MOST_TOGETHER];
+    int number[OST_MOST_TOGETHER], most;
+    OST_TRY(ost_company_most(cases->ctx, &most));
+    const int count = choose_company(cases, most, fields, companion, number);
+    if (count < OST_FEWEST_COLUMNS)
+        return OST_SUCCESS;
+    OST_TRY(ost_company_solve(cases->analysis, count, companion));
+    cases->alone = 1;
+    for (int k = 0; k < count; k++) {
+        cases->ahead[number[k]] = companion[k];
+        cases->alone &= !companion[k].result;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_load_cases_solve(OstLoadCases *cases, unsigned fields, OstResult **result)
 {
+    OstCompanion *ahead = &cases->ahead[cases->next];
+    OstStatus status = OST_SUCCESS;
     *result = NULL;
-    OstStatus status = make_problem(cases);
-    OST_THEN(ost_analysis_solve(cases->analysis, fields, result));
+    if (!ahead->is_tried && !cases->alone && cases->left >= OST_FEWEST_COLUMNS) {
+        status = make_problem(cases);
+        OST_THEN(ost_analysis_make_common(cases->analysis, fields));
+        if (status == OST_SUCCESS && ost_company_suits(cases->analysis))
+            status = solve_in_company(cases, fields);
+    }
+    if (ahead->result && ahead->fields == fields) {
+        *result = ahead->result;
+        ahead->result = NULL;
+    } else {
+        OST_THEN(make_problem(cases));
+        OST_THEN(ost_analysis_solve(cases->analysis, fields, result));
+    }
     if (status != OST_SUCCESS)
         release_analysis(cases); /* what a failed solve leaves is not built upon */
     go_on(cases);

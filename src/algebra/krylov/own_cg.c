@@ -8,9 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Conjugate gradients preconditioned by factors of A itself: one to three steps, most of them close to rounding.
- * AztecOO's would break down where rounding hides p·Ap, although the step by the factors is right. */
-typedef struct FactorRun {
+/* Our own conjugate gradients, where AztecOO's cannot be. Preconditioned by factors of A itself there are one to three
+ * steps, most of them close to rounding: AztecOO's break down where rounding hides p·Ap, although the step by the
+ * factors is right. And of tasks that run together (core/together) each iterates in turn: AztecOO finds its vectors by
+ * the number of the call that is under way, so that there can be one at a time. */
+typedef struct OwnRun {
     OstCgRun *run;
     OstGoal *goal;
     double *direction; /* p */
@@ -18,10 +20,10 @@ typedef struct FactorRun {
     double *corrected; /* z */
     double weight;     /* r·z of the last direction */
     int blind;         /* rounding hides p·Ap: there is no next direction */
-} FactorRun;
+} OwnRun;
 
 /* z = M^-1 r, and the next direction p = z + beta p. */
-static OstStatus next_direction(FactorRun *work, int first)
+static OstStatus next_direction(OwnRun *work, int first)
 {
     const OstCgRun *run = work->run;
     double weight;
@@ -37,11 +39,11 @@ static OstStatus next_direction(FactorRun *work, int first)
 }
 
 /* Is p·Ap mere rounding? With compensated residuals the caller finds the step length. */
-static OstStatus look_for_rounding(FactorRun *work, double energy)
+static OstStatus look_for_rounding(OwnRun *work, double energy)
 {
     double scale;
-    work->blind = 1;
-    if (work->goal->compensated)
+    work->blind = work->run->preconditioner->factors;
+    if (work->goal->compensated || !work->blind)
         return OST_SUCCESS;
     OST_TRY(ost_cg_rounding_scale(work->run, &scale));
     work->blind = fabs(energy) <= ost_cg_rounding * scale;
@@ -49,7 +51,7 @@ static OstStatus look_for_rounding(FactorRun *work, double energy)
 }
 
 /* The step along p that minimises the energy; all of p where rounding hides p·Ap. */
-static OstStatus step(FactorRun *work, double *u, double *alpha)
+static OstStatus step(OwnRun *work, double *u, double *alpha)
 {
     OstCgRun *run = work->run;
     OST_TRY(ost_cg_multiply(run, work->direction, work->product));
@@ -74,7 +76,7 @@ static OstStatus find_norm(const OstCgRun *run, double *norm)
     return OST_SUCCESS;
 }
 
-static OstStatus iterate(FactorRun *work, double *u)
+static OstStatus iterate(OwnRun *work, double *u)
 {
     OstCgRun *run = work->run;
     OstGoal *goal = work->goal;
@@ -92,13 +94,16 @@ static OstStatus iterate(FactorRun *work, double *u)
             ost_lanczos_add(&run->lanczos, alpha, work->weight);
         OST_TRY(find_norm(run, &norm));
         on = ost_goal_count(goal, norm, run->size * run->size * work->weight) && !work->blind;
+        if (!run->preconditioner->factors)
+            OST_TRY(ost_cg_judge_error(run, u, goal));
+        on = on && !goal->enough;
     }
     return OST_SUCCESS;
 }
 
-OstStatus ost_cg_run_by_factors(OstCgRun *run, double *u, OstGoal *goal)
+OstStatus ost_cg_run_by_own(OstCgRun *run, double *u, OstGoal *goal)
 {
-    FactorRun work = {.run = run, .goal = goal};
+    OwnRun work = {.run = run, .goal = goal};
     OST_TRY(ost_agree(run->ctx, OST_NEW(run->ctx, &work.direction, 3 * run->n)));
     work.product = work.direction + run->n;
     work.corrected = work.product + run->n;

@@ -2,6 +2,7 @@
 #include "accuracy/operator.h"
 
 #include "accuracy/blocks.h"
+#include "accuracy/cells.h"
 #include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
@@ -9,6 +10,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "element/biot.h"
 #include "element/large_rotation.h"
 #include "element/shape_functions.h"
@@ -16,130 +18,6 @@
 
 #include <math.h>
 #include <string.h>
-
-enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
-
-/* A batch of tets with its functions. */
-typedef struct Cells {
-    OstBatch batch;
-    int nodes, functions;
-    const OstQuadrature *rule;
-    int points; /* at which C is needed */
-    int state;  /* forces of a state, which may have a pressure; else those of a small displacement */
-    int straight;
-    OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
-    OstSimd turn[OST_MAX_FUNCTIONS];
-    const double *turned_by; /* as the operator's; then its displacements */
-    OstSimd base[NUMBERS];
-} Cells;
-
-/* Degrees 2 and 5 integrate products of the functions' gradients in straight tets without error. Where axes come from a
- * formula, the residual needs them `exactly`; for the stiffness of linear tets those at the centroid will do. */
-static void clear_cells(const OstOperator *operator, int exactly, double eigen_share, Cells *cells)
-{
-    cells->turned_by = operator->turned_by;
-    cells->nodes = operator->complement->mesh->nodes_per_tet;
-    cells->functions = ost_complement_per_tet(operator->complement);
-    cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
-    cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
-    cells->state = exactly;
-    ost_elasticity_clear(&cells->batch.elasticity);
-    cells->batch.elasticity.stretch_suffices = cells->nodes == 4 && !exactly && !operator->turned_by;
-    cells->batch.elasticity.eigen_share = eigen_share;
-}
-
-static void find_places(const Cells *cells, OstSimd *places)
-{
-    for (int q = 0; q < cells->rule->count; q++) {
-        double shape[OST_MAX_TET_NODES];
-        ost_shape_values(cells->nodes, cells->rule->point[q].at, shape);
-        for (int i = 0; i < 3; i++) {
-            places[3 * q + i] = shape[0] * cells->batch.x[i];
-            for (int a = 1; a < cells->nodes; a++)
-                places[3 * q + i] += shape[a] * cells->batch.x[3 * a + i];
-        }
-    }
-}
-
-/* The next tets from `first` on. */
-static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Cells *cells)
-{
-    const OstMesh *mesh = operator->problem->mesh;
-    const OstMaterialField *field = operator->problem->field;
-    OstBatch *batch = &cells->batch;
-    OstSimd places[3 * OST_MAX_POINTS];
-    batch->count = end - first < OST_SIMD_WIDTH ? (int)(end - first) : OST_SIMD_WIDTH;
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        const OstLocal tet = first + (slot < batch->count ? slot : batch->count - 1);
-        const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-        batch->tet[slot] = tet;
-        memcpy(batch->node[slot], nodes, (size_t)cells->nodes * sizeof *nodes);
-        ost_complement_of_tet(operator->complement, tet, cells->function[slot]);
-        for (int k = 0; k < cells->functions; k++)
-            cells->turn[k][slot] = k < 6 ? ost_complement_turn_of(operator->complement, tet, k) : 1.0;
-    }
-    ost_batch_gather_vectors(batch, cells->nodes, mesh->coordinates, batch->x);
-    cells->straight = cells->nodes == 4 || ost_straight_all(batch->x);
-    if (cells->turned_by)
-        ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
-    if (field->region_formula && cells->points > 0)
-        find_places(cells, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
-    if (batch->elasticity.about_line)
-        ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
-}
-
-static void gather_functions(const Cells *cells, const float *values, OstSimd *gathered)
-{
-    for (int k = 0; k < cells->functions; k++)
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-            const float *value = values + OST_PER_FUNCTION * (size_t)cells->function[slot][k];
-            for (int i = 0; i < 3; i++)
-                gathered[3 * k + i][slot] = cells->turn[k][slot] * (double)value[i];
-        }
-}
-
-static void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const OstSimd *at_nodes, double *force)
-{
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[slot][a];
-            for (int i = 0; i < 3 && node < owned; i++)
-                force[3 * (size_t)node + (size_t)i] += at_nodes[3 * a + i][slot];
-        }
-}
-
-/* Takes forces of a state off those on the functions: 3 numbers each. */
-static void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
-                           double *of_state)
-{
-    for (int slot = 0; slot < cells->batch.count; slot++)
-        for (int k = 0; k < cells->functions; k++) {
-            const OstLocal function = cells->function[slot][k];
-            if (!ost_complement_owns(operator->complement, function))
-                continue;
-            for (int i = 0; i < 3; i++)
-                of_state[3 * (size_t)function + (size_t)i] -= cells->turn[k][slot] * at_functions[3 * k + i][slot];
-        }
-}
-
-static void add_to_functions(const Cells *cells, const OstSimd *at_functions, float *of_functions)
-{
-    for (int slot = 0; slot < cells->batch.count; slot++)
-        for (int k = 0; k < cells->functions; k++) {
-            float *force = of_functions + OST_PER_FUNCTION * (size_t)cells->function[slot][k];
-            for (int i = 0; i < 3; i++)
-                force[i] += (float)(cells->turn[k][slot] * at_functions[3 * k + i][slot]);
-        }
-}
-
-/* The gradients at a point, with its volume. */
-static inline void evaluate(const Cells *cells, const OstElement *element, int q, OstPoint *point,
-                            OstSimd gradient[OST_MAX_FUNCTIONS][3])
-{
-    element->evaluate(cells->batch.x, &cells->rule->point[q], point);
-    ost_complement_gradients(cells->nodes, cells->rule->point[q].at, point, gradient);
-}
 
 /* --- forces --- */
 
@@ -347,36 +225,62 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
 
 /* What the forces of a state are wanted for. */
 typedef struct Sum {
+    const OstOperator *operator;
     OstFormulation formulation;
     double eigen_share;
     int missing; /* on nodes: what the elements' own quadrature has more, by linear theory */
     double work; /* found: of the nodal forces on u */
+    const double *u;
+    double *force, *of_functions;
 } Sum;
 
-static void sum_forces(const OstOperator *operator, Sum * sum, const double *u, double *force, double *of_functions)
+/* Of a batch, which is gathered. */
+static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
 {
-    const OstMesh *mesh = operator->problem->mesh;
+    const OstMesh *mesh = sum->operator->problem->mesh;
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
+    ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
+    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
+    take_off_state(sum->operator, cells, at_functions, sum->of_functions);
+    sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
+    if (sum->missing && cells->straight && cells->batch.elasticity.points == 1)
+        return; /* both integrate without error */
+    for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
+        at_nodes[n] = -at_nodes[n];
+    add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
+    if (sum->missing)
+        add_own(sum->operator, cells, element, sum->u, sum->force);
+}
+
+/* OstServe: of one complement and eigenstrain. */
+static OstStatus sum_states(void *complement, int count, void *const *sum)
+{
+    const Sum *one = sum[0];
+    const OstMesh *mesh = one->operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
-    memset(of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * of_functions);
-    clear_cells(operator, 1, sum->eigen_share, &cells);
-    sum->work = 0.0;
+    (void)complement;
+    clear_cells(one->operator, 1, one->eigen_share, &cells);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
-        OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
-        gather(operator, first, mesh->tet_count, &cells);
-        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
-        find_forces(&cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
-        take_off_state(operator, & cells, at_functions, of_functions);
-        sum->work += work_of(&cells, mesh->owned_tets, moved, at_nodes);
-        if (sum->missing && cells.straight && cells.batch.elasticity.points == 1)
-            continue; /* both integrate without error */
-        for (int n = 0; n < 3 * cells.nodes && sum->missing; n++)
-            at_nodes[n] = -at_nodes[n];
-        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, force);
-        if (sum->missing)
-            add_own(operator, & cells, element, u, force);
+        gather(one->operator, first, mesh->tet_count, &cells);
+        for (int k = 0; k < count; k++)
+            add_state(&cells, element, sum[k]);
     }
+    return OST_SUCCESS;
+}
+
+static void sum_forces(Sum *sum)
+{
+    const OstComplement *complement = sum->operator->complement;
+    const OstMesh *mesh = sum->operator->problem->mesh;
+    void *const alone = sum;
+    memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
+    memset(sum->of_functions, 0, 3 * (size_t)complement->count * sizeof *sum->of_functions);
+    sum->work = 0.0;
+    if (!sum->missing || ost_field_is_eigenstrained(sum->operator->problem->field))
+        (void)sum_states(NULL, 1, &alone);
+    else
+        (void)ost_together(mesh->ctx, sum_states, (void *)complement, sum);
 }
 
 OstStatus ost_operator_unit(const OstProblem *problem, double *unit)
@@ -404,8 +308,14 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *own = NULL;
     const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
-    Sum sum = {problem->formulation, ost_problem_eigen_share(problem, t), is_linear, 0.0};
-    sum_forces(&unturned, &sum, u, missing, of_functions);
+    Sum sum = {.operator= & unturned,
+               .formulation = problem->formulation,
+               .eigen_share = ost_problem_eigen_share(problem, t),
+               .missing = is_linear,
+               .u = u,
+               .force = missing,
+               .of_functions = of_functions};
+    sum_forces(&sum);
     const int tells = is_linear && !problem->pressures && !problem->supports->spring && sum.eigen_share == 0.0;
     *energy = tells ? 0.5 * sum.work : NAN;
     if (is_linear)
@@ -419,33 +329,64 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
     return status;
 }
 
-void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
-                        float *of_functions)
+/* A product with the stiffness: as ost_operator_apply. */
+typedef struct Product {
+    const OstOperator *operator;
+    const double *u;
+    const float *w;
+    double *force;
+    float *of_functions;
+} Product;
+
+/* Of a batch, which is gathered. */
+static void add_product(const Cells *cells, const OstElement *element, double factor, const Product *product)
 {
+    OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+    ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
+    gather_functions(cells, product->w, more);
+    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+    for (int n = 0; n < 3 * cells->nodes; n++)
+        at_nodes[n] *= factor;
+    for (int n = 0; n < 3 * cells->functions; n++)
+        at_functions[n] *= factor;
+    add_to_functions(cells, at_functions, product->of_functions);
+    add_to_nodes(&cells->batch, cells->nodes, product->operator->problem->mesh->owned_nodes, at_nodes, product->force);
+}
+
+/* OstServe: of one complement. */
+static OstStatus multiply(void *complement, int count, void *const *product)
+{
+    const OstOperator *operator=((const Product *)product[0])->operator;
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const double factor = 1.0 / operator->unit;
     Cells cells;
+    (void)complement;
+    clear_cells(operator, 0, 0.0, &cells);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        gather(operator, first, mesh->tet_count, &cells);
+        for (int k = 0; k < count; k++)
+            add_product(&cells, element, factor, product[k]);
+    }
+    return OST_SUCCESS;
+}
+
+void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
+                        float *of_functions)
+{
+    const OstMesh *mesh = operator->problem->mesh;
+    Product product = {operator, u, w, force, of_functions};
+    void *const alone = &product;
     if (operator->light && !operator->turned_by) {
         ost_light_tets_apply(operator->light, u, w, force, of_functions);
         return;
     }
     memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
     memset(of_functions, 0, OST_PER_FUNCTION * (size_t) operator->complement->count * sizeof * of_functions);
-    clear_cells(operator, 0, 0.0, &cells);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
-        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
-        gather(operator, first, mesh->tet_count, &cells);
-        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
-        gather_functions(&cells, w, more);
-        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
-        for (int n = 0; n < 3 * cells.nodes; n++)
-            at_nodes[n] *= factor;
-        for (int n = 0; n < 3 * cells.functions; n++)
-            at_functions[n] *= factor;
-        add_to_functions(&cells, at_functions, of_functions);
-        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, force);
-    }
+    if (operator->turned_by)
+        (void)multiply(NULL, 1, &alone);
+    else
+        (void)ost_together(mesh->ctx, multiply, (void *)operator->complement, &product);
 }
 
 /* The mean stress of each tet, by the work of the nodal forces on linear displacements. */

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/parallel/reduce.h"
+#include "core/together/together.h"
+#include "support.h"
+
+/* Tasks that wait for the same are served together, whatever they did before; alone where there are none. */
+
+enum { TASKS = 5 };
+
+typedef struct Sums {
+    int services, most;
+    OstStatus fails;
+} Sums;
+
+typedef struct Data {
+    Sums *sums;
+    double found[TASKS];
+    OstStatus status[TASKS];
+} Data;
+
+/* OstServe: each number's square, summed over the ranks. */
+static OstStatus square(void *common, int count, void *const *request)
+{
+    Sums *sums = common;
+    sums->services++;
+    sums->most = count > sums->most ? count : sums->most;
+    for (int k = 0; k < count; k++) {
+        double *number = request[k];
+        *number *= *number;
+        OST_TRY(ost_sum(ctx, 1, number));
+    }
+    return sums->fails == OST_SUCCESS ? OST_SUCCESS : OST_RAISE(ctx, sums->fails, "the service says no");
+}
+
+/* Task k asks k + 1 times. */
+static void ask(void *data, int number)
+{
+    Data *all = data;
+    assert_true(ost_together_any(ctx));
+    for (int k = 0; k <= number && all->status[number] == OST_SUCCESS; k++) {
+        double value = number + k;
+        ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
+        all->status[number] = ost_together(ctx, square, all->sums, &value);
+        ost_ledger_leave(ctx);
+        all->found[number] += value;
+    }
+    if (all->status[number] != OST_SUCCESS)
+        assert_non_null(strstr(ost_error_text(ctx), "the service says no"));
+}
+
+static void requests_of_one_kind_are_served_at_once(void **state)
+{
+    (void)state;
+    Sums sums = {0};
+    Data data = {.sums = &sums};
+    assert_success(ost_together_run(ctx, TASKS, ask, &data));
+    assert_false(ost_together_any(ctx));
+    assert_int_equal(sums.services, TASKS);
+    assert_int_equal(sums.most, TASKS);
+    for (int n = 0; n < TASKS; n++) {
+        double expected = 0.0;
+        for (int k = 0; k <= n; k++)
+            expected += (double)((n + k) * (n + k)) * ost_size(ctx);
+        assert_success(data.status[n]);
+        assert_close(data.found[n], expected, 1e-12);
+    }
+}
+
+static void a_failure_reaches_all_that_were_served(void **state)
+{
+    (void)state;
+    Sums sums = {.fails = OST_NOT_CONVERGED};
+    Data data = {.sums = &sums};
+    assert_success(ost_together_run(ctx, TASKS, ask, &data));
+    for (int n = 0; n < TASKS; n++)
+        assert_int_equal(data.status[n], OST_NOT_CONVERGED);
+}
+
+static void outside_of_tasks_a_request_is_served_alone(void **state)
+{
+    (void)state;
+    Sums sums = {0};
+    double value = 3.0;
+    assert_success(ost_together(ctx, square, &sums, &value));
+    assert_close(value, 9.0 * ost_size(ctx), 1e-12);
+    assert_int_equal(sums.most, 1);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(requests_of_one_kind_are_served_at_once),
+    cmocka_unit_test(a_failure_reaches_all_that_were_served),
+    cmocka_unit_test(outside_of_tasks_a_request_is_served_alone),
+};
+
+OST_TEST_MAIN(tests)
