@@ -33,6 +33,7 @@ typedef struct OstSurplus {
     double *tet_error;    /* owned_tets: each tet's share of the squared error in the norm of the energy */
     double *displacement; /* 3 × owned_nodes: e at the nodes */
     double *stress;       /* 6 × owned_tets: the mean of its stress over the tet; of linear theory */
+    float *node_stress;   /* 6 numbers for each node of each tet, ghosts included: its stress there; likewise */
 } OstSurplus;
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
@@ -51,6 +52,21 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
  * if that is more. NAN: not known. Where rotations are large, the adjoint problem is that of the stiffness at u. */
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
+
+/* The adjoint problem of a reaction, solved once for all loads on the same supports, by linear theory. */
+typedef struct OstAdjoint OstAdjoint;
+
+/* Collective. *adjoint is NULL where none can be found. Its equations are solved to an error of this share of z in the
+ * norm of the energy; 0: to the solver's residual. */
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const OstInterest *interest, double share,
+                             OstAdjoint **adjoint);
+void ost_adjoint_destroy(OstAdjoint **adjoint);
+
+/* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem. */
+OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error);
+
+/* Local. What z has beside the given motion, 3 × owned_nodes; 0 where that is. */
+const double *ost_adjoint_displacement(const OstAdjoint *adjoint);
 
 void ost_estimate_destroy(OstEstimate **estimate);
 

@@ -89,6 +89,7 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     OST_TRY(ost_select_nodes(problem->scene->c, problem->mesh, &watch->on, &count, &nodes));
     const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, sum);
     take_direction(watch, sum, direction);
+    memcpy(interest->direction, direction, sizeof direction);
     interest->value = ost_dot3(direction, sum);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
         double arm[3];

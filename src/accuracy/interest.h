@@ -9,6 +9,7 @@ typedef struct OstInterest {
     double *load; /* of a displacement: 3 × owned_nodes, by how much it grows with each node's; or NULL */
     double
         *moved; /* of a reaction: 3 × node_count, a displacement that is 1 along the reaction at its nodes; or NULL */
+    double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
 } OstInterest;
 

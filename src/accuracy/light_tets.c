@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/light_tets.h"
 
+#include "accuracy/blocks.h"
 #include "assembly/batch.h"
 #include "core/error.h"
 #include "core/kernel.h"
@@ -36,9 +37,8 @@ struct OstLightTets {
     Eights *eights;
     Keeping keeping;
     Kept *elastic;
-    double length, modulus; /* units in which lengths and moduli are kept */
-    float *w, *of_functions;
-    double *u, *force; /* of nodes */
+    double length, modulus; /* units in which lengths and moduli are kept; their product is that of the stiffness */
+    double *u, *force;      /* of nodes, padded */
 };
 
 /* The softest part of a stress must not drown in what single precision loses of the stiffest. */
@@ -50,8 +50,6 @@ void ost_light_tets_destroy(OstLightTets **tets)
         return;
     OST_FREE((*tets)->eights);
     OST_FREE((*tets)->elastic);
-    OST_FREE((*tets)->w);
-    OST_FREE((*tets)->of_functions);
     OST_FREE((*tets)->u);
     OST_FREE((*tets)->force);
     OST_FREE(*tets);
@@ -59,11 +57,22 @@ void ost_light_tets_destroy(OstLightTets **tets)
 
 /* --- what is kept --- */
 
-/* By C's diagonal in material axes. */
-static int is_fit(const OstMaterialField *field, int32_t region)
+/* C in material axes, of a mixed form without the stiff mode. */
+static const double *stiffness_of(const OstMaterialField *field, int32_t region)
 {
     const double *rest = ost_field_is_mixed(field) ? ost_field_rest(field, region) : NULL;
-    const double *c = rest ? rest : field->material[region].stiffness;
+    return rest ? rest : field->material[region].stiffness;
+}
+
+double ost_light_tets_modulus(const OstMaterialField *field)
+{
+    return stiffness_of(field, 0)[0];
+}
+
+/* By C's diagonal. */
+static int is_fit(const OstMaterialField *field, int32_t region)
+{
+    const double *c = stiffness_of(field, region);
     double least = INFINITY, most = 0.0;
     for (int p = 0; p < 6; p++) {
         least = fmin(least, c[7 * p]);
@@ -146,17 +155,6 @@ static void keep(OstLightTets *tets, const OstMaterialField *field)
     }
 }
 
-/* A length and a modulus of this body's size. */
-static void find_units(OstLightTets *tets, const OstMaterialField *field)
-{
-    const OstMesh *mesh = tets->mesh;
-    double volume = 0.0;
-    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
-        volume += fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
-    tets->length = mesh->tet_count > 0 ? cbrt(volume / mesh->tet_count) : 1.0;
-    tets->modulus = field->material[0].stiffness[0];
-}
-
 static OstStatus fill(OstLightTets *tets, const OstMaterialField *field)
 {
     const OstMesh *mesh = tets->mesh;
@@ -166,16 +164,14 @@ static OstStatus fill(OstLightTets *tets, const OstMaterialField *field)
     const size_t numbers = tets->keeping == KEEP_ONE ? OST_ELASTICITY_COUNT : numbers_kept[tets->keeping] * tets->count;
     OST_TRY(OST_NEW(ctx, &tets->eights, tets->count));
     OST_TRY(OST_NEW(ctx, &tets->elastic, numbers));
-    OST_TRY(OST_NEW(ctx, &tets->w, 4 * (size_t)tets->complement->count));
-    OST_TRY(OST_NEW(ctx, &tets->of_functions, 4 * (size_t)tets->complement->count));
     OST_TRY(OST_NEW(ctx, &tets->u, 4 * (size_t)mesh->node_count));
     OST_TRY(OST_NEW(ctx, &tets->force, 4 * (size_t)mesh->node_count));
-    find_units(tets, field);
     keep(tets, field);
     return OST_SUCCESS;
 }
 
-OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, OstLightTets **tets)
+OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, double unit,
+                                OstLightTets **tets)
 {
     const OstMesh *mesh = problem->mesh;
     *tets = NULL;
@@ -187,6 +183,8 @@ OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *
     OST_TRY(OST_NEW(problem->ctx, tets, 1));
     (*tets)->mesh = mesh;
     (*tets)->complement = complement;
+    (*tets)->modulus = ost_light_tets_modulus(problem->field);
+    (*tets)->length = unit / (*tets)->modulus;
     const OstStatus status = fill(*tets, problem->field);
     if (status != OST_SUCCESS)
         ost_light_tets_destroy(tets);
@@ -244,14 +242,18 @@ static inline void read_nodes(const OstLightTets *tets, const Eights *eights, Ei
         transpose(row[v], moved[v]);
 }
 
-static inline void read_functions(const OstLightTets *tets, const Eights *eights, Eight w[EDGES][3])
+static inline OstLocal edge_of(const OstLightTets *tets, const Eights *eights, int slot, int e)
+{
+    return tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
+}
+
+static inline void read_functions(const OstLightTets *tets, const Eights *eights, const float *values,
+                                  Eight w[EDGES][3])
 {
     for (int e = 0; e < EDGES; e++) {
         Four row[WIDTH];
-        for (int slot = 0; slot < WIDTH; slot++) {
-            const OstLocal edge = tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
-            row[slot] = *(const Four *)(tets->w + 4 * (size_t)edge);
-        }
+        for (int slot = 0; slot < WIDTH; slot++)
+            row[slot] = *(const Four *)(values + OST_PER_FUNCTION * (size_t)edge_of(tets, eights, slot, e));
         transpose(row, w[e]);
     }
 }
@@ -273,15 +275,14 @@ static inline void add_to_nodes(OstLightTets *tets, const Eights *eights, Eight 
     }
 }
 
-static inline void add_to_functions(OstLightTets *tets, const Eights *eights, Eight at_functions[EDGES][3])
+static inline void add_to_functions(const OstLightTets *tets, const Eights *eights, Eight at_functions[EDGES][3],
+                                    float *of_functions)
 {
     for (int e = 0; e < EDGES; e++) {
         Four row[WIDTH];
         transpose_back(at_functions[e], row);
-        for (int slot = 0; slot < WIDTH; slot++) {
-            const OstLocal edge = tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
-            *(Four *)(tets->of_functions + 4 * (size_t)edge) += row[slot];
-        }
+        for (int slot = 0; slot < WIDTH; slot++)
+            *(Four *)(of_functions + OST_PER_FUNCTION * (size_t)edge_of(tets, eights, slot, e)) += row[slot];
     }
 }
 
@@ -398,87 +399,168 @@ static inline void find_forces(const Linear *tet, Eight moved[VERTICES - 1][3], 
 
 /* --- all tets --- */
 
-/* The displacement in a unit near its size, which is returned. */
-static double take(OstLightTets *tets, const double *u, const double *w)
+static void take(OstLightTets *tets, const double *u)
 {
-    const size_t nodes = (size_t)tets->mesh->node_count, functions = (size_t)tets->complement->count;
-    double size = 0.0;
-    for (size_t i = 0; i < 3 * nodes; i++)
-        size = fmax(size, fabs(u[i]));
-    for (size_t i = 0; i < 3 * functions; i++)
-        size = fmax(size, fabs(w[i]));
-    const double factor = size > 0.0 ? 1.0 / size : 1.0;
-    for (size_t n = 0; n < nodes; n++)
+    for (size_t n = 0; n < (size_t)tets->mesh->node_count; n++)
         for (size_t i = 0; i < 3; i++)
-            tets->u[4 * n + i] = factor * u[3 * n + i];
-    for (size_t k = 0; k < functions; k++)
-        for (size_t i = 0; i < 3; i++)
-            tets->w[4 * k + i] = (float)(factor * w[3 * k + i]);
-    return 1.0 / factor;
+            tets->u[4 * n + i] = u[3 * n + i];
 }
 
-static inline void find_eight(const OstLightTets *tets, size_t k, int by_stretch, Eight moved[VERTICES - 1][3],
-                              Eight w[EDGES][3], Eight at_nodes[VERTICES - 1][3], Eight at_functions[EDGES][3])
+static inline void find_eight(const OstLightTets *tets, size_t k, const float *functions, int by_stretch,
+                              Eight moved[VERTICES - 1][3], Eight w[EDGES][3], Eight at_nodes[VERTICES - 1][3],
+                              Eight at_functions[EDGES][3])
 {
     const Eights *eights = &tets->eights[k];
     Linear tet;
     open(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
     read_nodes(tets, eights, moved);
-    read_functions(tets, eights, w);
+    read_functions(tets, eights, functions, w);
     find_forces(&tet, moved, w, at_nodes, at_functions);
 }
 
-OST_KERNEL static void apply_eights(OstLightTets *tets)
+OST_KERNEL static void apply_eights(OstLightTets *tets, const float *functions, float *of_functions)
 {
     Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
     for (size_t k = 0; k < tets->count; k++) {
         if (tets->keeping == KEEP_STRETCH)
-            find_eight(tets, k, 1, moved, w, at_nodes, at_functions);
+            find_eight(tets, k, functions, 1, moved, w, at_nodes, at_functions);
         else
-            find_eight(tets, k, 0, moved, w, at_nodes, at_functions);
+            find_eight(tets, k, functions, 0, moved, w, at_nodes, at_functions);
         add_to_nodes(tets, &tets->eights[k], at_nodes);
-        add_to_functions(tets, &tets->eights[k], at_functions);
+        add_to_functions(tets, &tets->eights[k], at_functions, of_functions);
     }
 }
 
-void ost_light_tets_apply(OstLightTets *tets, const double *u, const double *w, double *force, double *of_functions)
+void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions)
 {
-    const OstComplement *complement = tets->complement;
-    const size_t owned = (size_t)tets->mesh->owned_nodes;
-    const double unit = tets->length * tets->modulus * take(tets, u, w);
+    take(tets, u);
     memset(tets->force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *tets->force);
-    memset(tets->of_functions, 0, 4 * (size_t)complement->count * sizeof *tets->of_functions);
-    apply_eights(tets);
-    for (size_t n = 0; n < owned; n++)
+    memset(of_functions, 0, OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *of_functions);
+    apply_eights(tets, w, of_functions);
+    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes; n++)
         for (size_t i = 0; i < 3; i++)
-            force[3 * n + i] = unit * tets->force[4 * n + i];
-    for (size_t k = 0; k < (size_t)complement->count; k++) {
-        const double factor = ost_complement_owns(complement, (OstLocal)k) ? unit : 0.0;
-        for (size_t i = 0; i < 3; i++)
-            of_functions[3 * k + i] = factor * (double)tets->of_functions[4 * k + i];
-    }
+            force[3 * n + i] = tets->force[4 * n + i];
 }
 
-OST_KERNEL static void find_energies(OstLightTets *tets, double unit, double *energy)
+OST_KERNEL static void find_energies(const OstLightTets *tets, const float *functions, double *energy)
 {
     Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
     const OstLocal owned = tets->mesh->owned_tets;
     for (size_t k = 0; k < tets->count; k++) {
         const Eights *eights = &tets->eights[k];
         Eight sum = {0.0F};
-        find_eight(tets, k, tets->keeping == KEEP_STRETCH, moved, w, at_nodes, at_functions);
+        find_eight(tets, k, functions, tets->keeping == KEEP_STRETCH, moved, w, at_nodes, at_functions);
         for (int n = 0; n < 3 * (VERTICES - 1); n++)
             sum += moved[n / 3][n % 3] * at_nodes[n / 3][n % 3];
         for (int n = 0; n < 3 * EDGES; n++)
             sum += w[n / 3][n % 3] * at_functions[n / 3][n % 3];
         for (int slot = 0; slot < WIDTH; slot++)
             if (eights->volume[slot] != 0.0F && eights->tet[slot] < owned)
-                energy[eights->tet[slot]] = unit * (double)sum[slot];
+                energy[eights->tet[slot]] = (double)sum[slot];
     }
 }
 
-void ost_light_tets_energy(OstLightTets *tets, const double *u, const double *w, double *energy)
+void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy)
 {
-    const double size = take(tets, u, w);
-    find_energies(tets, tets->length * tets->modulus * size * size, energy);
+    take(tets, u);
+    find_energies(tets, w, energy);
+}
+
+/* --- the functions' own blocks --- */
+
+/* Entry ij of B'C B for a gradient g is the sum of factor[ij][kl] g_k g_l, with ij and kl as 11 22 33 12 23 31. */
+typedef struct Squares {
+    Eight factor[6][6];
+} Squares;
+
+static inline void find_squares(const Kept *c, Squares *squares)
+{
+    static const int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int ij = 0; ij < 6; ij++)
+        for (int kl = 0; kl < 6; kl++) {
+            const int i = ij % 3, j = ij < 3 ? i : (i + 1) % 3, k = kl % 3, l = kl < 3 ? k : (k + 1) % 3;
+            squares->factor[ij][kl] = c[ost_upper[voigt[i][k]][voigt[j][l]]];
+            if (k != l)
+                squares->factor[ij][kl] += c[ost_upper[voigt[i][l]][voigt[j][k]]];
+        }
+}
+
+/* B'C B for the gradient g (11 22 33 12 23 31). */
+static inline void find_block(const Linear *tet, const Squares *squares, const Eight g[3], const Eight along[3],
+                              Eight block[6])
+{
+    const Kept *a = tet->elastic;
+    Eight product[6];
+    for (int p = 0; p < 6; p++)
+        product[p] = g[p % 3] * g[p < 3 ? p : (p + 1) % 3];
+    if (tet->by_stretch) {
+        const Eight shear = a[6], size = shear * (g[0] * along[0] + g[1] * along[1] + g[2] * along[2]);
+        for (int p = 0; p < 6; p++)
+            block[p] = (1.0F - shear) * along[p % 3] * along[p < 3 ? p : (p + 1) % 3] + size * a[p];
+        return;
+    }
+    for (int p = 0; p < 6; p++) {
+        block[p] = squares->factor[p][0] * product[0];
+        for (int q = 1; q < 6; q++)
+            block[p] += squares->factor[p][q] * product[q];
+    }
+}
+
+static inline void add_to_block(const OstLightTets *tets, const Eights *eights, int e, Eight block[6], float *blocks)
+{
+    for (int half = 0; half < 2; half++) {
+        Four row[WIDTH];
+        transpose_back(block + 3 * half, row);
+        for (int slot = 0; slot < WIDTH; slot++)
+            *(Four *)(blocks + OST_PER_BLOCK * (size_t)edge_of(tets, eights, slot, e) + 4 * half) += row[slot];
+    }
+}
+
+/* The block of 4 L_a L_b is volume × 0.8 times those of L_a, L_b and L_a + L_b; the last is that of the opposite edge,
+ * too, as all gradients add up to zero. */
+static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet, const Squares *squares,
+                              float *blocks)
+{
+    Eight own[VERTICES][6], of_sum[3][6];
+    for (int v = 0; v < VERTICES; v++)
+        find_block(tet, squares, tet->gradient[v], tet->along[v], own[v]);
+    for (int v = 1; v < VERTICES; v++) {
+        Eight g[3], along[3];
+        for (int i = 0; i < 3; i++) {
+            g[i] = tet->gradient[0][i] + tet->gradient[v][i];
+            along[i] = tet->along[0][i] + tet->along[v][i];
+        }
+        find_block(tet, squares, g, along, of_sum[v - 1]);
+    }
+    const Eight weight = 0.8F * tet->volume;
+    for (int e = 0; e < EDGES; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        const int with0 = a == 0 ? b : b == 0 ? a : 6 - a - b; /* the pair with vertex 0: this one, or its opposite */
+        Eight block[6];
+        for (int p = 0; p < 6; p++)
+            block[p] = weight * (own[a][p] + own[b][p] + of_sum[with0 - 1][p]);
+        add_to_block(tets, eights, e, block, blocks);
+    }
+}
+
+OST_KERNEL static void add_all_blocks(const OstLightTets *tets, float *blocks)
+{
+    Squares squares = {{{{0.0F}}}};
+    if (tets->keeping == KEEP_ONE)
+        find_squares(tets->elastic, &squares);
+    for (size_t k = 0; k < tets->count; k++) {
+        const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
+        Linear tet;
+        if (tets->keeping == KEEP_EACH)
+            find_squares(elastic, &squares);
+        open(&tets->eights[k], elastic, tets->keeping == KEEP_STRETCH, &tet);
+        add_blocks(tets, &tets->eights[k], &tet, &squares, blocks);
+    }
+}
+
+void ost_light_tets_blocks(const OstLightTets *tets, float *factor)
+{
+    memset(factor, 0, OST_PER_BLOCK * (size_t)tets->complement->count * sizeof *factor);
+    add_all_blocks(tets, factor);
+    ost_blocks_factor(tets->complement, factor);
 }

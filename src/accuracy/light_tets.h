@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_LIGHT_TETS_H
 #define ORTHOSTAT_ACCURACY_LIGHT_TETS_H
 
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 #include "problem/problem.h"
 
 /* The stiffness of linear tets with the functions of their edges, by linear theory, in single precision: gradients and
@@ -10,15 +10,23 @@
  * digits. */
 typedef struct OstLightTets OstLightTets;
 
-/* Local. *tets is NULL where single precision is too little: where moduli of one material differ by far. */
-OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, OstLightTets **tets);
+/* Local. A modulus of this field's size: the same on all ranks. */
+double ost_light_tets_modulus(const OstMaterialField *field);
+
+/* Local. The stiffness is taken over `unit` (OstOperator). *tets is NULL where single precision is too little: where
+ * moduli of one material differ by far. */
+OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *complement, double unit,
+                                OstLightTets **tets);
 void ost_light_tets_destroy(OstLightTets **tets);
 
-/* Local. Forces of a displacement u of the nodes, and w of the functions, ghosts included: 3 × owned_nodes, and 3 for
- * each function; those of ghosts are 0. */
-void ost_light_tets_apply(OstLightTets *tets, const double *u, const double *w, double *force, double *of_functions);
+/* Local. Forces of a displacement u of the nodes (3 numbers each), and w of the functions, ghosts included; those on
+ * ghosts are not complete. */
+void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions);
 
 /* Local. Twice the strain energy of each owned tet. */
-void ost_light_tets_energy(OstLightTets *tets, const double *u, const double *w, double *energy);
+void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy);
+
+/* Local. The functions' own blocks as accuracy/blocks.h. */
+void ost_light_tets_blocks(const OstLightTets *tets, float *factor);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_LINEAR_TETS_H
 #define ORTHOSTAT_ACCURACY_LINEAR_TETS_H
 
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 
 /* Linear tets with the quadratic functions of their edges, by linear theory. C comes as the 21 numbers, or as a stretch
  * tensor (element/elasticity.h). */

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_LOADS_H
 #define ORTHOSTAT_ACCURACY_LOADS_H
 
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 #include "problem/problem.h"
 
 /* The loads of a scene on the functions of the complement. */

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
+#include "accuracy/blocks.h"
 #include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/biot.h"
 #include "element/large_rotation.h"
@@ -87,13 +89,13 @@ static void gather(const OstOperator *operator, OstLocal first, OstLocal end, Ce
         ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
 }
 
-static void gather_functions(const Cells *cells, const double *values, OstSimd *gathered)
+static void gather_functions(const Cells *cells, const float *values, OstSimd *gathered)
 {
     for (int k = 0; k < cells->functions; k++)
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-            const double *value = values + 3 * (size_t)cells->function[slot][k];
+            const float *value = values + OST_PER_FUNCTION * (size_t)cells->function[slot][k];
             for (int i = 0; i < 3; i++)
-                gathered[3 * k + i][slot] = cells->turn[k][slot] * value[i];
+                gathered[3 * k + i][slot] = cells->turn[k][slot] * (double)value[i];
         }
 }
 
@@ -107,8 +109,9 @@ static void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const
         }
 }
 
-static void add_to_functions(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
-                             double *of_functions)
+/* Takes forces of a state off those on the functions: 3 numbers each. */
+static void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
+                           double *of_state)
 {
     for (int slot = 0; slot < cells->batch.count; slot++)
         for (int k = 0; k < cells->functions; k++) {
@@ -116,7 +119,17 @@ static void add_to_functions(const OstOperator *operator, const Cells * cells, c
             if (!ost_complement_owns(operator->complement, function))
                 continue;
             for (int i = 0; i < 3; i++)
-                of_functions[3 * (size_t)function + (size_t)i] += cells->turn[k][slot] * at_functions[3 * k + i][slot];
+                of_state[3 * (size_t)function + (size_t)i] -= cells->turn[k][slot] * at_functions[3 * k + i][slot];
+        }
+}
+
+static void add_to_functions(const Cells *cells, const OstSimd *at_functions, float *of_functions)
+{
+    for (int slot = 0; slot < cells->batch.count; slot++)
+        for (int k = 0; k < cells->functions; k++) {
+            float *force = of_functions + OST_PER_FUNCTION * (size_t)cells->function[slot][k];
+            for (int i = 0; i < 3; i++)
+                force[i] += (float)(cells->turn[k][slot] * at_functions[3 * k + i][slot]);
         }
 }
 
@@ -332,60 +345,67 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
     add_to_nodes(&batch, cells->nodes, mesh->owned_nodes, at_nodes, force);
 }
 
-/* What the forces are wanted for. */
+/* What the forces of a state are wanted for. */
 typedef struct Sum {
     OstFormulation formulation;
     double eigen_share;
-    const double *u, *w; /* w: NULL for a state */
-    int missing;         /* on nodes: what the elements' own quadrature has more, by linear theory */
-    double work;         /* found: of the nodal forces on u */
-    double *force, *of_functions;
+    int missing; /* on nodes: what the elements' own quadrature has more, by linear theory */
+    double work; /* found: of the nodal forces on u */
 } Sum;
 
-static void sum_forces(const OstOperator *operator, Sum * sum)
+static void sum_forces(const OstOperator *operator, Sum * sum, const double *u, double *force, double *of_functions)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
-    memset(sum->of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * sum->of_functions);
-    clear_cells(operator, !sum->w, sum->eigen_share, &cells);
+    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
+    memset(of_functions, 0, 3 * (size_t) operator->complement->count * sizeof * of_functions);
+    clear_cells(operator, 1, sum->eigen_share, &cells);
     sum->work = 0.0;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
-        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+        OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
         gather(operator, first, mesh->tet_count, &cells);
-        ost_batch_gather_vectors(&cells.batch, cells.nodes, sum->u, moved);
-        if (sum->w)
-            gather_functions(&cells, sum->w, more);
-        find_forces(&cells, element, sum->formulation, moved, sum->w ? more : NULL, at_nodes, at_functions);
-        add_to_functions(operator, & cells, at_functions, sum->of_functions);
-        if (!sum->w)
-            sum->work += work_of(&cells, mesh->owned_tets, moved, at_nodes);
+        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
+        find_forces(&cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
+        take_off_state(operator, & cells, at_functions, of_functions);
+        sum->work += work_of(&cells, mesh->owned_tets, moved, at_nodes);
         if (sum->missing && cells.straight && cells.batch.elasticity.points == 1)
             continue; /* both integrate without error */
         for (int n = 0; n < 3 * cells.nodes && sum->missing; n++)
             at_nodes[n] = -at_nodes[n];
-        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, sum->force);
+        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, force);
         if (sum->missing)
-            add_own(operator, & cells, element, sum->u, sum->force);
+            add_own(operator, & cells, element, u, force);
     }
+}
+
+OstStatus ost_operator_unit(const OstProblem *problem, double *unit)
+{
+    const OstMesh *mesh = problem->mesh;
+    double sums[2] = {0.0, 0.0}; /* of lengths, and their number */
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+        double edge[3];
+        for (size_t i = 0; i < 3; i++)
+            edge[i] = mesh->coordinates[3 * (size_t)nodes[1] + i] - mesh->coordinates[3 * (size_t)nodes[0] + i];
+        sums[0] += ost_norm3(edge);
+        sums[1] += 1.0;
+    }
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
+    *unit = ost_light_tets_modulus(problem->field) * sums[0] / sums[1];
+    return OST_SUCCESS;
 }
 
 OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
                              double *of_functions, double *energy)
 {
     const OstProblem *problem = operator->problem;
-    const OstOperator unturned = {problem, operator->complement, NULL, NULL};
+    const OstOperator unturned = {.problem = problem, .complement = operator->complement };
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *own = NULL;
     const int is_linear = problem->formulation == OST_FORMULATION_LINEAR;
-    Sum sum = {.formulation = problem->formulation,
-               .eigen_share = ost_problem_eigen_share(problem, t),
-               .u = u,
-               .missing = is_linear,
-               .force = missing,
-               .of_functions = of_functions};
-    sum_forces(&unturned, &sum);
+    Sum sum = {problem->formulation, ost_problem_eigen_share(problem, t), is_linear, 0.0};
+    sum_forces(&unturned, &sum, u, missing, of_functions);
     const int tells = is_linear && !problem->pressures && !problem->supports->spring && sum.eigen_share == 0.0;
     *energy = tells ? 0.5 * sum.work : NAN;
     if (is_linear)
@@ -399,18 +419,33 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
     return status;
 }
 
-void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
-                        double *of_functions)
+void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
+                        float *of_functions)
 {
+    const OstMesh *mesh = operator->problem->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    const double factor = 1.0 / operator->unit;
+    Cells cells;
     if (operator->light && !operator->turned_by) {
         ost_light_tets_apply(operator->light, u, w, force, of_functions);
         return;
     }
-    sum_forces(operator, &(Sum){.formulation = OST_FORMULATION_LINEAR,
-                                .u = u,
-                                .w = w,
-                                .force = force,
-                                .of_functions = of_functions});
+    memset(force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *force);
+    memset(of_functions, 0, OST_PER_FUNCTION * (size_t) operator->complement->count * sizeof * of_functions);
+    clear_cells(operator, 0, 0.0, &cells);
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
+        gather(operator, first, mesh->tet_count, &cells);
+        ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
+        gather_functions(&cells, w, more);
+        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+        for (int n = 0; n < 3 * cells.nodes; n++)
+            at_nodes[n] *= factor;
+        for (int n = 0; n < 3 * cells.functions; n++)
+            at_functions[n] *= factor;
+        add_to_functions(&cells, at_functions, of_functions);
+        add_to_nodes(&cells.batch, cells.nodes, mesh->owned_nodes, at_nodes, force);
+    }
 }
 
 /* The mean stress of each tet, by the work of the nodal forces on linear displacements. */
@@ -429,7 +464,7 @@ static void take_stress(const Cells *cells, const OstSimd *at_nodes, const doubl
     }
 }
 
-void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy, double *stress)
+void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy, double *stress)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
@@ -453,7 +488,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const do
         for (int n = 0; n < 3 * cells.functions; n++)
             sum += more[n] * at_functions[n];
         for (int slot = 0; slot < cells.batch.count; slot++)
-            energy[cells.batch.tet[slot]] = sum[slot];
+            energy[cells.batch.tet[slot]] = sum[slot] / operator->unit;
     }
 }
 
@@ -506,14 +541,13 @@ static void turn_blocks(const Cells *cells, const OstElement *element, OstSimd b
     }
 }
 
-OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
+/* Sums blocks (11 22 33 12 23 31) in double precision. */
+static void sum_blocks(const OstOperator *operator, double * sum)
 {
-    static const int place[6] = {0, 4, 8, 1, 5, 6}; /* 11 22 33 12 23 31 */
+    static const int place[6] = {0, 4, 8, 1, 5, 6};
     const OstMesh *mesh = operator->problem->mesh;
-    const OstComplement *complement = operator->complement;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    memset(inverse, 0, 6 * (size_t)complement->count * sizeof *inverse);
     clear_cells(operator, 0, 0.0, &cells);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
@@ -529,10 +563,35 @@ OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse)
         for (int slot = 0; slot < cells.batch.count; slot++)
             for (int k = 0; k < cells.functions; k++)
                 for (int p = 0; p < 6; p++)
-                    inverse[6 * (size_t)cells.function[slot][k] + (size_t)p] += block[k][place[p]][slot];
+                    sum[6 * (size_t)cells.function[slot][k] + (size_t)p] += block[k][place[p]][slot];
     }
-    for (OstLocal k = 0; k < complement->count; k++)
-        if (ost_complement_owns(complement, k))
-            OST_TRY(ost_complement_invert(complement, k, inverse + 6 * (size_t)k));
+}
+
+OstStatus ost_operator_blocks(const OstOperator *operator, float * factor)
+{
+    const OstComplement *complement = operator->complement;
+    OstContext *ctx = operator->problem->ctx;
+    double *sum = NULL;
+    int definite = 1;
+    if (operator->light && !operator->turned_by) {
+        ost_light_tets_blocks(operator->light, factor);
+        return OST_SUCCESS;
+    }
+    OST_TRY(OST_NEW(ctx, &sum, 6 * (size_t)complement->count));
+    sum_blocks(operator, sum);
+    for (OstLocal k = 0; k < complement->count; k++) {
+        double *block = sum + 6 * (size_t)k;
+        float *of_function = factor + OST_PER_BLOCK * (size_t)k;
+        memset(of_function, 0, OST_PER_BLOCK * sizeof *of_function);
+        if (!ost_complement_owns(complement, k))
+            continue;
+        for (int p = 0; p < 6; p++)
+            block[p] /= operator->unit;
+        ost_complement_constrain_block(complement, k, block);
+        definite &= ost_block_factor(block, 0.0, of_function);
+    }
+    OST_FREE(sum);
+    if (!definite)
+        return OST_RAISE(ctx, OST_CHECK_FAILED, "the error estimate meets a stiffness that is not positive definite");
     return OST_SUCCESS;
 }

@@ -6,33 +6,43 @@
 #include "problem/problem.h"
 
 /* Forces and stiffness of the elements and their complement together, tet by tet without a matrix. A displacement has
- * 3 numbers for each node and for each function, ghosts included; forces are complete on those that this rank owns. */
+ * 3 numbers for each node and OST_PER_FUNCTION for each function, ghosts included; forces are complete on those that
+ * this rank owns. Those of the functions are in single precision: so the stiffness is taken over `unit`, which makes
+ * forces as large as displacements, and both are near one if the caller sees to it. */
 typedef struct OstOperator {
     const OstProblem *problem;
     const OstComplement *complement;
+    double unit;
     const double
         *turned_by;      /* where rotations are large: the displacement whose rotations turn the stiffness; or NULL */
     OstLightTets *light; /* the stiffness of linear tets that is not turned, if it may be less precise; or NULL */
 } OstOperator;
 
-/* Local. The internal forces on the functions at t of the displacement u of the nodes. On the nodes: by how much those
- * of the elements' own quadrature are larger (3 × owned_nodes). energy: of this rank's tets, or NAN where the forces do
- * not tell. */
+/* Collective. A stiffness of the size of this problem's, the same on all ranks. */
+OstStatus ost_operator_unit(const OstProblem *problem, double *unit);
+
+/* Local. Minus the internal forces on the functions (3 numbers each; not over the unit) at t of the displacement u of
+ * the nodes. On the nodes: by how much those of the elements' own quadrature are larger (3 × owned_nodes). energy: of
+ * this rank's tets, or NAN where the forces do not tell. */
 OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
                              double *of_functions, double *energy);
 
 /* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body.
  * (What the stress adds to it is left out: so it is definite.) */
-void ost_operator_apply(const OstOperator *operator, const double * u, const double *w, double *force,
-                        double *of_functions);
+void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
+                        float *of_functions);
 
-/* Local. The inverses of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained:
- * 6 numbers for each function (11 22 33 12 23 31); 0 of those of other ranks, as far as forces there are 0. */
-OstStatus ost_operator_diagonal(const OstOperator *operator, double * inverse);
+/* Local. Of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained, the inverses
+ * as N'N (accuracy/blocks.h). */
+OstStatus ost_operator_blocks(const OstOperator *operator, float * factor);
 
-/* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers), or NULL.
- */
-void ost_operator_energy(const OstOperator *operator, const double * u, const double *w, double *energy,
-                         double *stress);
+/* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers, not over
+ * the unit), or NULL. */
+void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy, double *stress);
+
+/* Local. Of each tet, ghosts included, `factor` times the stress of a displacement at its nodes, 6 numbers each, not
+ * over the unit; by linear theory. */
+void ost_operator_node_stress(const OstOperator *operator, const double * u, const float *w, double factor,
+                              float *stress);
 
 #endif

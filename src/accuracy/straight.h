@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_STRAIGHT_H
 #define ORTHOSTAT_ACCURACY_STRAIGHT_H
 
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 
 /* Quadratic tets with straight edges, by linear theory: gradients of barycentric coordinates are constants there, and
  * strains are polynomials of degree 2. Curved ones are taken for straight, but for what a linear displacement needs,

@@ -146,21 +146,12 @@ static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *la
 /* Until the accuracy section gives one. */
 static const double not_given = -1.0;
 
-static int watches_reaction(const OstCase *c)
-{
-    int some = 0;
-    for (int w = 0; w < c->watch_count; w++)
-        some |= c->watches[w].kind == OST_WATCH_REACTION;
-    return some;
-}
-
 /* What verify measures is the discretisation error, to many digits. The error of a quantity of interest is much smaller
- * than that in the norm of the energy, by which solves stop; and a reaction must balance the loads, whatever the mesh.
- */
+ * than that in the norm of the energy, by which solves stop. */
 static void settle_fraction(OstCase *c)
 {
-    const int stops = !c->verify && !watches_reaction(c) && !drives(c) &&
-                      (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
+    const int stops =
+        !c->verify && !drives(c) && (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
     if (c->solver.algebraic_fraction == not_given)
         c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
 }

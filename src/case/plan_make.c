@@ -35,7 +35,9 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
         facts->follower_loads += effect == OST_EFFECT_FOLLOWER_PRESSURE;
         facts->centrifugal_loads += effect == OST_EFFECT_CENTRIFUGAL;
         facts->moments += effect == OST_EFFECT_MOMENT;
-        facts->distributing += c->loads[i].kind == OST_LOAD_DISTRIBUTING;
+        facts->moved_couplings += c->loads[i].kind == OST_LOAD_DISTRIBUTING;
+        for (int k = 0; k < 6 && c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
+            facts->moved_components += c->loads[i].moved[k];
     }
 }
 

@@ -74,7 +74,13 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
 /* Does a constraint make nodes follow others? */
 static int has_links(const OstEffectFacts *f)
 {
-    return f->rigid_faces + f->ties + f->periodic + f->distributing > 0;
+    return f->rigid_faces + f->ties + f->periodic > 0;
+}
+
+/* Moved couplings are found by superposition of solves for displacements. */
+static int is_solved_linearly(const OstEffectFacts *f)
+{
+    return has_links(f) || f->moved_couplings > 0;
 }
 
 /* Why the mixed form is not used, or NULL. */
@@ -90,7 +96,7 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "the case says so: element: {mixed: off}";
     if (f->large_rotation == 2 && f->classical && !f->free_body)
         return "formulation: classical uses the mean dilatation";
-    if (has_links(f))
+    if (is_solved_linearly(f))
         return "rigid, tied or periodic faces and moved distributing couplings use the mean dilatation";
     return NULL;
 }
@@ -132,7 +138,7 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
         off(state, "a free body is solved linearly");
-    else if (has_links(f))
+    else if (is_solved_linearly(f))
         off(state, "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly");
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
@@ -238,6 +244,18 @@ static void centrifugal(const OstEffectFacts *f, OstEffectState *state)
 static void moment(const OstEffectFacts *f, OstEffectState *state)
 {
     loads(f, state, f->moments, "with a moment");
+}
+
+/* Of each component the load of a unit of its force and the displacement under that; the load of all, two vectors of
+ * work, and the solver's eight. */
+static void moved_coupling(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->moved_couplings > 0)
+        on(state, f->nodes * (264.0 + 48.0 * f->moved_components),
+           "the motion of %d of %d loads is given, in %d component%s", f->moved_couplings, f->loads,
+           f->moved_components, f->moved_components == 1 ? "" : "s");
+    else
+        off(state, "no coupling of a face to a point is moved");
 }
 
 /* The nodes and the pressure of each face are few beside the tets. */

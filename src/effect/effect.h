@@ -29,6 +29,7 @@
     X(OST_EFFECT_BODY_FORCE, "body force", body_force)                                        \
     X(OST_EFFECT_CENTRIFUGAL, "centrifugal load", centrifugal)                                \
     X(OST_EFFECT_MOMENT, "moment", moment)                                                    \
+    X(OST_EFFECT_MOVED_COUPLING, "moved coupling", moved_coupling)                            \
     X(OST_EFFECT_FOLLOWER_PRESSURE, "follower pressure", follower_pressure)                   \
     X(OST_EFFECT_EIGENSTRAIN, "eigenstrain", eigenstrain)                                     \
     X(OST_EFFECT_FOUNDATION, "elastic foundation", foundation)                                \
@@ -69,7 +70,8 @@ typedef struct OstEffectFacts {
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
     int moments;                      /* loads with a moment: those, and forces at a point */
-    int distributing;                 /* those of them whose motion is given */
+    int moved_couplings;              /* those of them whose motion is given */
+    int moved_components;             /* of all of these */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */

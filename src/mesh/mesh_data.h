@@ -124,15 +124,17 @@ int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes);
 /* Collective. Makes the halo from node_number; ghosts take their coordinates and labels from their owners. */
 OstStatus ost_mesh_connect(OstMesh *mesh);
 
-/* Collective. Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edge nodes.
- * `tet` is the tet behind each face. */
+/* Faces of the body's surface that touch an owned node, oriented outwards: vertices, then mid-edge nodes. `tet` is the
+ * tet behind each face. */
 typedef struct OstSurface {
     OstLocal count;
     int nodes_per_face;
     OstLocal *nodes; /* count × nodes_per_face, local numbers */
     OstLocal *tet;
 } OstSurface;
-OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface);
+
+/* Collective. `marked`: a number for each node, 1 where faces between marked vertices are wanted, else 0; NULL: all. */
+OstStatus ost_surface_create(const OstMesh *mesh, const unsigned char *marked, OstSurface **surface);
 
 /* Collective. The same, made once and kept: it belongs to the mesh. */
 OstStatus ost_mesh_surface(const OstMesh *mesh, const OstSurface **surface);

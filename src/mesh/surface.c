@@ -72,23 +72,37 @@ static int touches_owned(const OstMesh *mesh, const OstLocal *tet, int opposite)
     return 0;
 }
 
-/* Lists the faces that touch an owned node: this rank has the tets on both sides of these. */
-static OstStatus list_faces(const OstMesh *mesh, FaceTable *table)
+/* Can a face of the tet have marked vertices alone? */
+static int has_three(const unsigned char *marked, const OstLocal *tet)
+{
+    return !marked || marked[tet[0]] + marked[tet[1]] + marked[tet[2]] + marked[tet[3]] >= 3;
+}
+
+static int is_wanted(const OstMesh *mesh, const unsigned char *marked, const OstLocal *tet, int opposite)
+{
+    const int *corner = ost_tet_face[opposite];
+    return (!marked || (marked[tet[corner[0]]] & marked[tet[corner[1]]] & marked[tet[corner[2]]])) &&
+           touches_owned(mesh, tet, opposite);
+}
+
+/* Lists the faces that touch an owned node: this rank has the tets on both sides of these. `marked`: 1 for the nodes
+ * between which faces are wanted, and 0; NULL: all. */
+static OstStatus list_faces(const OstMesh *mesh, const unsigned char *marked, FaceTable *table)
 {
     table->rows = mesh->node_count;
     OST_TRY(OST_NEW(mesh->ctx, &table->start, (size_t)table->rows + 2));
     OstGlobal *next = table->start + 1; /* offset by one: filling the lists moves each start to its place */
     Face face = {0};
     for (OstLocal t = 0; t < mesh->tet_count; t++)
-        for (int o = 0; o < 4; o++)
-            if (touches_owned(mesh, ost_mesh_nodes_of(mesh, t), o))
+        for (int o = 0; o < 4 && has_three(marked, ost_mesh_nodes_of(mesh, t)); o++)
+            if (is_wanted(mesh, marked, ost_mesh_nodes_of(mesh, t), o))
                 next[sort_face(ost_mesh_nodes_of(mesh, t), o, &face) + 1]++;
     for (OstLocal n = 0; n < table->rows; n++)
         next[n + 1] += next[n];
     OST_TRY(OST_NEW(mesh->ctx, &table->face, next[table->rows]));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        for (int o = 0; o < 4; o++) {
-            if (!touches_owned(mesh, ost_mesh_nodes_of(mesh, t), o))
+        for (int o = 0; o < 4 && has_three(marked, ost_mesh_nodes_of(mesh, t)); o++) {
+            if (!is_wanted(mesh, marked, ost_mesh_nodes_of(mesh, t), o))
                 continue;
             const OstLocal low = sort_face(ost_mesh_nodes_of(mesh, t), o, &face);
             face.tet = t;
@@ -154,12 +168,12 @@ static OstStatus keep_surface_faces(const OstMesh *mesh, const FaceTable *table,
     return OST_SUCCESS;
 }
 
-OstStatus ost_surface_create(const OstMesh *mesh, OstSurface **surface)
+OstStatus ost_surface_create(const OstMesh *mesh, const unsigned char *marked, OstSurface **surface)
 {
     FaceTable table = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(mesh->ctx, surface, 1));
-    OST_TRY_DONE(list_faces(mesh, &table));
+    OST_TRY_DONE(list_faces(mesh, marked, &table));
     OST_TRY_DONE(match_faces(mesh, &table));
     OST_TRY_DONE(keep_surface_faces(mesh, &table, *surface));
 done:
@@ -176,7 +190,7 @@ OstStatus ost_mesh_surface(const OstMesh *mesh, const OstSurface **surface)
 {
     OstStatus status = OST_SUCCESS;
     if (!mesh->surface)
-        status = ost_surface_create(mesh, &((OstMesh *)mesh)->surface);
+        status = ost_surface_create(mesh, NULL, &((OstMesh *)mesh)->surface);
     *surface = mesh->surface;
     return status;
 }

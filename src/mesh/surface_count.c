@@ -94,7 +94,7 @@ OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces)
 {
     OstSurface *surface = NULL;
     *faces = 0.0;
-    OstStatus status = ost_surface_create(mesh, &surface);
+    OstStatus status = ost_surface_create(mesh, NULL, &surface);
     if (status != OST_SUCCESS)
         return status;
     for (OstLocal f = 0; f < surface->count; f++) {

@@ -36,6 +36,13 @@ typedef struct OstInterestError {
     double sum;            /* of the shares: |error|, or more where parts of it cancel */
 } OstInterestError;
 
+/* Of a watched reaction whose adjoint problem is solved (solve/reactions/). */
+typedef struct OstWatchedReaction {
+    int known;
+    double missing; /* to be added to the sum over the nodes: the share of what the solve left out of balance */
+    double error;   /* the exact value less that, as estimated */
+} OstWatchedReaction;
+
 /* One rank's piece of the answer. */
 struct OstResult {
     OstContext *ctx;
@@ -55,6 +62,8 @@ struct OstResult {
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × owned_nodes: what the estimate adds to the displacement, or NULL */
     double *stress_surplus;        /* 6 × owned_tets: what it adds to the mean stress, or NULL */
+    float *node_stress_surplus;    /* 6 for each node of each tet: what it adds to the stress there, or NULL */
+    OstWatchedReaction *reactions; /* one for each quantity watched, or NULL */
     OstInterestError interest;     /* of the quantity that the case asks about */
     unsigned asked;                /* bits of OstOutputFieldBit */
     OstGlobal unknowns;

@@ -11,6 +11,7 @@
 #include "orthostat/refine.h"
 #include "problem/scene_parts.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static int wants(const OstSceneMaterials *materials, int region, OstAxesKind kind)
@@ -142,17 +143,34 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return status;
 }
 
+/* What the case may say so that the mixed form is on; nothing where it has no such form. */
+static void find_way_to_mixed(const OstScene *scene, char *text, size_t size)
+{
+    const OstCase *c = scene->c;
+    const int is_linear = scene->mesh->nodes_per_tet == 4;
+    const int is_classical = c->formulation == OST_FORMULATION_CLASSICAL && c->large_rotation == OST_LARGE_ROTATION_ON;
+    int is_linked = scene->drive != NULL;
+    for (int i = 0; i < c->constraint_count; i++)
+        is_linked |= ost_constraint_links(&c->constraints[i]);
+    text[0] = '\0';
+    if (is_linked)
+        return;
+    snprintf(text, size, "%s%s%s%s, or ", is_linear || c->unmixed ? "element: {" : "",
+             is_linear ? c->unmixed ? "order: 2, " : "order: 2}" : "", c->unmixed ? "mixed: auto}" : "",
+             !is_classical             ? ""
+             : is_linear || c->unmixed ? " and formulation: consistent"
+                                       : "formulation: consistent");
+}
+
 static OstStatus refuse_incompressible(const OstScene *scene, int region)
 {
-    const OstMesh *mesh = scene->mesh;
+    char way_out[96];
+    find_way_to_mixed(scene, way_out, sizeof way_out);
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                      "%s: region '%.80s' has nu = 1/2, an incompressible material, which only the mixed form of "
                      "quadratic tets can compute, and it is off: %s. Set %snu = 0.4999",
-                     scene->c->path, mesh->regions.name[region],
-                     ost_effect_state(&scene->plan.effects, OST_EFFECT_MIXED)->reason,
-                     mesh->nodes_per_tet == 4                                         ? "element: {order: 2}, or "
-                     : ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION) ? "large_rotation: off, or "
-                                                                                      : "");
+                     scene->c->path, scene->mesh->regions.name[region],
+                     ost_effect_state(&scene->plan.effects, OST_EFFECT_MIXED)->reason, way_out);
 }
 
 /* Linear tets cannot bend at constant volume: near incompressibility they lock, and a warning says so. Quadratic ones

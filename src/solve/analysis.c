@@ -25,6 +25,7 @@ void ost_analysis_destroy(OstAnalysis **analysis)
         return;
     (*analysis)->strategy->release(*analysis);
     ost_estimate_destroy(&(*analysis)->estimate);
+    ost_reactions_clear(&(*analysis)->reactions);
     OST_FREE(*analysis);
 }
 

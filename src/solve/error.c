@@ -40,6 +40,7 @@ typedef struct Search {
     double *residual; /* of the rows */
     double *of_rows;  /* the error, of the rows */
     double *error;    /* of all local nodes; first, the internal forces */
+    double caution;   /* what is stated over what is measured; 1 until corrections show more */
 } Search;
 
 /* P (f - K u) */
@@ -59,6 +60,15 @@ done:
     return status;
 }
 
+/* States what was measured with the caution that the corrections have shown to be needed. */
+static void state(const Search *search, OstErrors *errors)
+{
+    errors->displacement *= search->caution;
+    errors->reaction *= search->caution;
+    errors->stress *= search->caution;
+    errors->corrected = search->caution > 1.0;
+}
+
 static OstStatus measure(const Search *search, double missing, OstErrors *errors)
 {
     const OstProblem *problem = search->problem;
@@ -70,7 +80,9 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
-    return ost_guard_errors(problem, search->solved->displacement, search->error, errors);
+    OST_TRY(ost_guard_errors(problem, search->solved->displacement, search->error, errors));
+    state(search, errors);
+    return OST_SUCCESS;
 }
 
 static double of_forces(const OstErrors *errors)
@@ -165,8 +177,8 @@ static OstStatus take_step(const Search *search, Correction *correction, double 
     return OST_SUCCESS;
 }
 
-/* *idle: did the last steps gain nothing? */
-static OstStatus iterate(Search *search, Correction *correction, OstErrors *errors, int *idle)
+/* Until the error is small, or the last steps gain nothing. */
+static OstStatus iterate(Search *search, Correction *correction, OstErrors *errors)
 {
     OstErrors best = *errors;
     int idle_steps = 0;
@@ -183,23 +195,19 @@ static OstStatus iterate(Search *search, Correction *correction, OstErrors *erro
         idle_steps = gains ? 0 : idle_steps + 1;
         best = gains ? *errors : best;
     }
-    *idle = idle_steps == FEW;
     return OST_SUCCESS;
 }
 
 /* What the solver finds for a residual is by the rounded stiffness, and to a tenth. If a mode is softer by the tets,
- * its error is larger by as much: the Lanczos coefficients show it. Where steps gain nothing more, the residual is the
- * rounding of the tets' forces, and what it is taken for may be small by chance. */
-static void allow_for(const OstLanczos *lanczos, int idle, OstErrors *errors)
+ * its error is larger by as much: the Lanczos coefficients show it. Where the steps ended before the error was small,
+ * they may not have met the softest mode, or the residual is the rounding of the tets' forces, and what it is taken for
+ * may be small by chance. */
+static double find_caution(const OstLanczos *lanczos, const OstErrors *errors)
 {
-    static const double caution = 3.0, chance = 10.0;
+    static const double least = 3.0, chance = 10.0;
     double smallest, largest_value;
     ost_lanczos_extremes(lanczos, &smallest, &largest_value);
-    const double factor = (idle ? chance : caution) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
-    errors->displacement *= factor;
-    errors->reaction *= factor;
-    errors->stress *= factor;
-    errors->corrected = 1;
+    return (largest(errors) > small_error ? chance : least) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
 }
 
 static OstStatus correct(Search *search, OstErrors *errors)
@@ -208,15 +216,15 @@ static OstStatus correct(Search *search, OstErrors *errors)
     const size_t rows = 3 * (size_t)search->problem->system->matrix->rows;
     const size_t owned = 3 * (size_t)search->problem->mesh->owned_nodes;
     Correction correction = {.step = NULL};
-    int idle = 0;
     OstStatus status = OST_NEW(ctx, &correction.step, 2 * rows + owned);
     OST_THEN(OST_NEW(ctx, &correction.of_nodes, 3 * (size_t)search->problem->mesh->node_count));
     OST_THEN(ost_lanczos_create(ctx, MOST_CORRECTIONS, &correction.lanczos));
     OST_TRY_DONE(ost_agree(ctx, status));
     correction.before = correction.step + rows;
     correction.force = correction.before + rows;
-    OST_TRY_DONE(iterate(search, &correction, errors, &idle));
-    allow_for(&correction.lanczos, idle, errors);
+    OST_TRY_DONE(iterate(search, &correction, errors));
+    search->caution = find_caution(&correction.lanczos, errors);
+    state(search, errors);
 done:
     ost_lanczos_destroy(&correction.lanczos);
     OST_FREE(correction.step);
@@ -229,7 +237,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
 {
     OstContext *ctx = problem->ctx;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
-    Search search = {.problem = problem, .solver = solver, .solved = solved};
+    Search search = {.problem = problem, .solver = solver, .solved = solved, .caution = 1.0};
     int is_rounding = 0;
     *errors = (OstErrors){0};
     OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);

@@ -86,7 +86,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
-    if (status == OST_SUCCESS && result->answer.known)
+    if (status == OST_SUCCESS && result->answer.known && ost_reactions_allow_stop(problem))
         ost_newton_stop_at(newton, analysis->options.algebraic_fraction * result->answer.relative);
     result->answer = (OstAnswerError){0}; /* that of the linear answer */
     if (status == OST_SUCCESS) {

@@ -6,6 +6,7 @@
 #include "guard/guard.h"
 #include "orthostat/analysis.h"
 #include "problem/problem.h"
+#include "solve/reactions/reactions.h"
 
 /* A way to solve a problem. A new one is a new file, and a line in analysis.c that picks it. Each function is
  * collective and works on analysis->work, which the strategy allocates. */
@@ -25,10 +26,11 @@ struct OstAnalysis {
     OstProblem *problem;
     OstSolverOptions options;
     const OstStrategy *strategy;
-    void *work;            /* the strategy's; NULL until prepared */
-    OstEstimate *estimate; /* of the discretisation error; kept where the analysis serves several loads, else NULL */
-    int serves_several;    /* loads are to follow, so that what they share is kept */
-    const double *start;   /* a displacement (3 × node_count) near that of the linear problem, or NULL */
+    void *work;             /* the strategy's; NULL until prepared */
+    OstEstimate *estimate;  /* of the discretisation error; kept where the analysis serves several loads, else NULL */
+    OstReactions reactions; /* adjoint problems of watched ones, likewise */
+    int serves_several;     /* loads are to follow, so that what they share is kept */
+    const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 
 extern const OstStrategy ost_linear_strategy;    /* linear.c */
@@ -56,10 +58,13 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 
 /* Collective. Estimates the error that the mesh makes in a result whose displacement at t is there, while the solver of
  * its stiffness lives. OST_EFFECT_ERROR_ESTIMATE. */
-OstStatus ost_analysis_estimate(const OstAnalysis *analysis, double t, OstResult *result);
+OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *result);
 
 /* Collective. Makes room for what the estimate says of tets and, where the case watches something, of nodes. */
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result);
+
+/* Local. That room. */
+OstSurplus ost_result_surplus(const OstResult *result);
 
 /* Local. Marks a result that the solver left unfinished, with its words. */
 void ost_result_take_outcome(OstResult *result, OstStatus solved);

@@ -78,7 +78,18 @@ static void add_reaction(const OstResult *result, const OstWatch *watch, OstLoca
         sum[i] += watch->of_moment ? moment[i] : force[i];
 }
 
-/* The surplus says little of reactions: what few steps leave out of balance in the body is of their errors' size. */
+/* By the adjoint problem (solve/reactions/), where that was solved. The surplus says little of reactions: what few
+ * steps leave out of balance in the body is of their errors' size. */
+static void take_adjoint(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
+{
+    const OstCase *c = scene->c;
+    for (int w = 0; result->reactions && w < c->watch_count; w++)
+        if (strcmp(c->watches[w].name, watch->name) == 0 && result->reactions[w].known) {
+            watched->value += result->reactions[w].missing;
+            watched->error = result->reactions[w].error;
+        }
+}
+
 static OstStatus reaction(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     OstContext *ctx = scene->ctx;
@@ -94,6 +105,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     watched->value = component_of(sum, watch->component);
     watched->error = NAN;
     watched->scale = ost_norm3(sum);
+    take_adjoint(scene, result, watch, watched);
     return OST_SUCCESS;
 }
 
@@ -238,9 +250,11 @@ void ost_watch_print(const OstWatchedValue *values, int count)
     for (int w = 0; w < count; w++) {
         const double expected = values[w].expected, error = fabs(values[w].error);
         printf("%-22s %.10g", values[w].name, values[w].value);
-        if (!isnan(error))
+        if (error == 0.0)
+            printf(", which statics alone gives");
+        else if (!isnan(error))
             printf(" +- %.2g", error);
-        if (error <= fabs(values[w].value) && values[w].value != 0.0)
+        if (error > 0.0 && error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
         if (values[w].placed)
             printf(" at (%.6g, %.6g, %.6g)", values[w].place[0], values[w].place[1], values[w].place[2]);

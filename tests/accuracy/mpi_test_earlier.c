@@ -8,7 +8,21 @@
 
 /* Earlier solutions start the next solve: here of a diagonal stiffness, spread over the ranks. */
 
-enum { SIZE = 40, LOADS = 3 };
+enum { SIZE = 40, ROWS = 32, LOADS = 3 }; /* the last numbers are those of functions */
+
+/* A vector of which `x` has the rows, and all numbers after ost_earlier_finish. */
+static OstEnriched open_vector(double *x, float of_functions[SIZE - ROWS])
+{
+    for (size_t i = ROWS; i < SIZE; i++)
+        of_functions[i - ROWS] = (float)x[i];
+    return (OstEnriched){x, of_functions};
+}
+
+static void close_vector(const OstEnriched *vector, double *x)
+{
+    for (size_t i = ROWS; i < SIZE; i++)
+        x[i] = (double)vector->functions[i - ROWS];
+}
 
 static double stiffness(size_t i)
 {
@@ -35,9 +49,12 @@ static double sum(const double *a, const double *b)
 static double solve(OstEarlier *earlier, const double *b, double missing, double *x)
 {
     double r[SIZE], square, whole[SIZE], left[SIZE];
+    float r_functions[SIZE - ROWS], x_functions[SIZE - ROWS];
     for (size_t i = 0; i < SIZE; i++)
         r[i] = b[i];
-    assert_success(ost_earlier_start(earlier, r, &square));
+    const OstEnriched residual = open_vector(r, r_functions);
+    assert_success(ost_earlier_start(earlier, &residual, &square));
+    close_vector(&residual, r);
     const double share = sum(r, r) / fmax(sum(b, b), DBL_MIN);
     for (size_t i = 0; i < SIZE; i++) {
         whole[i] = b[i] / stiffness(i);
@@ -48,7 +65,10 @@ static double solve(OstEarlier *earlier, const double *b, double missing, double
         x[i] = (1.0 - missing) * left[i];
         r[i] *= missing;
     }
-    assert_success(ost_earlier_finish(earlier, r, x));
+    (void)open_vector(r, r_functions);
+    const OstEnriched solution = open_vector(x, x_functions);
+    assert_success(ost_earlier_finish(earlier, &residual, &solution));
+    close_vector(&solution, x);
     return share;
 }
 
@@ -56,7 +76,7 @@ static void check_sums(double unit)
 {
     OstEarlier *earlier = NULL;
     double b[SIZE], x[SIZE];
-    assert_success(ost_earlier_create(ctx, SIZE, &earlier));
+    assert_success(ost_earlier_create(ctx, ROWS, SIZE - ROWS, &earlier));
     for (int number = 0; number < LOADS; number++) {
         for (size_t i = 0; i < SIZE; i++)
             b[i] = unit * load(number, i);
@@ -75,8 +95,8 @@ static void a_sum_of_earlier_loads_is_solved_by_the_start(void **state)
 {
     (void)state;
     check_sums(1.0);
-    check_sums(1e-60);
-    check_sums(1e60);
+    check_sums(1e-6);
+    check_sums(1e6);
 }
 
 static void what_a_solve_leaves_is_not_taken_for_solved(void **state)
@@ -84,7 +104,7 @@ static void what_a_solve_leaves_is_not_taken_for_solved(void **state)
     (void)state;
     OstEarlier *earlier = NULL;
     double b[SIZE], x[SIZE];
-    assert_success(ost_earlier_create(ctx, SIZE, &earlier));
+    assert_success(ost_earlier_create(ctx, ROWS, SIZE - ROWS, &earlier));
     for (size_t i = 0; i < SIZE; i++)
         b[i] = load(1, i);
     (void)solve(earlier, b, 0.1, x);
@@ -99,18 +119,20 @@ static void no_more_are_kept_than_there_is_room_for(void **state)
     (void)state;
     OstEarlier *earlier = NULL;
     double b[SIZE], x[SIZE];
-    assert_success(ost_earlier_create(ctx, SIZE, &earlier));
+    assert_success(ost_earlier_create(ctx, ROWS, SIZE - ROWS, &earlier));
     for (int number = 0; number < OST_MOST_EARLIER + 2; number++) {
         for (size_t i = 0; i < SIZE; i++)
             b[i] = (int)(i % (OST_MOST_EARLIER + 2)) == number;
         assert_close(solve(earlier, b, 0.0, x), 1.0, 1e-12);
         for (size_t i = 0; i < SIZE; i++)
-            assert_close(x[i], b[i] / stiffness(i), 1e-12);
+            assert_close(x[i], b[i] / stiffness(i), 1e-7);
     }
     assert_int_equal(earlier->count, OST_MOST_EARLIER);
     for (size_t i = 0; i < SIZE; i++)
         b[i] = 0.0;
-    assert_success(ost_earlier_start(earlier, b, &x[0]));
+    float of_functions[SIZE - ROWS];
+    const OstEnriched nothing = open_vector(b, of_functions);
+    assert_success(ost_earlier_start(earlier, &nothing, &x[0]));
     assert_true(x[0] == 0.0);
     ost_earlier_destroy(&earlier);
 }

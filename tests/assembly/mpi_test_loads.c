@@ -101,7 +101,7 @@ static void pressure_all_around_is_in_balance(void **state)
     double area;
     double *force = numbers(3 * (size_t)mesh->node_count);
     const double none[6] = {0};
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     assert_success(ost_faces_area(mesh, surface->count, surface->nodes, 3, &area));
     assert_close(area, 2.0 * (2.0 * 1.5 + 1.5 * 1.2 + 1.2 * 2.0), 1e-12);
     assert_success(ost_load_pressure(mesh, surface->count, surface->nodes, 3, 7.0, force));

@@ -272,7 +272,7 @@ static double surface_area(const OstMesh *mesh)
 {
     OstSurface *surface = NULL;
     double area = 0.0;
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     assert_int_equal(surface->nodes_per_face, 6);
     assert_success(ost_faces_area(mesh, surface->count, surface->nodes, 6, &area));
     ost_surface_destroy(&surface);
@@ -330,7 +330,7 @@ static void pressure_on_a_closed_curved_surface_is_in_balance(void **state)
     OstSurface *surface = NULL;
     double sum[6];
     double *force = numbers(3 * (size_t)mesh->node_count);
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     assert_success(ost_load_pressure(mesh, surface->count, surface->nodes, 6, 7.0, force));
     assert_true(largest(ctx, 3 * mesh->owned_nodes, force) > 0.1);
     resultant(mesh, force, sum);

@@ -64,6 +64,20 @@ alone = run("solve", "bar.yaml", "--case", "pulled", "-q", "--json", "-", "--set
 check(alone.exit_code == 0, alone.errors)
 check(abs(json.loads(alone.output)["watched"]["end"]["value"] - 0.02) <= 1e-8, alone.output)
 
+# by multigrid: on the linear tets with the same vertices, as without a coupling
+for load in "distributing: {at: [10, 0.5, 0.5], displacement: [free, free, 0.1]}", "total_force: [0, 0, 0.02]":
+    text = BAR.replace("[10, 2, 2]", "[20, 4, 4]") + f"loads: [{{on: {{boundary: xmax}}, {load}}}]\nsolver: {{method: metric}}\n"
+    by_ranks = []
+    for ranks in fewer((1, 2, 4)):
+        finished = run("solve", "bar.yaml", "-q", "--json", "-", ranks=ranks, folder=write(text))
+        check(finished.exit_code == 0, finished.errors)
+        report = json.loads(finished.output)
+        on = [effect["effect"] for effect in report["effects"] if effect["on"]]
+        check("linear space" in on and ("moved coupling" in on) == ("distributing" in load), f"{load}: {on}")
+        check(report["solver"]["iterations"] <= 14, f"{load} on {ranks} ranks: {report['solver']['iterations']} iterations")
+        by_ranks.append(report["watched"]["held"]["value"])
+    check(max(by_ranks) - min(by_ranks) <= 1e-7, f"{load}: {by_ranks}")
+
 MOVED = "loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]\n"
 for text, words in ((MOVED.replace("displacement: [0.02, free, free]", "displacement: [free, free, free]"), "no component"),
                     (MOVED + "large_rotation: on\n", "leave out 'large_rotation: on'"),

@@ -66,6 +66,67 @@ check(adaption["met"] and adaption["of"] == "tip" and "of tip" in done.output, f
 check(abs(report["watched"]["tip"]["value"] / fine - 1) < 0.001, f"{report['watched']['tip']}, exact {fine}")
 check(len(adaption["levels"]) > 1, f"the first mesh is too coarse: {adaption}")
 
+# Reactions that are watched, by default: the solve stops early, and both errors of the adjoint problem count as a product.
+REACTIONS = """title: a beam whose end is moved
+mesh: {block: {size: [10, 1, 1], divisions: [20, 4, 4]}}
+materials: [{region: all, youngs_modulus: MODULI, poissons_ratio: RATIO}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: xmax}, displacement: [0.1, 0, 0.2]}]
+large_rotation: off
+solver: {method: metric}
+watch:
+  pull: {reaction: {boundary: xmin}, component: x}
+  shear: {reaction: {boundary: xmax}, component: z}
+  moment: {reaction: {boundary: xmin}, about: [0, 0.5, 0.5], component: y}
+"""
+TIGHT = ("--set", "accuracy.relative_residual=1e-10", "--set", "output.fields=[displacement]")
+
+
+def beam(moduli, ratio, order, *extra, ranks=1, text=REACTIONS):
+    text = text.replace("MODULI", moduli).replace("RATIO", ratio)
+    done, report, _ = solve(text, ranks=ranks, folder=folder, extra=("--set", f"element.order={order}", *extra))
+    check(done.exit_code == 0, done.errors)
+    return report
+
+
+def values(report):
+    return {name: found["value"] for name, found in report["watched"].items()}
+
+
+for moduli, ratio, least, most in ("1000", "0.3", 0.7, 1.5), ("[50000, 50, 50]", "0.3", 0.2, 1.5):
+    fine = values(beam(moduli, ratio, 2, "--set", "mesh.refine=1", *TIGHT))
+    for order in 1, 2:
+        exact = values(beam(moduli, ratio, order, *TIGHT))
+        by_ranks = []
+        for ranks in (1, 2, 4) if order == 2 else (1,):
+            report = beam(moduli, ratio, order, ranks=ranks)
+            by_ranks.append(values(report))
+            check(report["solver"]["stopped"] and report["solver"]["iterations"] <= 8, f"{moduli}: {report['solver']}")
+            for name, found in report["watched"].items():
+                check(abs(found["value"] / exact[name] - 1) < 2e-5, f"{moduli}, {name}: {found}, solved to the end {exact[name]}")
+                effect = found["error"] / (fine[name] - exact[name])
+                check(least < effect < most, f"{moduli}, {name}, order {order}: {found}, missing {fine[name] - exact[name]}")
+        for name, value in by_ranks[0].items():
+            check(all(abs(other[name] / value - 1) < 2e-5 for other in by_ranks), f"{moduli}, {name}: {by_ranks}")
+
+# A bar whose end is moved, and statics: formulas. Rigid-body motions of the moved end leave a beam's 12 E I w / L^3.
+bar = REACTIONS.replace("xmin}, displacement: [0, 0, 0]", "xmin}, displacement: [0, free, free]").replace("[0.1, 0, 0.2]}", "[0.1, free, free]}")
+bar = bar.replace("constraints: [", "constraints: [{on: {vertices: [1]}, displacement: [0, 0, 0]}, "
+                  "{on: {boundary: ymin}, slide: [0, 1, 0]}, {on: {boundary: zmin}, slide: [0, 0, 1]}, ")
+report = beam("1000", "0.3", 1, text=bar)
+check(abs(report["watched"]["pull"]["value"] + 10) < 1e-6 and abs(report["watched"]["pull"]["error"]) < 1e-6, f"{report['watched']}")
+report = beam("1000", "0", 2)
+shear = 12 * 1000 / 12 / 100 / (5 / 6 * 500)  # of Timoshenko's beam, beside its bending
+check(abs(report["watched"]["shear"]["value"] / (12 * 1000 / 12 * 0.2 / 1000 / (1 + shear)) - 1) < 0.01, f"{report['watched']}")
+
+# Load cases on the same supports have one adjoint problem for each reaction; answers are as those of a case alone.
+LIGHT, HEAVY = "loads: [{body_force: [0, 0, -1]}]", "loads: [{body_force: [1, 0, -5]}]"
+both = beam("1000", "0.3", 2, text=REACTIONS + f"cases:\n- {{name: light, {LIGHT}}}\n- {{name: heavy, {HEAVY}}}\n")["cases"]
+for one, load in zip(both, (LIGHT, HEAVY), strict=True):
+    alone = beam("1000", "0.3", 2, text=REACTIONS + load + "\n")["watched"]
+    for name, found in one["watched"].items():
+        check(one["solver"]["stopped"] and abs(found["value"] / alone[name]["value"] - 1) < 1e-4 and
+              abs(found["error"] - alone[name]["error"]) < 0.1 * abs(alone[name]["error"]), f"{one['load_case']}, {name}: {found}, alone {alone[name]}")
+
 for wrong, said in ("{of: nobody}", "not watched"), ("{of: [tip]}", "expected a text"):
     with open(f"{folder}/wrong.yaml", "w", encoding="utf-8") as stream:
         stream.write(CASE.format(accuracy=wrong, refine=1, order=1, large="off", **PULLED))

@@ -39,6 +39,7 @@
 #define HEAVY "loads: [{gravity: [0, 0, -1]}]\n"
 #define TURNING "loads: [{centrifugal: {axis: [0, 0, 1], angular_velocity: 1}}]\n"
 #define TWISTED "loads: [{on: {boundary: xmax}, moment: [1, 0, 0]}]\n"
+#define STEERED "loads: [{on: {boundary: xmax}, distributing: {at: [2, 0.5, 0.5], displacement: [0.01, free, free]}}]\n"
 #define PRESSED "loads: [{on: {boundary: xmax}, pressure: 1}]\n"
 #define FOLLOWED "loads: [{on: {boundary: xmax}, pressure: 1, follows: true}]\n"
 #define SWOLLEN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, eigenstrain: 0.01}]\n"
@@ -81,6 +82,7 @@ static const struct {
     ROW(OST_EFFECT_BODY_FORCE) = {BLOCK SOFT HELD HEAVY NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_CENTRIFUGAL) = {BLOCK SOFT HELD TURNING NO_FIELDS, BLOCK SOFT HELD HEAVY NO_FIELDS},
     ROW(OST_EFFECT_MOMENT) = {BLOCK SOFT HELD TWISTED NO_FIELDS, BLOCK SOFT HELD SPREAD NO_FIELDS},
+    ROW(OST_EFFECT_MOVED_COUPLING) = {BLOCK SOFT HELD STEERED NO_FIELDS, BLOCK SOFT HELD TWISTED NO_FIELDS},
     ROW(OST_EFFECT_FOLLOWER_PRESSURE) = {BLOCK SOFT HELD FOLLOWED NO_FIELDS, BLOCK SOFT HELD PRESSED NO_FIELDS},
     ROW(OST_EFFECT_EIGENSTRAIN) = {BLOCK SWOLLEN HELD NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_STRENGTH) = {BLOCK STRONG HELD PULLED NO_FIELDS, BLOCK SOFT HELD PULLED NO_FIELDS},

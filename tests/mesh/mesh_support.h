@@ -162,7 +162,7 @@ static inline double boundary_area(const OstMesh *mesh, const char *name, double
 static inline double surface_area(const OstMesh *mesh, double vector[3])
 {
     OstSurface *surface = NULL;
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     const size_t entries = (size_t)surface->count * (size_t)surface->nodes_per_face;
     OstGlobal *faces = malloc((entries + 1) * sizeof *faces);
     for (size_t i = 0; i < entries; i++)

@@ -281,7 +281,7 @@ static void quadratic_tets_come_with_all_their_nodes(void **state)
     double vector[3];
     assert_close(total_volume(mesh), 1.0, 1e-14);
     assert_close(surface_area(mesh, vector), 6.0, 1e-13);
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     assert_int_equal(surface->nodes_per_face, 6);
     for (OstLocal i = 0; i < surface->count; i++) {
         const OstLocal *f = surface->nodes + 6 * i;
@@ -462,7 +462,7 @@ static void a_doubled_tet_is_named_by_the_surface(void **state)
     OstMesh *mesh = NULL;
     OstSurface *surface = NULL;
     assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
-    assert_failure(ost_surface_create(mesh, &surface), OST_INVALID_INPUT, "tets 1 and 2");
+    assert_failure(ost_surface_create(mesh, NULL, &surface), OST_INVALID_INPUT, "tets 1 and 2");
     assert_null(surface);
     ost_mesh_destroy(&mesh);
 }

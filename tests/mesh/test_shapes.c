@@ -126,7 +126,7 @@ static void the_tubes_surface_is_closed_and_outward(void **state)
     (void)state;
     OstMesh *mesh = tube_mesh(&paper_tube);
     OstSurface *surface = NULL;
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     assert_int_equal(surface->count, 2 * (2 * 60 * 6 + 2 * 60 * 60)); /* tube.veg.obj's 15,840 - faces */
     double flux = 0.0;                                                /* ∫ x·n dA = 3 V (divergence theorem) */
     for (OstLocal i = 0; i < surface->count; i++) {

@@ -35,7 +35,7 @@ static Made make(int order, Pressed pressed)
     }
     const OstMesh *mesh = made.mesh;
     made.field = make_field(mesh, &material, AXES_FIXED);
-    assert_success(ost_surface_create(mesh, &surface));
+    assert_success(ost_surface_create(mesh, NULL, &surface));
     const size_t n = (size_t)surface->nodes_per_face;
     OstLocal *faces = calloc(n * (size_t)surface->count + 1, sizeof *faces);
     OstNodeConstraint *constraints = calloc(3 * (size_t)mesh->owned_nodes + 1, sizeof *constraints);

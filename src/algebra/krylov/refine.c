@@ -135,7 +135,7 @@ static int is_done(const Refinement *work)
 }
 
 /* Switches to compensated residuals where the goal is missed, or u not settled after two corrections, because of
- * rounding: the residual is close to the limit, or the factors leave a larger one than u = 0 does. */
+ * rounding: the residual is close to the limit, or the factors leave none smaller than u = 0 does. */
 static OstStatus look_for_rounding(Refinement *work)
 {
     OstGoal *goal = work->goal;
@@ -144,7 +144,7 @@ static OstStatus look_for_rounding(Refinement *work)
         return OST_SUCCESS;
     OST_TRY(find_limit(work));
     goal->compensated =
-        goal->norm <= compensated_below * goal->limit || (goal->settled > 0.0 && goal->norm > goal->start);
+        goal->norm <= compensated_below * goal->limit || (goal->settled > 0.0 && goal->norm >= goal->start);
     return goal->compensated ? recompute_residual(work) : OST_SUCCESS;
 }
 

@@ -35,7 +35,7 @@ typedef struct Search {
 int ost_distributing_any(const OstProblem *problem)
 {
     const OstScene *scene = problem->scene;
-    return scene && scene->drive && ost_effect_on(problem->effects, OST_EFFECT_MOMENT);
+    return scene && scene->drive && ost_effect_on(problem->effects, OST_EFFECT_MOVED_COUPLING);
 }
 
 static void close_search(Search *search)
@@ -169,10 +169,12 @@ static OstStatus apply(Search *search)
 OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs)
 {
     Search search = {.problem = problem, .solver = solver, .rhs = rhs};
+    ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
     OstStatus status = open_search(&search);
     OST_THEN(find_sizes(&search));
     OST_THEN(apply(&search));
     close_search(&search);
+    ost_ledger_leave(problem->ctx);
     return status;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_FUNCTION_HALO_H
-#define ORTHOSTAT_ACCURACY_FUNCTION_HALO_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_FUNCTION_HALO_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_FUNCTION_HALO_H
 
-#include "accuracy/face_table.h"
+#include "accuracy/complement/face_table.h"
 #include "core/parallel/halo.h"
 
 /* Collective. The halo of the edges; or, unless NULL, of the faces. Owned ones come first in both tables. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/function_halo.h"
+#include "accuracy/complement/function_halo.h"
 
 #include "core/error.h"
 #include "core/memory.h"

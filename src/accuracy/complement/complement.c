@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 
-#include "accuracy/function_halo.h"
+#include "accuracy/complement/function_halo.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -19,6 +19,7 @@ void ost_complement_clear(OstComplement *complement)
     ost_halo_destroy(&complement->edge_halo);
     ost_halo_destroy(&complement->face_halo);
     OST_FREE(complement->support);
+    OST_FREE(complement->supported);
     OST_FREE(complement->projector);
     OST_FREE(complement->turned);
 }
@@ -101,9 +102,12 @@ static OstStatus constrain(OstComplement *complement, OstLocal function, int cou
     static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     OstLocal *index = &complement->support[function];
     if (*index < 0) {
-        if ((complement->support_count & (complement->support_count - 1)) == 0) /* room for twice as many */
-            OST_TRY(OST_RESIZE(complement->mesh->ctx, &complement->projector,
-                               9 * 2 * ((size_t)complement->support_count + 1)));
+        if ((complement->support_count & (complement->support_count - 1)) == 0) { /* room for twice as many */
+            const size_t room = 2 * ((size_t)complement->support_count + 1);
+            OST_TRY(OST_RESIZE(complement->mesh->ctx, &complement->projector, 9 * room));
+            OST_TRY(OST_RESIZE(complement->mesh->ctx, &complement->supported, room));
+        }
+        complement->supported[complement->support_count] = function;
         *index = complement->support_count++;
         memcpy(complement->projector + 9 * (size_t)*index, identity, sizeof identity);
     }
@@ -142,61 +146,77 @@ static OstStatus constrain_faces(OstComplement *complement, const OstSupports *s
     return OST_SUCCESS;
 }
 
-static OstStatus find_constraints(OstComplement *complement, const OstSupports *supports)
+/* The nodes that have supports or links: faces between these alone matter, and they are quickly found. */
+static OstStatus mark_nodes(const OstSupports *supports, const OstMesh *mesh, unsigned char **marked)
 {
-    OstContext *ctx = complement->mesh->ctx;
-    const OstSurface *surface = NULL;
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &complement->support, complement->count)));
-    for (OstLocal k = 0; k < complement->count; k++)
-        complement->support[k] = -1;
-    OST_TRY(ost_mesh_surface(complement->mesh, &surface));
-    return ost_agree(ctx, constrain_faces(complement, supports, surface));
-}
-
-void ost_complement_project(const OstComplement *complement, double *values)
-{
-    for (OstLocal k = 0; k < complement->count; k++) {
-        double *value = values + 3 * (size_t)k;
-        double given[3] = {value[0], value[1], value[2]};
-        if (complement->support[k] >= 0)
-            ost_apply3(complement->projector + 9 * (size_t)complement->support[k], given, value);
-    }
-}
-
-/* P (P A P + (I - P) s)^-1 P, s of A's size. */
-OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double symmetric[6])
-{
-    static const int of[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2}, place[6] = {0, 4, 8, 1, 5, 6};
-    const OstLocal support = complement->support[function];
-    const double *projector = support < 0 ? NULL : complement->projector + 9 * (size_t)support;
-    const double size = (symmetric[0] + symmetric[1] + symmetric[2]) / 3.0;
-    double block[9], inner[9], left[9];
-    for (int n = 0; n < 9; n++)
-        block[n] = symmetric[of[n]];
-    if (projector) {
-        ost_multiply3(projector, block, left);
-        ost_multiply3(left, projector, inner);
-        for (int n = 0; n < 9; n++)
-            block[n] = inner[n] + size * ((n % 4 == 0) - projector[n]);
-    }
-    if (!(ost_invert3(block, inner) > 0.0))
-        return OST_RAISE(complement->mesh->ctx, OST_CHECK_FAILED,
-                         "the error estimate meets a stiffness that is not positive definite");
-    if (projector) {
-        ost_multiply3(projector, inner, left);
-        ost_multiply3(left, projector, inner);
-    }
-    for (int p = 0; p < 6; p++)
-        symmetric[p] = inner[place[p]];
+    const OstLinks *links = supports->links;
+    OST_TRY(OST_NEW(mesh->ctx, marked, mesh->node_count));
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        (*marked)[n] = supports->index[n] >= 0 || (links && (links->of_node[n] >= 0 || links->leads[n]));
     return OST_SUCCESS;
 }
 
-OstStatus ost_complement_import(const OstComplement *complement, double *values)
+static OstStatus find_constraints(OstComplement *complement, const OstSupports *supports)
 {
-    OST_TRY(ost_halo_import(complement->edge_halo, 3 * sizeof *values, values));
+    OstContext *ctx = complement->mesh->ctx;
+    unsigned char *marked = NULL;
+    OstSurface *surface = NULL;
+    OstStatus status = OST_NEW(ctx, &complement->support, complement->count);
+    OST_THEN(mark_nodes(supports, complement->mesh, &marked));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (OstLocal k = 0; k < complement->count; k++)
+        complement->support[k] = -1;
+    OST_TRY_DONE(ost_surface_create(complement->mesh, marked, &surface));
+    status = ost_agree(ctx, constrain_faces(complement, supports, surface));
+done:
+    OST_FREE(marked);
+    ost_surface_destroy(&surface);
+    return status;
+}
+
+void ost_complement_project(const OstComplement *complement, float *values)
+{
+    const OstLocal edges = complement->edges.count;
+    for (OstLocal k = 0; k < complement->support_count; k++) {
+        const double *projector = complement->projector + 9 * (size_t)k;
+        float *value = values + OST_PER_FUNCTION * (size_t)complement->supported[k];
+        const double given[3] = {value[0], value[1], value[2]};
+        double left[3];
+        ost_apply3(projector, given, left);
+        for (int i = 0; i < 3; i++)
+            value[i] = (float)left[i];
+    }
+    const size_t size = OST_PER_FUNCTION * sizeof *values;
+    memset(values + OST_PER_FUNCTION * (size_t)complement->owned_edges, 0,
+           (size_t)(edges - complement->owned_edges) * size);
+    memset(values + OST_PER_FUNCTION * (size_t)(edges + complement->owned_faces), 0,
+           (size_t)(complement->faces.count - complement->owned_faces) * size);
+}
+
+void ost_complement_constrain_block(const OstComplement *complement, OstLocal function, double symmetric[6])
+{
+    static const int of[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2}, place[6] = {0, 4, 8, 1, 5, 6};
+    const OstLocal support = complement->support[function];
+    const double size = (symmetric[0] + symmetric[1] + symmetric[2]) / 3.0;
+    double block[9], inner[9], left[9];
+    if (support < 0)
+        return;
+    const double *projector = complement->projector + 9 * (size_t)support;
+    for (int n = 0; n < 9; n++)
+        block[n] = symmetric[of[n]];
+    ost_multiply3(projector, block, left);
+    ost_multiply3(left, projector, inner);
+    for (int p = 0; p < 6; p++)
+        symmetric[p] = inner[place[p]] + size * ((p < 3) - projector[place[p]]);
+}
+
+OstStatus ost_complement_import(const OstComplement *complement, float *values)
+{
+    const size_t size = OST_PER_FUNCTION * sizeof *values;
+    OST_TRY(ost_halo_import(complement->edge_halo, size, values));
     if (complement->mesh->nodes_per_tet != 10)
         return OST_SUCCESS;
-    return ost_halo_import(complement->face_halo, 3 * sizeof *values, values + 3 * (size_t)complement->edges.count);
+    return ost_halo_import(complement->face_halo, size, values + OST_PER_FUNCTION * (size_t)complement->edges.count);
 }
 
 static OstStatus find_turns(OstComplement *complement)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_FACE_TABLE_H
-#define ORTHOSTAT_ACCURACY_FACE_TABLE_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_FACE_TABLE_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_FACE_TABLE_H
 
 #include "mesh/refinement/mid_nodes.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/face_table.h"
+#include "accuracy/complement/face_table.h"
 
 #include "core/error.h"
 #include "core/memory.h"

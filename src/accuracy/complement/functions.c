@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/complement.h"
+#include "accuracy/complement/complement.h"
 #include "element/tets.h"
 
 static const int face_edge[3][2] = {{0, 1}, {1, 2}, {2, 0}};

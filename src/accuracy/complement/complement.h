@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_H
-#define ORTHOSTAT_ACCURACY_COMPLEMENT_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_COMPLEMENT_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_COMPLEMENT_H
 
-#include "accuracy/face_table.h"
+#include "accuracy/complement/face_table.h"
 #include "assembly/supports.h"
 #include "element/element.h"
 
@@ -22,7 +22,8 @@ typedef struct OstComplement {
     struct OstHalo *edge_halo, *face_halo;
     OstLocal *support; /* count: index of its projector, or -1: it is free */
     OstLocal support_count;
-    double *projector;     /* 9 for each */
+    OstLocal *supported;   /* the functions that are not free */
+    double *projector;     /* 9 for each of them */
     unsigned char *turned; /* of each quadratic tet: bit e, if edge e of it is taken from b to a; else NULL */
 } OstComplement;
 
@@ -57,15 +58,19 @@ static inline double ost_complement_turn_of(const OstComplement *complement, Ost
     return complement->turned && complement->turned[tet] >> e & 1 ? -1.0 : 1.0;
 }
 
-/* Collective. Gives ghosts their owners' values, 3 numbers a function. */
-OstStatus ost_complement_import(const OstComplement *complement, double *values);
+/* Vectors of the functions have three numbers in single precision for each, and a zero, so that four are read at once.
+ */
+enum { OST_PER_FUNCTION = 4 };
 
-/* Local. Takes from an owned function's value what its constraints do not allow. */
-void ost_complement_project(const OstComplement *complement, double *values);
+/* Collective. Gives ghosts their owners' values. */
+OstStatus ost_complement_import(const OstComplement *complement, float *values);
 
-/* Local. Inverts a function's 3×3 block of a stiffness (11 22 33 12 23 31) along the directions that its constraints
- * allow. */
-OstStatus ost_complement_invert(const OstComplement *complement, OstLocal function, double symmetric[6]);
+/* Local. Takes from owned functions' values what their constraints do not allow, and all from those of ghosts. */
+void ost_complement_project(const OstComplement *complement, float *values);
+
+/* Local. Adds s (I - P) to a function's 3×3 block A of a stiffness (11 22 33 12 23 31), reduced to P A P, if the
+ * function is constrained: P is the projector on the directions that are left, s of the size of A. */
+void ost_complement_constrain_block(const OstComplement *complement, OstLocal function, double symmetric[6]);
 
 /* Local. Of functions at barycentric coordinates, their values: of a tet (6 or 10), or of a face (3 or 4), with edges
  * taken in their own order. */

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/estimate.h"
+#include "accuracy/search.h"
+#include "assembly/springs.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <math.h>
+#include <string.h>
+
+/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. */
+static OstStatus adjoint_load(Search *search, const OstInterest *interest)
+{
+    OstSteps *steps = &search->steps;
+    const OstOperator *stiffness = &search->estimate->stiffness;
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    if (interest->load) {
+        memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
+    } else {
+        memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
+        ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
+        for (size_t i = 0; i < numbers; i++)
+            steps->force[i] *= -stiffness->unit;
+        if (problem->supports->spring)
+            ost_spring_force(problem->supports, 1.0, interest->moved, steps->force);
+    }
+    return ost_steps_take_rows(steps, steps->q.rows);
+}
+
+/* Ends the solve of an adjoint problem where its error is a small share of z. That is w and what the solve adds to it,
+ * a part that may be far larger than the whole, as w ends within one layer of tets. */
+typedef struct AdjointStop {
+    OstErrorStop stop;
+    const Search *search;
+    double share, of_given; /* the energy norm of w, squared */
+} AdjointStop;
+
+/* OstErrorStop's. |z|² = a(w, w) - f·u, as a(z, u) is 0. */
+static OstStatus ask(void *data, const double *u, double error, double *next)
+{
+    const AdjointStop *stop = data;
+    double work = 0.0;
+    for (size_t i = 0; i < stop->search->steps.rows; i++)
+        work += stop->search->steps.q.rows[i] * u[i];
+    OST_TRY(ost_sum(stop->search->estimate->problem->ctx, 1, &work));
+    ost_log(stop->search->estimate->problem->ctx, OST_LOG_VERBOSE, "adjoint problem: error of the equations %.2e",
+            error);
+    *next = stop->share * sqrt(fmax(stop->of_given > 0.0 ? stop->of_given - work : work, 0.0));
+    return OST_SUCCESS;
+}
+
+static OstStatus energy_of_given(const Search *search, const OstInterest *interest, double *energy)
+{
+    *energy = 0.0;
+    for (size_t i = 0; interest->moved && i < 3 * (size_t)search->estimate->problem->mesh->owned_nodes; i++)
+        *energy -= search->steps.force[i] * interest->moved[i];
+    return ost_sum(search->estimate->problem->ctx, 1, energy);
+}
+
+/* steps.u: the displacement z, to an error of that share in the norm of the energy, or 0: to the solver's residual.
+ */
+static OstStatus solve_adjoint(Search *search, const OstInterest *interest, double share)
+{
+    AdjointStop stop = {
+        .stop = {.ask = ask, .data = &stop, .first = 1e-2, .relative = 1}, .search = search, .share = share};
+    OstSolveReport report;
+    OST_TRY(adjoint_load(search, interest));
+    OST_TRY(energy_of_given(search, interest, &stop.of_given));
+    OstSteps *steps = &search->steps;
+    ost_solver_aim(steps->solver, (OstSolverAim){.stop = share > 0.0 ? &stop.stop : NULL});
+    const OstStatus solved = ost_solver_solve(steps->solver, steps->q.rows, steps->z, &report);
+    ost_solver_aim(steps->solver, (OstSolverAim){0});
+    OST_TRY(solved);
+    return ost_system_displacement(search->estimate->problem->system, 0.0, steps->z, steps->u);
+}
+
+/* r: what z, steps.u, leaves of the adjoint problem on the functions. */
+static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
+{
+    OstSteps *steps = &search->steps;
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->node_count;
+    for (size_t i = 0; interest->moved && i < numbers; i++)
+        steps->u[i] += interest->moved[i];
+    double most = ost_search_largest(numbers, steps->u);
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    steps->size = most > 0.0 ? most : 1.0;
+    for (size_t i = 0; i < numbers; i++)
+        steps->u[i] /= steps->size;
+    memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
+    ost_operator_apply(&search->estimate->stiffness, steps->u, steps->p.functions, steps->force, steps->r.functions);
+    for (size_t i = 0; i < OST_PER_FUNCTION * steps->functions; i++)
+        steps->r.functions[i] = -steps->r.functions[i];
+    ost_complement_project(&search->estimate->complement, steps->r.functions);
+    return OST_SUCCESS;
+}
+
+/* The work of u's residual on e, the surplus of z. */
+static OstStatus work_on(Search *search, double t, const double *u, double *work)
+{
+    OstSteps *steps = &search->steps;
+    const double size = steps->size;
+    OST_TRY(ost_search_residual(search, t, u));
+    OST_TRY(ost_steps_dot(steps, &steps->r, &steps->e, work));
+    *work *= search->longer * size * steps->size * search->estimate->stiffness.unit;
+    return OST_SUCCESS;
+}
+
+/* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
+static OstStatus share_interest(const Search *search, const double *of_adjoint, double error, double *share)
+{
+    const double least_of_sum = 0.1;
+    const OstProblem *problem = search->estimate->problem;
+    double sum = 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++) {
+        share[tet] = sqrt(fmax(share[tet], 0.0) * fmax(of_adjoint[tet], 0.0));
+        sum += share[tet];
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &sum));
+    const double factor = sum > 0.0 ? fmax(fabs(error) / sum, least_of_sum) : 0.0;
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        share[tet] *= factor;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                const OstInterest *interest, double *error, double *tet_share)
+{
+    const OstProblem *problem = estimate->problem;
+    Search search = {0};
+    double square = 0.0, *of_adjoint = NULL;
+    *error = NAN;
+    OstStatus status = ost_search_move(estimate, u);
+    OST_THEN(ost_search_open(estimate, solver, &search));
+    OST_TRY_DONE(ost_agree(
+        problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
+    search.of_adjoint = 1;
+    OST_TRY_DONE(solve_adjoint(&search, interest, 0.0));
+    OST_TRY_DONE(adjoint_residual(&search, interest));
+    OST_TRY_DONE(ost_search_iterate(&search, 0.0, &square));
+    if (search.steps.failed)
+        goto done;
+    OST_TRY_DONE(ost_search_displacement(&search));
+    OST_TRY_DONE(ost_search_share(&search, ost_search_true_square(&search, square), of_adjoint, NULL));
+    OST_TRY_DONE(work_on(&search, t, u, error));
+    if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
+        *error = -*error;
+    OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
+done:
+    OST_FREE(of_adjoint);
+    ost_steps_close(&search.steps);
+    return status;
+}
+
+/* --- the same for several loads --- */
+
+struct OstAdjoint {
+    OstContext *ctx;
+    size_t nodes;
+    OstEnriched e; /* the surplus of z, lengthened, over `size` */
+    double size;
+    double *z; /* 3 × owned_nodes: what the solve adds to the given motion */
+};
+
+void ost_adjoint_destroy(OstAdjoint **adjoint)
+{
+    if (!*adjoint)
+        return;
+    OST_FREE((*adjoint)->e.rows);
+    OST_FREE((*adjoint)->e.functions);
+    OST_FREE((*adjoint)->z);
+    OST_FREE(*adjoint);
+}
+
+static OstStatus find_adjoint(Search *search, const OstInterest *interest, double share, OstAdjoint *adjoint)
+{
+    double square;
+    search->of_adjoint = 1;
+    OST_TRY(solve_adjoint(search, interest, share));
+    memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
+    OST_TRY(adjoint_residual(search, interest));
+    OST_TRY(ost_search_iterate(search, 0.0, &square));
+    adjoint->size = search->longer * search->steps.size;
+    memcpy(adjoint->e.rows, search->steps.e.rows, search->steps.rows * sizeof *adjoint->e.rows);
+    memcpy(adjoint->e.functions, search->steps.e.functions,
+           OST_PER_FUNCTION * search->steps.functions * sizeof *adjoint->e.functions);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const OstInterest *interest, double share,
+                             OstAdjoint **adjoint)
+{
+    const OstProblem *problem = estimate->problem;
+    Search search = {0};
+    *adjoint = NULL;
+    OstStatus status = ost_search_move(estimate, NULL);
+    OST_THEN(ost_search_open(estimate, solver, &search));
+    OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
+    if (status == OST_SUCCESS) {
+        **adjoint = (OstAdjoint){.ctx = problem->ctx, .nodes = 3 * (size_t)problem->mesh->owned_nodes};
+        status = OST_NEW(problem->ctx, &(*adjoint)->e.rows, search.steps.rows);
+        OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->e.functions, OST_PER_FUNCTION * search.steps.functions));
+        OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
+        status = ost_agree(problem->ctx, status);
+    }
+    OST_THEN(find_adjoint(&search, interest, share, *adjoint));
+    if (status != OST_SUCCESS || search.steps.failed)
+        ost_adjoint_destroy(adjoint);
+    ost_steps_close(&search.steps);
+    return status;
+}
+
+OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error)
+{
+    Search search = {0};
+    OstStatus status = ost_search_move(estimate, u);
+    OST_THEN(ost_search_open(estimate, NULL, &search));
+    OST_THEN(ost_search_residual(&search, t, u));
+    OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
+    *error *= status == OST_SUCCESS ? -adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
+    ost_steps_close(&search.steps);
+    return status;
+}
+
+const double *ost_adjoint_displacement(const OstAdjoint *adjoint)
+{
+    return adjoint->z;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_SEARCH_H
+#define ORTHOSTAT_ACCURACY_SEARCH_H
+
+#include "accuracy/earlier.h"
+#include "accuracy/loads.h"
+#include "accuracy/steps.h"
+
+/* The conjugate gradients of an estimate, on elements and complement: for accuracy/estimate.c, and for adjoint problems
+ * (accuracy/adjoint.c). */
+
+/* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second. */
+typedef struct Enough {
+    double rest, gain;
+} Enough;
+
+enum { MOST_TAILS = 16 };
+
+/* Of errors for which more than one pair of steps was taken: the second step over the first, and what all steps add
+ * over what the first pair does. */
+typedef struct Tails {
+    int count;
+    double second[MOST_TAILS], whole[MOST_TAILS];
+} Tails;
+
+typedef struct OstEstimate {
+    const OstProblem *problem;
+    OstComplement complement;
+    OstSurplusLoads loads;
+    OstOperator stiffness;
+    float *factor;                    /* of the functions' blocks, once they are known */
+    int has_factor;                   /* of linear theory */
+    OstEarlier *earlier;              /* what was found for other loads; or NULL */
+    Tails tails;                      /* of them */
+    Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
+} OstEstimate;
+
+typedef struct Search {
+    OstSteps steps;
+    OstEstimate *estimate;
+    double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double energy;  /* of this rank's tets, under u; NAN: not known */
+    int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
+    int is_short;   /* were later steps taken to be as those of an earlier load? */
+} Search;
+
+/* Collective. Takes the stiffness to u. */
+OstStatus ost_search_move(OstEstimate *estimate, const double *u);
+
+/* Collective. Close its steps also after a failure. */
+OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search);
+
+/* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
+OstStatus ost_search_residual(Search *search, double t, const double *u);
+
+/* Collective. Pairs of steps until what is to come of |e|² is small; `start` is that of the part of e that was found
+ * before. Squares are in the steps' units. */
+OstStatus ost_search_iterate(Search *search, double start, double *square);
+
+/* Local. A square in the case's units. */
+double ost_search_true_square(const Search *search, double square);
+
+/* Collective. steps.u: e at the nodes. */
+OstStatus ost_search_displacement(Search *search);
+
+/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u; its mean stress, or NULL. */
+OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress);
+
+/* Local. The largest absolute value of some numbers. */
+double ost_search_largest(size_t count, const double *numbers);
+
+#endif

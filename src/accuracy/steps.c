@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/steps.h"
+
+#include "accuracy/blocks.h"
+#include "assembly/springs.h"
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+
+#include <math.h>
+#include <string.h>
+
+OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps)
+{
+    const OstProblem *problem = stiffness->problem;
+    OstContext *ctx = problem->ctx;
+    OstEnriched *const vectors[4] = {&steps->p, &steps->q, &steps->r, &steps->e};
+    *steps = (OstSteps){.stiffness = stiffness, .factor = factor, .solver = solver, .size = 1.0};
+    steps->rows = 3 * (size_t)problem->system->matrix->rows;
+    steps->functions = (size_t)stiffness->complement->count;
+    const size_t numbers = OST_PER_FUNCTION * steps->functions;
+    OstStatus status = OST_NEW(ctx, &steps->p.rows, 4 * steps->rows);
+    OST_THEN(OST_NEW(ctx, &steps->p.functions, 4 * numbers));
+    OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
+    OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_TRY(ost_agree(ctx, status));
+    for (size_t k = 1; k < 4; k++) {
+        vectors[k]->rows = steps->p.rows + k * steps->rows;
+        vectors[k]->functions = steps->p.functions + k * numbers;
+    }
+    return OST_SUCCESS;
+}
+
+void ost_steps_close(OstSteps *steps)
+{
+    OST_FREE(steps->p.rows);
+    OST_FREE(steps->p.functions);
+    OST_FREE(steps->z);
+    OST_FREE(steps->u);
+    OST_FREE(steps->force);
+}
+
+double *ost_steps_spare(OstSteps *steps)
+{
+    return (double *)(void *)steps->p.functions;
+}
+
+void ost_steps_take_residual(OstSteps *steps, const double *forces, double divisor)
+{
+    const double factor = 1.0 / divisor;
+    for (size_t k = 0; k < steps->functions; k++)
+        for (size_t i = 0; i < 3; i++)
+            steps->r.functions[OST_PER_FUNCTION * k + i] = (float)(factor * forces[3 * k + i]);
+    ost_complement_project(steps->stiffness->complement, steps->r.functions);
+}
+
+void ost_steps_start(OstSteps *steps)
+{
+    memset(steps->p.rows, 0, 2 * steps->rows * sizeof *steps->p.rows); /* and q */
+    memset(steps->p.functions, 0, 2 * OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
+    ost_blocks_step(steps->functions, steps->factor, 0.0, steps->p.functions, steps->q.functions, steps->e.functions,
+                    steps->r.functions, steps->products);
+    steps->turns = 0;
+}
+
+OstStatus ost_steps_take_rows(const OstSteps *steps, double *rows)
+{
+    return ost_system_take_rows(steps->stiffness->problem->system, steps->force, rows);
+}
+
+OstStatus ost_steps_dot(const OstSteps *steps, const OstEnriched *a, const OstEnriched *b, double *product)
+{
+    *product = ost_functions_dot(steps->functions, a->functions, b->functions);
+    for (size_t i = 0; i < steps->rows; i++)
+        *product += a->rows[i] * b->rows[i];
+    return ost_sum(steps->stiffness->problem->ctx, 1, product);
+}
+
+/* q = A p */
+static OstStatus multiply(OstSteps *steps)
+{
+    const OstOperator *stiffness = steps->stiffness;
+    const OstProblem *problem = stiffness->problem;
+    OST_TRY(ost_system_displacement(problem->system, 0.0, steps->p.rows, steps->u));
+    OST_TRY(ost_complement_import(stiffness->complement, steps->p.functions));
+    ost_operator_apply(stiffness, steps->u, steps->p.functions, steps->force, steps->q.functions);
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0 / stiffness->unit, steps->u, steps->force);
+    ost_complement_project(stiffness->complement, steps->q.functions);
+    return ost_steps_take_rows(steps, steps->q.rows);
+}
+
+/* z = B r on the rows. */
+static OstStatus take_cycle(OstSteps *steps, int *found)
+{
+    OST_TRY(ost_solver_precondition(steps->solver, steps->r.rows, steps->z, found));
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->z[i] *= steps->stiffness->unit;
+    return OST_SUCCESS;
+}
+
+/* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle
+ * takes as long as several products with A. On quadratic tets, where that is most of the time, the first pair of steps
+ * is without. */
+static OstStatus precondition(OstSteps *steps)
+{
+    int found = 1;
+    const int first = steps->stiffness->complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = steps->turns++;
+    if (turn >= first && (turn - first) % 2 == 0)
+        OST_TRY(take_cycle(steps, &found));
+    else
+        memset(steps->z, 0, steps->rows * sizeof *steps->z);
+    steps->failed = !found;
+    return OST_SUCCESS;
+}
+
+/* Goes along p: `gain` is what that adds to |e|², `weight` r'B r before. */
+static OstStatus go_on(OstSteps *steps, double weight, double *gain)
+{
+    double curvature = 0.0;
+    OST_TRY(multiply(steps));
+    OST_TRY(ost_steps_dot(steps, &steps->p, &steps->q, &curvature));
+    steps->failed = !(curvature > 0.0);
+    const double length = steps->failed ? 0.0 : weight / curvature;
+    for (size_t i = 0; i < steps->rows; i++) {
+        steps->e.rows[i] += length * steps->p.rows[i];
+        steps->r.rows[i] -= length * steps->q.rows[i];
+    }
+    ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions, steps->e.functions,
+                    steps->r.functions, steps->products);
+    *gain = length * weight;
+    return OST_SUCCESS;
+}
+
+/* The next direction, as if the preconditioner varied (Polak and Ribiere). */
+static OstStatus turn(OstSteps *steps, double gain, double *weight)
+{
+    const double before = *weight;
+    double sums[2] = {steps->products[0], steps->products[1]};
+    OST_TRY(precondition(steps));
+    for (size_t i = 0; i < steps->rows; i++) {
+        sums[0] += steps->r.rows[i] * steps->z[i];
+        sums[1] += steps->q.rows[i] * steps->z[i];
+    }
+    OST_TRY(ost_sum(steps->stiffness->problem->ctx, 2, sums));
+    const double share = before > 0.0 ? -gain * sums[1] / (before * before) : 0.0;
+    *weight = sums[0];
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->p.rows[i] = steps->z[i] + share * steps->p.rows[i];
+    ost_blocks_turn(steps->functions, steps->factor, steps->r.functions, share, steps->p.functions);
+    steps->failed |= !(*weight >= 0.0) || !isfinite(*weight);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_steps_pair(OstSteps *steps, double *weight, double *of_step, double *gain)
+{
+    *gain = 0.0;
+    for (int k = 0; k < 2 && !steps->failed; k++) {
+        OST_TRY(turn(steps, *of_step, weight));
+        if (steps->failed || !(*weight > 0.0))
+            break;
+        OST_TRY(go_on(steps, *weight, of_step));
+        *gain += *of_step;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_steps_settle(OstSteps *steps)
+{
+    int found = 0;
+    OST_TRY(take_cycle(steps, &found));
+    for (size_t i = 0; i < steps->rows && found; i++)
+        steps->e.rows[i] += steps->z[i];
+    return OST_SUCCESS;
+}

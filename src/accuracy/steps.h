@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ACCURACY_STEPS_H
+#define ORTHOSTAT_ACCURACY_STEPS_H
+
+#include "accuracy/enriched.h"
+#include "accuracy/operator.h"
+#include "algebra/solver.h"
+
+/* Conjugate gradients for A e = r on the elements' space and its complement, with the solver's preconditioner on the
+ * first and 3×3 blocks on the second. Displacements are over `size`, and forces over size × the operator's unit, so
+ * that single precision holds them whatever the units of the case. */
+typedef struct OstSteps {
+    const OstOperator *stiffness;
+    const float *factor; /* of the functions' blocks (accuracy/blocks.h) */
+    OstSolver *solver;
+    size_t rows, functions; /* numbers of the rows, and the functions */
+    double size;
+    OstEnriched r, p, q, e; /* those of ghosts are 0, but in p */
+    double *z;              /* of the rows alone */
+    double *u, *force;      /* of nodes: a displacement, and forces on it */
+    double products[2];     /* of the functions: r'B r, q'B r */
+    int turns;              /* directions found so far */
+    int failed;             /* is the preconditioner, or the stiffness, not positive definite? */
+} OstSteps;
+
+/* Collective. Close it also after a failure. */
+OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps);
+void ost_steps_close(OstSteps *steps);
+
+/* Local. Room for 3 double-precision numbers a function, in place of p and q, before the first pair of steps. */
+double *ost_steps_spare(OstSteps *steps);
+
+/* Local. Takes forces on the functions (3 numbers each) over `divisor` for the residual's. */
+void ost_steps_take_residual(OstSteps *steps, const double *forces, double divisor);
+
+/* Local. Before the first pair of steps: r is the residual, e = 0. */
+void ost_steps_start(OstSteps *steps);
+
+/* Collective. Two steps, of which at most one takes a multigrid cycle. `weight`: r'B r; `of_step`: what the last one
+ * added to |e|², `gain`: what both did. */
+OstStatus ost_steps_pair(OstSteps *steps, double *weight, double *of_step, double *gain);
+
+/* Collective. What is left on the elements' own unknowns, once more: few steps have little of a displacement far from
+ * where its error is made. */
+OstStatus ost_steps_settle(OstSteps *steps);
+
+/* Local; collective where nodes follow others. The rows' part of forces on nodes. */
+OstStatus ost_steps_take_rows(const OstSteps *steps, double *rows);
+
+/* Collective. a'b */
+OstStatus ost_steps_dot(const OstSteps *steps, const OstEnriched *a, const OstEnriched *b, double *product);
+
+#endif

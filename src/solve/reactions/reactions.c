@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/reactions/reactions.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The adjoint problem is solved to this share of the error of u, within bounds: both errors count as a product. */
+static const double share_of_error = 0.1, least_share = 1e-4, most_share = 2e-3;
+
+void ost_reactions_clear(OstReactions *kept)
+{
+    for (int k = 0; k < kept->count; k++) {
+        OST_FREE(kept->moved[k]);
+        ost_adjoint_destroy(&kept->adjoint[k]);
+    }
+    kept->count = 0;
+}
+
+static int any(const OstCase *c)
+{
+    int some = 0;
+    for (int w = 0; w < c->watch_count; w++)
+        some |= c->watches[w].kind == OST_WATCH_REACTION;
+    return some;
+}
+
+/* Is the reaction the internal force at nodes that are held one by one? */
+static int is_plain(const OstProblem *problem)
+{
+    return !problem->free_body && !problem->supports->links && !problem->scene->drive && ost_problem_is_linear(problem);
+}
+
+int ost_reactions_allow_stop(const OstProblem *problem)
+{
+    return !problem->scene || !any(problem->scene->c) || (is_plain(problem) && !problem->pressures);
+}
+
+/* One watched reaction of an answer. */
+typedef struct Search {
+    const OstProblem *problem;
+    const OstWatch *watch;
+    OstInterest interest;
+    double *rigid;           /* 3 × owned_nodes: the body's motion that the reaction works on, less the given one */
+    const double *imbalance; /* 3 × owned_nodes: internal force less load */
+} Search;
+
+/* The imbalance: at free nodes, what the solve left; at others, the reactions. */
+static OstStatus find_imbalance(const OstProblem *problem, double t, const double *u, double **imbalance)
+{
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    double *load = NULL;
+    OstStatus status = OST_NEW(problem->ctx, imbalance, numbers);
+    OST_THEN(OST_NEW(problem->ctx, &load, numbers));
+    OST_THEN(ost_problem_force(problem, t, u, *imbalance));
+    if (status == OST_SUCCESS) {
+        ost_problem_load(problem, t, u, load);
+        for (size_t i = 0; i < numbers; i++)
+            (*imbalance)[i] -= load[i];
+    }
+    OST_FREE(load);
+    return ost_agree(problem->ctx, status);
+}
+
+/* The rigid motion along the reaction's direction, or about its axis. */
+static void find_rigid(const Search *search)
+{
+    const OstMesh *mesh = search->problem->mesh;
+    for (size_t n = 0; n < (size_t)mesh->owned_nodes; n++) {
+        double arm[3], motion[3];
+        for (size_t i = 0; i < 3; i++)
+            arm[i] = mesh->coordinates[3 * n + i] - search->watch->about[i];
+        memcpy(motion, search->interest.direction, sizeof motion);
+        if (search->watch->of_moment)
+            ost_cross3(search->interest.direction, arm, motion);
+        for (size_t i = 0; i < 3; i++)
+            search->rigid[3 * n + i] = motion[i] - search->interest.moved[3 * n + i];
+    }
+}
+
+/* Do the supports allow what the rigid motion is beside the given one? */
+static OstStatus is_static(const Search *search, int *yes)
+{
+    static const double nothing = 1e-12;
+    const OstProblem *problem = search->problem;
+    double sizes[2] = {0.0}; /* of what they forbid, and of all */
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
+        const double *motion = search->rigid + 3 * (size_t)node;
+        double projector[9], allowed[3];
+        ost_supports_get(problem->supports, node, projector, NULL);
+        ost_apply3(projector, motion, allowed);
+        for (int i = 0; i < 3; i++)
+            sizes[0] = fmax(sizes[0], fabs(motion[i] - allowed[i]));
+        sizes[1] = fmax(sizes[1], ost_norm3(motion));
+    }
+    OST_TRY(ost_max(problem->ctx, 2, sizes));
+    *yes = !problem->supports->spring && sizes[0] <= nothing * sizes[1];
+    return OST_SUCCESS;
+}
+
+static OstStatus work_of(const Search *search, const double *motion, double *work)
+{
+    *work = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)search->problem->mesh->owned_nodes; i++)
+        *work += motion[i] * search->imbalance[i];
+    return ost_sum(search->problem->ctx, 1, work);
+}
+
+/* The adjoint problem of an earlier load, or NULL. */
+static OstStatus look_up(const Search *search, const OstReactions *kept, OstAdjoint **adjoint)
+{
+    const OstMesh *mesh = search->problem->mesh;
+    *adjoint = NULL;
+    for (int k = 0; kept && k < kept->count && !*adjoint; k++) {
+        int differs = memcmp(kept->moved[k], search->interest.moved,
+                             3 * (size_t)mesh->node_count * sizeof *search->interest.moved) != 0;
+        OST_TRY(ost_max_ints(search->problem->ctx, 1, &differs));
+        if (!differs)
+            *adjoint = kept->adjoint[k];
+    }
+    return OST_SUCCESS;
+}
+
+/* By the adjoint problem; one without an answer says nothing. */
+static OstStatus find_by_adjoint(Search *search, OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                 double share, OstReactions *kept, OstWatchedReaction *found)
+{
+    OstAdjoint *adjoint = NULL;
+    OST_TRY(look_up(search, kept, &adjoint));
+    const int is_new = !adjoint;
+    OstStatus status = is_new ? ost_adjoint_create(estimate, solver, &search->interest, share, &adjoint) : OST_SUCCESS;
+    if (status == OST_NOT_CONVERGED || (status == OST_SUCCESS && !adjoint))
+        return OST_SUCCESS;
+    OST_THEN(work_of(search, ost_adjoint_displacement(adjoint), &found->missing));
+    OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, &found->error));
+    found->known = status == OST_SUCCESS;
+    if (status == OST_SUCCESS && is_new && kept && kept->count < OST_MOST_REACTIONS) {
+        kept->adjoint[kept->count] = adjoint;
+        kept->moved[kept->count++] = search->interest.moved;
+        search->interest.moved = NULL;
+    } else if (is_new) {
+        ost_adjoint_destroy(&adjoint);
+    }
+    return status;
+}
+
+OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
+                             const double *u, double relative, OstReactions *kept, OstWatchedReaction *found)
+{
+    const OstCase *c = problem->scene->c;
+    const double share = fmin(fmax(share_of_error * relative, least_share), most_share);
+    double *imbalance = NULL, *rigid = NULL;
+    if (!any(c) || !is_plain(problem))
+        return OST_SUCCESS;
+    OstStatus status = ost_agree(problem->ctx, OST_NEW(problem->ctx, &rigid, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(find_imbalance(problem, t, u, &imbalance));
+    for (int w = 0; w < c->watch_count && status == OST_SUCCESS; w++) {
+        Search search = {problem, &c->watches[w], {0}, rigid, imbalance};
+        int yes = 0;
+        if (search.watch->kind != OST_WATCH_REACTION)
+            continue;
+        status = ost_interest_create(problem, search.watch, t, u, &search.interest);
+        if (status == OST_SUCCESS)
+            find_rigid(&search);
+        OST_THEN(is_static(&search, &yes));
+        if (status == OST_SUCCESS && yes) {
+            status = work_of(&search, rigid, &found[w].missing);
+            found[w].known = status == OST_SUCCESS;
+        } else if (status == OST_SUCCESS && !problem->pressures) {
+            status = find_by_adjoint(&search, estimate, solver, t, u, share, kept, &found[w]);
+        }
+        ost_interest_clear(&search.interest);
+    }
+    OST_FREE(rigid);
+    OST_FREE(imbalance);
+    return status;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_SOLVE_REACTIONS_REACTIONS_H
+#define ORTHOSTAT_SOLVE_REACTIONS_REACTIONS_H
+
+#include "accuracy/estimate.h"
+#include "algebra/solver.h"
+
+/* Watched reactions of linear answers whose equations are solved to the error of the mesh alone. A reaction is R = a(u,
+ * w) - l(w) for any displacement w that is 1 along it at its nodes and 0 at other supports. Summed over the nodes, w
+ * ends within a layer of tets, and what u leaves out of balance beside them counts in full. With z, the w that has the
+ * least energy (the adjoint problem's), it counts times the error of z alone, and the error that the mesh makes is the
+ * work of u's residual on the surplus of z. Where a rigid motion of the body is such a w, statics alone gives R. */
+
+/* The adjoint problems of earlier loads on the same supports; start from {0}. */
+enum { OST_MOST_REACTIONS = 4 };
+typedef struct OstReactions {
+    int count;
+    double *moved[OST_MOST_REACTIONS]; /* 3 × node_count: which reaction it is */
+    OstAdjoint *adjoint[OST_MOST_REACTIONS];
+} OstReactions;
+void ost_reactions_clear(OstReactions *kept);
+
+/* Local. May the solve stop early, although the case watches reactions? Not where nodes follow others or the pressure
+ * is an unknown. */
+int ost_reactions_allow_stop(const OstProblem *problem);
+
+/* Collective. What is to be added to each watched reaction, and its error: found (one for each quantity watched) is
+ * filled for those that are known. `relative`: the error of u in the norm of the energy. What is found for this load is
+ * kept for the next, unless `kept` is NULL. */
+OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
+                             const double *u, double relative, OstReactions *kept, OstWatchedReaction *found);
+
+#endif
