@@ -55,7 +55,7 @@ static void make_coarse(const ElasticBlock *block, double target, const OstAggre
     if (!given)
         assert_success(ost_aggregates_create(graph, &shape, &aggregates));
     assert_success(
-        ost_tentative_create(c->matrix, given ? given : aggregates, c->problem.geometry.modes, &c->tentative));
+        ost_tentative_create(c->matrix, given ? given : aggregates, c->problem.geometry.modes, 0, &c->tentative));
     assert_success(ost_smoother_create(c->level, graph, &options, &smoother));
     assert_success(ost_tentative_smooth(c->tentative, c->matrix, smoother, &c->prolongator));
     assert_success(

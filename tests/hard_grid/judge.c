@@ -14,8 +14,9 @@ static const double least_stated = 1.0 / 3.0, most_stated = 1e3, no_error = 1e-1
 /* Of residuals as they are stated and in 64 bits; below the second a difference is no matter. */
 static const double same_residual = 3.0, wanted_residual = 1e-8;
 
-/* Up to so many unknowns a body at size is factored, to judge its answer. */
-static const OstGlobal small_size = 10000;
+/* Up to so many unknowns a body at size is factored, to judge its answer; or, up to the second, whether it is refused
+ * rightly. */
+static const OstGlobal small_size = 10000, refused_size = 100000;
 
 const double hard_hopeless = 0.1;
 
@@ -140,12 +141,18 @@ static void judge_residual(HardReading *reading)
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
 
+/* Is this a failure of the point, and not of the grid? */
+static int concerns_point(OstStatus status)
+{
+    return status == OST_INVALID_INPUT || status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED;
+}
+
 static OstStatus compare(const OstScene *scene, const OstResult *result, HardReading *reading)
 {
     const int mixed = ost_field_is_mixed(scene->field);
     OstStatus status =
         mixed ? hard_find_mixed_truth(scene, result, &reading->truth) : hard_find_truth(scene, result, &reading->truth);
-    if (status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT) /* no factors: nothing to compare with */
+    if (concerns_point(status) || status == OST_OUT_OF_MEMORY) /* no factors: nothing to compare with */
         status = OST_SUCCESS;
     if (status == OST_SUCCESS && mixed)
         judge_mixed(reading);
@@ -164,16 +171,11 @@ OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
         status = hard_find_residual(scene, result, &reading->truth);
     if (size > 0 && status == OST_SUCCESS)
         judge_residual(reading);
-    if (status == OST_SUCCESS && size <= small_size && reading->outcome != HARD_FALSE)
+    const OstGlobal factored = reading->status == OST_SUCCESS ? small_size : refused_size;
+    if (status == OST_SUCCESS && size <= factored && reading->outcome != HARD_FALSE)
         status = compare(scene, result, reading);
     ost_result_destroy(&result);
     return status;
-}
-
-/* Is this a failure of the point, and not of the grid? */
-static int concerns_point(OstStatus status)
-{
-    return status == OST_INVALID_INPUT || status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED;
 }
 
 static OstStatus read_point(OstContext *ctx, const HardPoint *point, HardReading *reading)

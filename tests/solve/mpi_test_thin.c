@@ -11,6 +11,7 @@
 #define LAYERS "mesh: {block: {size: [1, 1, 1], divisions: [12, 12, 12]}}\n" END
 #define BEAM "mesh: {block: {size: [100, 1, 1], divisions: [133, 4, 4]}}\n" END
 #define PLATE "mesh: {block: {size: [1000, 1000, 1], divisions: [22, 22, 2]}}\n" END
+#define SHEET "mesh: {block: {size: [1000, 1000, 1], divisions: [10, 10, 1]}}\n" END
 #define OF(moduli, nu) "materials: [{region: all, youngs_modulus: " moduli ", poissons_ratio: " nu "}]\n"
 
 /* Every second layer of hexes becomes a thousandth as thick as a hex is wide. */
@@ -37,6 +38,8 @@ static void thin_bodies_take_few_iterations(void **state)
         {"beam, isotropic", BEAM OF("1", "0.3"), 1, 0, 45},
         {"beam, stiff along", BEAM OF("[1000, 1, 1]", "0.3"), 1, 0, 30},
         {"plate, isotropic", PLATE OF("1", "0.3"), 1, 0, 50},
+        {"plate of quadratic tets, isotropic", SHEET OF("1", "0.3"), 2, 0, 60},
+        {"plate of quadratic tets, stiff along", SHEET OF("[1000, 1, 1]", "0.3"), 2, 0, 60},
         {"layers, stiff across, nu 0.4", LAYERS OF("[1, 1, 1000]", "0.4"), 2, 1, 45},
     };
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)

@@ -63,11 +63,13 @@ static OstStatus pack_rows(const Product *product, const OstGlobal *number, OstF
     OST_TRY(ost_fetched_rows_reserve(out));
     for (OstLocal i = 0; i < out->rows; i++) {
         const OstLocal from = p->row_start[node[i]];
-        const size_t blocks = (size_t)(out->start[i + 1] - out->start[i]);
+        const size_t blocks = (size_t)(out->start[i + 1] - out->start[i]), entries = (size_t)(p->height * WIDTH);
+        float *to = (float *)(void *)(out->value + (size_t)out->start[i] * out->block_bytes);
         for (size_t k = 0; k < blocks; k++)
             out->column[(size_t)out->start[i] + k] = number[p->column[(size_t)from + k]];
-        memcpy(out->value + (size_t)out->start[i] * out->block_bytes,
-               (const char *)p->value + (size_t)from * out->block_bytes, blocks * out->block_bytes);
+        memcpy(to, p->value + (size_t)from * entries, blocks * entries * sizeof *to);
+        if (p->rest) /* behind the row */
+            memcpy(to + blocks * entries, p->rest + (size_t)from * entries, blocks * entries * sizeof *to);
     }
     return OST_SUCCESS;
 }
@@ -76,7 +78,7 @@ static OstStatus import_rows(Product *product, const OstGlobal *number)
 {
     OstContext *ctx = product->ctx;
     OstHalo *halo = product->a->halo;
-    const size_t bytes = (size_t)(product->p->height * WIDTH) * sizeof(float);
+    const size_t bytes = (size_t)(product->p->height * WIDTH) * sizeof(float) * (product->p->rest ? 2 : 1);
     OstFetchedRows *out = NULL;
     OstStatus status = ost_fetched_rows_create(ctx, halo->send_start[halo->neighbour_count], bytes, &out);
     if (status == OST_SUCCESS)
@@ -134,11 +136,16 @@ OST_UNROLLED OstStatus multiply_row(Product *product, int size, OstLocal i, size
             const OstLocal from = p->row_start[j];
             OST_TRY(add_blocks(product, size, row, value, p->row_start[j + 1] - from, p->column + from,
                                p->value + (size_t)(size * WIDTH) * (size_t)from));
+            if (p->rest)
+                OST_TRY(add_blocks(product, size, row, value, p->row_start[j + 1] - from, p->column + from,
+                                   p->rest + (size_t)(size * WIDTH) * (size_t)from));
         } else {
-            const OstLocal from = far->start[j - a->rows];
-            OST_TRY(add_blocks(product, size, row, value, far->start[j - a->rows + 1] - from,
-                               product->far_column + from,
-                               (const float *)(const void *)far->value + (size_t)(size * WIDTH) * (size_t)from));
+            const OstLocal from = far->start[j - a->rows], blocks = far->start[j - a->rows + 1] - from;
+            const float *row_of_p = (const float *)(const void *)(far->value + (size_t)from * far->block_bytes);
+            OST_TRY(add_blocks(product, size, row, value, blocks, product->far_column + from, row_of_p));
+            if (p->rest)
+                OST_TRY(add_blocks(product, size, row, value, blocks, product->far_column + from,
+                                   row_of_p + (size_t)(size * WIDTH) * (size_t)blocks));
         }
     }
     return OST_SUCCESS;
@@ -151,9 +158,9 @@ OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k
     const OstSmootherBlocks *blocks = product->blocks;
     double *to = product->p_column;
     for (OstLocal m = blocks->node_start[b]; m < blocks->node_start[b + 1]; m++, to += size * WIDTH) {
-        const float *value = p->value + (size_t)(size * WIDTH) * (size_t)(p->row_start[blocks->node[m]] + k);
+        const size_t from = (size_t)(size * WIDTH) * (size_t)(p->row_start[blocks->node[m]] + k);
         for (int e = 0; e < size * WIDTH; e++)
-            to[e] = (double)value[e];
+            to[e] = (double)p->value[from + (size_t)e] + (p->rest ? (double)p->rest[from + (size_t)e] : 0.0);
     }
 }
 

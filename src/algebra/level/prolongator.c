@@ -14,17 +14,19 @@ void ost_prolongator_destroy(OstProlongator **prolongator)
     OST_FREE((*prolongator)->row_start);
     OST_FREE((*prolongator)->column);
     OST_FREE((*prolongator)->value);
+    OST_FREE((*prolongator)->rest);
     ost_halo_destroy(&(*prolongator)->halo);
     ost_exchange_destroy(&(*prolongator)->exchange);
     OST_FREE(*prolongator);
 }
 
-OST_UNROLLED void add_rows(const OstProlongator *p, int height, const double *restrict c, double *restrict x)
+OST_UNROLLED void add_rows(const OstProlongator *p, const float *value, int height, const double *restrict c,
+                           double *restrict x)
 {
     for (OstLocal i = 0; i < p->rows; i++) {
         OstDouble8 sum[OST_MODES] = {{0}};
         for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
-            const float *a = p->value + (size_t)(height * OST_MODES) * (size_t)k;
+            const float *a = value + (size_t)(height * OST_MODES) * (size_t)k;
             const OstDouble8 v = OST_LOAD8(c + OST_MODES * (size_t)p->column[k]);
             for (int r = 0; r < height; r++)
                 sum[r] += OST_LOAD_FLOAT8(a + OST_MODES * r) * v;
@@ -34,12 +36,13 @@ OST_UNROLLED void add_rows(const OstProlongator *p, int height, const double *re
     }
 }
 
-OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const double *restrict x, double *restrict c)
+OST_UNROLLED void restrict_rows(const OstProlongator *p, const float *value, int height, const double *restrict x,
+                                double *restrict c)
 {
     for (OstLocal i = 0; i < p->rows; i++) {
         const double *v = x + (size_t)height * (size_t)i;
         for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
-            const float *a = p->value + (size_t)(height * OST_MODES) * (size_t)k;
+            const float *a = value + (size_t)(height * OST_MODES) * (size_t)k;
             OstDouble8 sum = {0};
             for (int r = 0; r < height; r++)
                 sum += OST_LOAD_FLOAT8(a + OST_MODES * r) * v[r];
@@ -51,26 +54,29 @@ OST_UNROLLED void restrict_rows(const OstProlongator *p, int height, const doubl
 static void book(const OstProlongator *prolongator)
 {
     const double entries = (double)prolongator->row_start[prolongator->rows];
-    ost_ledger_multiplied(prolongator->ctx, entries * prolongator->height * OST_MODES);
+    ost_ledger_multiplied(prolongator->ctx,
+                          entries * prolongator->height * OST_MODES * (prolongator->rest ? 2.0 : 1.0));
 }
 
 OST_KERNEL void ost_prolongator_add(const OstProlongator *prolongator, double *c, double *x)
 {
     ost_exchange_import(prolongator->exchange, c);
     book(prolongator);
-    if (prolongator->height == 3)
-        add_rows(prolongator, 3, c, x);
-    else
-        add_rows(prolongator, 6, c, x);
+    for (const float *value = prolongator->value; value; value = value == prolongator->value ? prolongator->rest : NULL)
+        if (prolongator->height == 3)
+            add_rows(prolongator, value, 3, c, x);
+        else
+            add_rows(prolongator, value, 6, c, x);
 }
 
 OST_KERNEL void ost_prolongator_restrict(const OstProlongator *prolongator, const double *x, double *c)
 {
     memset(c, 0, OST_MODES * (size_t)prolongator->columns * sizeof *c);
-    if (prolongator->height == 3)
-        restrict_rows(prolongator, 3, x, c);
-    else
-        restrict_rows(prolongator, 6, x, c);
+    for (const float *value = prolongator->value; value; value = value == prolongator->value ? prolongator->rest : NULL)
+        if (prolongator->height == 3)
+            restrict_rows(prolongator, value, 3, x, c);
+        else
+            restrict_rows(prolongator, value, 6, x, c);
     ost_exchange_add_to_owners(prolongator->exchange, c);
     book(prolongator);
 }

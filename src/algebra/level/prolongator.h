@@ -5,7 +5,8 @@
 #include "algebra/level/simd.h"
 #include "algebra/trilinos/exchange.h"
 
-/* The prolongator P from a coarse level to the next finer one, in single precision. Columns are coarse nodes: this
+/* The prolongator P from a coarse level to the next finer one, in single precision or, with a rest, in twice that.
+ * Columns are coarse nodes: this
  * rank's, then those of other ranks in its rows, by ascending global number. */
 typedef struct OstProlongator {
     OstContext *ctx;
@@ -13,6 +14,7 @@ typedef struct OstProlongator {
     OstLocal rows, columns;
     OstLocal *row_start, *column; /* columns ascend within a row, until the coarse level is gathered on fewer ranks */
     float *value;                 /* row_start[rows] × height × OST_MODES, row by row, and padding */
+    float *rest;                  /* as value: what rounding took from it; or NULL */
     OstHalo *halo;                /* over columns */
     OstExchange *exchange;        /* of coarse vectors along that halo */
 } OstProlongator;

@@ -128,13 +128,13 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
 }
 
 /* A block that holds a whole stiff inclusion is nearly singular, and its inverse too large for single precision. */
-static void soften(int side, double *dense)
+static void soften_dense(int side, double *dense)
 {
     for (int i = 0; i < side; i++)
         dense[(side + 1) * i] *= 1.0 + softening;
 }
 
-static OstStatus fill_blocks(const OstLevelMatrix *matrix, int uneven, OstSmootherBlocks *blocks)
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, int soften, OstSmootherBlocks *blocks)
 {
     OstLocal *of_node = NULL;
     double *dense = NULL;
@@ -151,8 +151,8 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, int uneven, OstSmooth
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
         gather_block(matrix, blocks, b, of_node, place, dense);
-        if (uneven)
-            soften(side, dense);
+        if (soften)
+            soften_dense(side, dense);
         if (invert_dense(side, dense, inverse) != 0) {
             gather_block(matrix, blocks, b, of_node, place, dense);
             invert_nodes(blocks->size, side, dense, inverse);
@@ -167,7 +167,7 @@ done:
     return status;
 }
 
-OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int uneven,
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int soften,
                                  OstSmootherBlocks **blocks)
 {
     OstStatus status;
@@ -175,7 +175,7 @@ OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregat
     (*blocks)->ctx = matrix->ctx;
     (*blocks)->size = matrix->size;
     OST_TRY_DONE(list_blocks(groups, matrix->rows, *blocks));
-    OST_TRY_DONE(fill_blocks(matrix, uneven, *blocks));
+    OST_TRY_DONE(fill_blocks(matrix, soften, *blocks));
 done:
     if (status != OST_SUCCESS)
         ost_smoother_blocks_destroy(blocks);
@@ -183,14 +183,14 @@ done:
 }
 
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                     OstSmootherBlocks **blocks)
+                                     int soften, OstSmootherBlocks **blocks)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = OST_LARGEST_BLOCK};
     OstAggregates *groups = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &groups);
     if (status == OST_SUCCESS)
-        status = ost_smoother_blocks_of(matrix, groups, ost_metric_graph_is_uneven(graph), blocks);
+        status = ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks);
     ost_aggregates_destroy(&groups);
     return status;
 }

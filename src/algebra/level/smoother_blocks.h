@@ -20,12 +20,13 @@ typedef struct OstSmootherBlocks {
 } OstSmootherBlocks;
 
 /* Local. Blocks of about `target` nodes, round in the graph's metric. If a block is not positive definite, its nodes'
- * blocks are inverted instead, and of those that are not either, the diagonal. */
+ * blocks are inverted instead, and of those that are not either, the diagonal. `soften`: a block may be
+ * nearly singular, as in an uneven graph. */
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                     OstSmootherBlocks **blocks);
+                                     int soften, OstSmootherBlocks **blocks);
 
-/* Local. The same with given groups of nodes, those of more than 24 split. `uneven`: a block may be nearly singular. */
-OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int uneven,
+/* Local. The same with given groups of nodes, those of more than 24 split. */
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int soften,
                                  OstSmootherBlocks **blocks);
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 

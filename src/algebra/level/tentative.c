@@ -17,6 +17,7 @@ void ost_tentative_destroy(OstTentative **tentative)
         return;
     OST_FREE((*tentative)->coarse);
     OST_FREE((*tentative)->block);
+    OST_FREE((*tentative)->rest);
     OST_FREE((*tentative)->modes);
     OST_FREE(*tentative);
 }
@@ -64,8 +65,13 @@ static void make_coarse_node(const OstDoubleMatrix *matrix, const double *modes,
         float *block = tentative->block + size * OST_MODES * (size_t)member[m];
         tentative->coarse[member[m]] = tentative->first_coarse + a;
         for (size_t i = 0; i < size; i++)
-            for (size_t c = 0; c < OST_MODES; c++)
-                block[OST_MODES * i + c] = (float)basis[c * n + size * m + i];
+            for (size_t c = 0; c < OST_MODES; c++) {
+                const double value = basis[c * n + size * m + i];
+                block[OST_MODES * i + c] = (float)value;
+                if (tentative->rest)
+                    tentative->rest[OST_MODES * (size * (size_t)member[m] + i) + c] =
+                        (float)(value - (double)(float)value);
+            }
     }
     for (size_t c = 0; c < OST_MODES; c++)
         memcpy(tentative->modes + OST_MODES * (c * (size_t)tentative->coarse_nodes + (size_t)a), r + OST_MODES * c,
@@ -73,7 +79,7 @@ static void make_coarse_node(const OstDoubleMatrix *matrix, const double *modes,
 }
 
 static OstStatus make_coarse_nodes(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
-                                   OstTentative *tentative)
+                                   int precise, OstTentative *tentative)
 {
     OstContext *ctx = matrix->ctx;
     const size_t size = (size_t)matrix->size;
@@ -83,6 +89,8 @@ static OstStatus make_coarse_nodes(const OstDoubleMatrix *matrix, const OstAggre
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(ctx, &tentative->coarse, matrix->columns));
     OST_TRY_DONE(OST_NEW(ctx, &tentative->block, size * OST_MODES * (size_t)matrix->columns + OST_PADDING));
+    if (precise)
+        OST_TRY_DONE(OST_NEW(ctx, &tentative->rest, size * OST_MODES * (size_t)matrix->rows));
     OST_TRY_DONE(OST_NEW(ctx, &tentative->modes, OST_MODES * OST_MODES * (size_t)aggregates->count));
     OST_TRY_DONE(ost_aggregates_list(aggregates, matrix->rows, &start, &member));
     for (OstLocal a = 0; a < aggregates->count; a++)
@@ -100,7 +108,7 @@ done:
 }
 
 OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregates *aggregates, const double *modes,
-                               OstTentative **tentative)
+                               int precise, OstTentative **tentative)
 {
     OstContext *ctx = matrix->ctx;
     const OstGlobal count = aggregates->count;
@@ -112,7 +120,7 @@ OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregate
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {
         *made = (OstTentative){.ctx = ctx, .coarse_nodes = aggregates->count, .first_coarse = end - count};
-        status = make_coarse_nodes(matrix, aggregates, modes, made);
+        status = make_coarse_nodes(matrix, aggregates, modes, precise, made);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     status = ost_halo_import(matrix->halo, sizeof *made->coarse, made->coarse);

@@ -8,9 +8,13 @@
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { LARGEST_FACTORED = 50000 }; /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
+
+/* Bytes that the factors of a plate's columns may take, over those of the stiffness. */
+static const double of_stiffness = 2.0, little = 64e6; /* and so many at least */
 
 static const double careful = 1.2; /* safety factor of an eigenvalue estimate that may be too low */
 
@@ -30,15 +34,32 @@ void ost_cycle_destroy(OstCycle **cycle)
     OST_FREE(*cycle);
 }
 
+/* Bytes that factors of the coarsest level may take. Those of a plate's columns are those of a flat mesh, small beside
+ * the stiffness: they may take as much as it does, whatever its own factors may. */
+static OstStatus allow_memory(const OstLevels *levels, const OstSolverOptions *options, double *bytes)
+{
+    const OstLevelMatrix *finest = levels->matrix[0];
+    double stiffness = (double)finest->nonzeros * sizeof(double);
+    OST_TRY(ost_sum(finest->ctx, 1, &stiffness));
+    *bytes = options->factor_memory;
+    if (levels->flat && *bytes > 0.0)
+        *bytes = fmax(*bytes, fmax(of_stiffness * stiffness, little));
+    return OST_SUCCESS;
+}
+
 /* Factors the coarsest level, or makes its smoother if it is too large. */
 static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSolverOptions *options)
 {
     OstLevels *levels = &cycle->levels;
     const int last = levels->count - 1;
     OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
+    double memory = 0.0;
     OstStatus status = ost_sum_numbers(ctx, 1, &unknowns);
-    if (status == OST_SUCCESS && (unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels))
-        status = ost_coarsest_create(levels->coarsest, options->factor_memory, &cycle->coarsest);
+    const int factored = levels->flat || unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels;
+    if (status == OST_SUCCESS && factored)
+        status = allow_memory(levels, options, &memory);
+    if (status == OST_SUCCESS && factored)
+        status = ost_coarsest_create(levels->coarsest, memory, &cycle->coarsest);
     else if (status == OST_SUCCESS)
         status = ost_smoother_create(levels->matrix[last], levels->graph[last], options, &levels->smoother[last]);
     ost_double_matrix_destroy(&levels->coarsest);

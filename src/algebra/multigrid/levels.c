@@ -2,6 +2,7 @@
 #include "algebra/multigrid/levels.h"
 
 #include "algebra/aggregation/aggregates.h"
+#include "algebra/aggregation/columns.h"
 #include "algebra/level/galerkin.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/multigrid/gathered_level.h"
@@ -27,14 +28,20 @@ static const double weakest = 0.03, weak_jump = 10.0;
  * 12 nodes and blocks of 10. */
 static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 
+/* The columns of a plate are nodes of a flat mesh, whose factors are small: they are not coarsened further, up to so
+ * many unknowns. */
+static const OstGlobal flat_unknowns = 250000;
+
 /* The levels under construction, from the finest down. */
 typedef struct Coarsening {
     OstContext *ctx;
     OstSolverOptions options;
     OstLevels *levels;
-    double **modes;     /* near-null space of the coarsest level so far */
-    OstGlobal unknowns; /* on all ranks */
-    int stride;         /* every how manyth rank has nodes of it */
+    double **modes;         /* near-null space of the coarsest level so far */
+    OstGlobal unknowns;     /* on all ranks */
+    int stride;             /* every how manyth rank has nodes of it */
+    OstAggregates *columns; /* of a plate, until they are the finest level's aggregates; else NULL */
+    int by_columns;         /* are they the aggregates at hand? */
 } Coarsening;
 
 static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
@@ -84,12 +91,19 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
                                      .minimum = l == 0 ? 3 : 1,
                                      .recentrings = 2};
-    OstStatus status = ost_aggregates_create(graph, &shape, aggregates);
+    *aggregates = work->columns;
+    work->columns = NULL;
+    work->by_columns = *aggregates != NULL;
+    OstStatus status = *aggregates ? OST_SUCCESS : ost_aggregates_create(graph, &shape, aggregates);
     if (status == OST_SUCCESS)
         status = ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]);
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
-    return ost_sum_numbers(work->ctx, 1, unknowns);
+    OST_TRY(ost_sum_numbers(work->ctx, 1, unknowns));
+    work->levels->flat = work->by_columns && *unknowns <= flat_unknowns;
+    if (work->levels->flat)
+        work->options.most_levels = 2;
+    return OST_SUCCESS;
 }
 
 /* The cycle's matrix of level l, which is the coarsest so far. */
@@ -122,20 +136,21 @@ static OstStatus gather(Coarsening *work, OstGlobal first, OstGlobal unknowns, O
 /* Interpolates over the blocks of the level's smoother; or over the aggregates themselves, if they are as small as
  * blocks: an aggregate's own function stays whole, and its neighbours bend least to meet it. Iterations of quadratic
  * tets on unstructured meshes, ratio 1000, by blocks of the smoother and by aggregates: 44 42 36 50 51 50 and 37 37 29
- * 40 40 45. Larger blocks of the smoother itself gain nothing. */
+ * 40 40 45. Larger blocks of the smoother itself gain nothing. Columns of a plate are rigid as they are: with their
+ * matrix factored the condition is 2 (isotropic) to 150 (ratio 1e6, axes that vary), and their matrix stays a flat
+ * mesh's. */
 static OstStatus smooth_prolongator(const Coarsening *work, const OstTentative *tentative,
                                     const OstAggregates *aggregates, OstSmoother **by)
 {
     OstLevels *levels = work->levels;
     const int l = levels->count - 1;
-    OstStatus status = OST_SUCCESS;
-    if (work->options.own_blocks && l == 0)
-        status = ost_smoother_create_of(levels->matrix[l], levels->graph[l], aggregates, &work->options, by);
+    if ((work->options.own_blocks || work->by_columns) && l == 0)
+        OST_TRY(ost_smoother_create_of(levels->matrix[l], levels->graph[l], aggregates, &work->options, by));
     else
         *by = levels->smoother[l];
-    if (status == OST_SUCCESS)
-        status = ost_tentative_smooth(tentative, levels->coarsest, *by, &levels->prolongator[l]);
-    return status;
+    if (work->by_columns)
+        return ost_tentative_keep(tentative, levels->coarsest, &levels->prolongator[l]);
+    return ost_tentative_smooth(tentative, levels->coarsest, *by, &levels->prolongator[l]);
 }
 
 /* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
@@ -147,7 +162,7 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     OstTentative *tentative = NULL;
     OstDoubleMatrix *coarse = NULL;
     OstSmoother *by = NULL; /* what the prolongator is smoothed by */
-    OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, &tentative);
+    OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, work->by_columns, &tentative);
     if (status != OST_SUCCESS)
         goto done;
     OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
@@ -182,6 +197,7 @@ static OstStatus coarsen(Coarsening *work)
         OST_TRY_DONE(aggregate(work, &aggregates, &unknowns));
         if (unknowns == 0 || (double)unknowns > least_gain * (double)work->unknowns) {
             ost_metric_graph_destroy(&levels->graph[levels->count]);
+            levels->flat = 0;
             break;
         }
         OST_TRY_DONE(add_level(work, aggregates, unknowns));
@@ -192,6 +208,16 @@ done:
     ost_aggregates_destroy(&aggregates);
     OST_FREE(*work->modes);
     return status;
+}
+
+/* The softest motions of a plate lie in its finest level. */
+static OstStatus find_columns(Coarsening *work)
+{
+    OST_TRY(ost_columns_create(work->levels->graph[0], &work->columns));
+    work->options.columns = work->columns != NULL;
+    if (work->columns)
+        work->options.precise = 2;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
@@ -208,12 +234,15 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
     levels->graph[0] = *finest_graph;
     *finest_graph = NULL;
     OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &levels->coarsest));
+    if (status == OST_SUCCESS && options->columns)
+        status = find_columns(&work);
     if (status == OST_SUCCESS)
-        status = create_matrix(options, levels, 0);
+        status = create_matrix(&work.options, levels, 0);
     if (status == OST_SUCCESS)
         status = adapt_options(levels->graph[0], &work.options);
     if (status == OST_SUCCESS)
         status = coarsen(&work);
+    ost_aggregates_destroy(&work.columns);
     if (status != OST_SUCCESS)
         ost_levels_clear(levels);
     return status;

@@ -15,6 +15,7 @@ typedef struct OstLevels {
     OstSmoother *smoother[OST_MAX_LEVELS];       /* of all but the last level */
     OstMetricGraph *graph[OST_MAX_LEVELS];       /* of the last level; of the others only during construction */
     OstDoubleMatrix *coarsest;                   /* the last level's matrix in double precision */
+    int flat;                                    /* is the last level that of the columns of a plate? */
 } OstLevels;
 
 /* Collective. The levels of S A S^T (of A, if scaling is NULL), whose near-null space is `modes`: 6 columns of 3 × rows

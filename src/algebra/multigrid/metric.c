@@ -152,6 +152,7 @@ static void set_options_without_linear(OstSolverOptions *options, int locks)
     options->own_blocks = options->aggregate_nodes <= largest_block;
     if (locks)
         options->precise *= 2; /* the finest level has the softest motions */
+    options->columns = locks && options->method != OST_METHOD_TWO_LEVEL;
     if (options->method != OST_METHOD_STRONG && !(options->given & OST_GIVEN_DEGREE))
         options->smoother_degree += MISALIGNED_MORE_DEGREE;
 }

@@ -216,3 +216,46 @@ done:
     *prolongator = s.p;
     return status;
 }
+
+static OstStatus copy_rows(const OstTentative *t, const OstDoubleMatrix *matrix, OstProlongator *p)
+{
+    const size_t block = (size_t)(matrix->size * OST_MODES);
+    p->ctx = matrix->ctx;
+    p->height = matrix->size;
+    p->rows = matrix->rows;
+    p->columns = t->coarse_nodes;
+    OST_TRY(OST_NEW(p->ctx, &p->row_start, p->rows + 1));
+    OST_TRY(OST_NEW(p->ctx, &p->column, p->rows));
+    OST_TRY(OST_NEW(p->ctx, &p->value, block * (size_t)p->rows + OST_PADDING));
+    if (t->rest)
+        OST_TRY(OST_NEW(p->ctx, &p->rest, block * (size_t)p->rows + OST_PADDING));
+    for (OstLocal i = 0; i < p->rows; i++) {
+        OstLocal *end = &p->row_start[i + 1];
+        *end = p->row_start[i];
+        if (t->coarse[i] < 0)
+            continue;
+        p->column[*end] = (OstLocal)(t->coarse[i] - t->first_coarse);
+        memcpy(p->value + block * (size_t)*end, t->block + block * (size_t)i, block * sizeof *p->value);
+        if (t->rest)
+            memcpy(p->rest + block * (size_t)*end, t->rest + block * (size_t)i, block * sizeof *p->rest);
+        ++*end;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_tentative_keep(const OstTentative *tentative, const OstDoubleMatrix *matrix, OstProlongator **prolongator)
+{
+    OstContext *ctx = matrix->ctx;
+    OstProlongator *made = NULL;
+    OstStatus status = OST_NEW(ctx, &made, 1);
+    if (status == OST_SUCCESS)
+        status = copy_rows(tentative, matrix, made);
+    OST_TRY_DONE(ost_agree(ctx, status));
+    OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse, 0, NULL, &made->halo));
+    OST_TRY_DONE(ost_exchange_create(made->halo, OST_MODES, &made->exchange));
+done:
+    if (status != OST_SUCCESS)
+        ost_prolongator_destroy(&made);
+    *prolongator = made;
+    return status;
+}

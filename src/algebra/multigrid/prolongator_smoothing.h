@@ -14,4 +14,8 @@
 OstStatus ost_tentative_smooth(const OstTentative *tentative, const OstDoubleMatrix *matrix,
                                const OstSmoother *smoother, OstProlongator **prolongator);
 
+/* Collective. The tentative prolongator as it is. */
+OstStatus ost_tentative_keep(const OstTentative *tentative, const OstDoubleMatrix *matrix,
+                             OstProlongator **prolongator);
+
 #endif

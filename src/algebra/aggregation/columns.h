@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_AGGREGATION_COLUMNS_H
+#define ORTHOSTAT_ALGEBRA_AGGREGATION_COLUMNS_H
+
+#include "algebra/aggregation/graph.h"
+
+/* Collective. The columns of nodes through the thickness of a plate: each node joins those that are far nearer to it
+ * than its other neighbours, in space. What bends is thin whatever it is made of, so the material metric does not
+ * count. *columns is NULL if the body is not made of columns of three nodes or more. */
+OstStatus ost_columns_create(const OstMetricGraph *graph, OstAggregates **columns);
+
+#endif
