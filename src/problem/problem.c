@@ -469,9 +469,13 @@ OstStatus ost_problem_fold_stiffness(OstProblem *problem)
 
 OstStatus ost_problem_unfold_stiffness(OstProblem *problem)
 {
-    ost_ledger_enter(problem->ctx, OST_LEDGER_PATTERN);
-    const OstStatus status = ost_block_matrix_unfold(problem->system->matrix);
-    ost_ledger_leave(problem->ctx);
+    OstBlockMatrix *matrix = problem->system->matrix;
+    OstStatus status = OST_SUCCESS;
+    if (matrix->upper) {
+        ost_ledger_enter(problem->ctx, OST_LEDGER_PATTERN);
+        status = ost_block_matrix_unfold(matrix);
+        ost_ledger_leave(problem->ctx);
+    }
     return ost_agree(problem->ctx, status);
 }
 
