@@ -23,10 +23,10 @@ static const struct {
 /* Multigrid. Of a node of linear tets: half the blocks in single precision with their column; diagonal, smoother's
  * factors and vectors; more, measured, with each aggregate: a row of the coarse matrix, and columns of the prolongator.
  */
-static const double half_block_bytes = 40.0, smoother_bytes = 264.0;
+static const double half_block_bytes = 40.0, smoother_bytes = 216.0;
 static const double prolongator_bytes = 370.0, column_bytes = 76.0;
 /* An aggregate has as many bytes far from the surface, and as many less at a wall of one hex (see thinness). */
-static const double aggregate_bytes = 8.5e3, aggregate_inside = 32e3, aggregate_decay = 1.4;
+static const double aggregate_bytes = 8.5e3, aggregate_inside = 27e3, aggregate_decay = 1.4;
 static const double single_coarse = 0.72; /* of that, where there is one coarse level */
 static const double quadratic_node_bytes = 480.0;
 

@@ -329,7 +329,7 @@ static void error_estimate(const OstEffectFacts *f, OstEffectState *state)
     const double faces = f->quadratic ? 2.0 * f->tets : 0.0, watched = f->watches > 0 ? 24.0 : 0.0;
     const double stiffness = f->materials > 1 ? 84.0 : f->varying > 0 ? 28.0 : 0.0;
     const double bytes = f->quadratic ? 192.0 * (f->edges + faces) + (168.0 + watched) * f->nodes + 40.0 * f->tets
-                                      : 224.0 * f->edges + (232.0 + watched) * f->nodes + (68.0 + stiffness) * f->tets;
+                                      : 196.0 * f->edges + (232.0 + watched) * f->nodes + (68.0 + stiffness) * f->tets;
     if (f->error_field || f->asks_error)
         on(state, bytes, f->asks_error ? "an accuracy is asked for" : "the output holds the error of the answer");
     else
