@@ -18,8 +18,9 @@ static const Enough enough_of_linear = {0.45, 0.2, 1}, enough_of_locked = {0.25,
                     enough_of_quadratic = {0.45, 1.0, 1};
 static const double largest_ratio = 0.75;
 
-/* What later steps add to |e|² is about this often what is left of r'B r on the functions: 2.1 to 4.9 times after three
- * steps or four, in nine of ten errors of `verify`. It tells if r'B r falls, or is small beside |e|². */
+/* What later steps add to |e|² is about this often what is left of r'B r on the functions: 2 to 5 times after three or
+ * four steps in seven of ten errors of `verify`, and to 11 in nine. It tells if r'B r falls, or is small beside |e|².
+ */
 static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to_come = 0.05;
 
 /* What two steps may add, where errors of other loads gave a start, to be the last. */
