@@ -299,6 +299,9 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error, surplus->stress));
+        if (status == OST_SUCCESS && surplus->tet_error && surplus->node_stress)
+            ost_operator_node_stress(&estimate->stiffness, search.steps.u, search.steps.e.functions,
+                                     search.longer * search.steps.size, surplus->node_stress);
         if (surplus->displacement)
             OST_THEN(hand_out(&search, surplus->displacement));
     }

@@ -33,6 +33,7 @@ typedef struct OstSurplus {
     double *tet_error;    /* owned_tets: each tet's share of the squared error in the norm of the energy */
     double *displacement; /* 3 × owned_nodes: e at the nodes */
     double *stress;       /* 6 × owned_tets: the mean of its stress over the tet; of linear theory */
+    float *node_stress;   /* 6 numbers for each node of each tet, ghosts included: its stress there; likewise */
 } OstSurplus;
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's

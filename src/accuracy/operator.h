@@ -40,4 +40,9 @@ OstStatus ost_operator_blocks(const OstOperator *operator, float * factor);
  * the unit), or NULL. */
 void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy, double *stress);
 
+/* Local. Of each tet, ghosts included, `factor` times the stress of a displacement at its nodes, 6 numbers each, not
+ * over the unit; by linear theory. */
+void ost_operator_node_stress(const OstOperator *operator, const double * u, const float *w, double factor,
+                              float *stress);
+
 #endif

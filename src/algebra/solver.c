@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
 
-#include "algebra/direct/direct.h"
 #include "algebra/krylov/cg.h"
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
-#include "algebra/multigrid/metric.h"
+#include "algebra/solver_data.h"
 #include "algebra/solver_options.h"
 #include "algebra/solver_plan.h"
-#include "algebra/trilinos/epetra.h"
-#include "algebra/trilinos/smoothed_aggregation.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -17,30 +14,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-struct OstSolver {
-    OstContext *ctx;
-    const OstBlockMatrix *matrix;
-    OstSolverGeometry geometry;
-    OstSolverOptions options; /* the user's */
-    OstSolverAim aim;
-    const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
-    int aged;                /* have the matrix's values changed since the current strategy was built? */
-    int precise;             /* has single precision been found too little for the coarse levels? */
-    OstSolverPlan plan;
-    /* the current strategy: */
-    OstMethod method;              /* AUTO if there is none */
-    OstSmoothedAggregation *plain; /* one of these three is set up */
-    OstMetric *metric;
-    OstDirect *direct;
-    OstEpetraMap *map;
-    double nonzeros;         /* of the matrix, over all ranks */
-    double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
-    double setup_seconds;    /* for all strategies so far */
-    double strategy_seconds; /* setup of the current one, until it is added to a step */
-    int steps;               /* strategies that could not be built before the current one */
-    OstSolveStep step[OST_MAX_STEPS];
-};
 
 /* May the solver take another strategy? Not if the user has chosen the method. */
 static int may_change(const OstSolver *solver)
@@ -64,6 +37,7 @@ static void destroy_strategy(OstSolver *solver)
     ost_smoothed_aggregation_destroy(&solver->plain);
     ost_metric_destroy(&solver->metric);
     ost_direct_destroy(&solver->direct);
+    ost_saddle_factors_destroy(&solver->whole);
     solver->method = OST_METHOD_AUTO;
 }
 
@@ -77,10 +51,11 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
         ost_metric_strengthen(solver->metric, options);
     } else {
         destroy_strategy(solver);
+        OST_TRY(ost_geometry_renew(&solver->geometry));
         if (options->method == OST_METHOD_PLAIN)
             status = ost_smoothed_aggregation_create(solver->matrix, &solver->geometry, options, &solver->plain);
         else if (options->method == OST_METHOD_DIRECT)
-            status = ost_direct_create(solver->matrix, options->factor_memory, &solver->direct);
+            status = ost_solver_factor_direct(solver, options->factor_memory);
         else
             status = ost_metric_create(solver->matrix, &solver->geometry, options, &solver->metric);
     }
@@ -89,40 +64,18 @@ static OstStatus set_up(OstSolver *solver, const OstSolverOptions *options)
     return status;
 }
 
-static void current_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner)
-{
-    *system = (OstCgSystem){.matrix = solver->matrix};
-    *preconditioner = (OstPreconditioner){.data = solver->plain, .apply = ost_smoothed_aggregation_apply};
-    if (solver->metric)
-        ost_metric_system(solver->metric, system, preconditioner);
-    if (solver->direct)
-        ost_direct_system(solver->direct, system, preconditioner);
-}
-
-static OstStatus improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
-{
-    OstPreconditioner preconditioner;
-    OstCgSystem system;
-    current_system(solver, &system, &preconditioner);
-    if (solver->metric)
-        ost_metric_report(solver->metric, report);
-    snprintf(report->engine, sizeof report->engine, "Bramble-Pasciak CG, %s",
-             solver->direct ? "MUMPS factors" : "ML cycle");
-    return ost_saddle_solve(&system, &preconditioner, solver->saddle, f, u, goal, report);
-}
-
 /* Improves u as ost_cg_solve; also fills the report's engine, levels and complexity. */
 static OstStatus improve(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     if (solver->saddle)
-        return improve_mixed(solver, f, u, goal, report);
+        return ost_solver_improve_mixed(solver, f, u, goal, report);
     if (solver->metric)
         return ost_metric_improve(solver->metric, f, u, goal, report);
     if (solver->direct)
         return ost_direct_solve(solver->direct, f, u, goal, report);
     OstPreconditioner cycle;
     OstCgSystem system;
-    current_system(solver, &system, &cycle);
+    ost_solver_system(solver, &system, &cycle);
     ost_smoothed_aggregation_report(solver->plain, report);
     snprintf(report->engine, sizeof report->engine, "AztecOO CG, ML V-cycle of %d levels of its own", report->levels);
     return ost_cg_solve(&system, &cycle, f, u, goal, report);
@@ -217,10 +170,10 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
 {
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
-    OstStatus status = find_misalignment(solver, &facts);
+    OstStatus status = OST_SUCCESS;
     solver->steps = 0;
-    if (status != OST_SUCCESS)
-        return status;
+    OST_TRY(ost_geometry_renew(&solver->geometry));
+    OST_TRY(find_misalignment(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
     if (may_change(solver) && solver->aim.first > solver->plan.first)
         solver->plan.first = solver->aim.first;
@@ -540,43 +493,15 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
     return ost_solver_solve_mixed(solver, NULL, f, u, report);
 }
 
-static OstStatus solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative, const double *f,
-                                   double *u, OstSolveReport *report)
-{
-    OstCgSystem system;
-    OstPreconditioner preconditioner;
-    if (solver->method == OST_METHOD_AUTO)
-        return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
-    current_system(solver, &system, &preconditioner);
-    report->method = solver->method;
-    snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s", solver->direct ? "MUMPS factors" : "ML cycle");
-    return ost_gmres_solve(&system, &preconditioner, further, relative, f, u, &report->iterations,
-                           &report->relative_residual);
-}
-
-OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstFurtherPart *further, double relative,
-                                       const double *f, double *u, OstSolveReport *report)
-{
-    memset(report, 0, sizeof *report);
-    report->plan = solver->plan;
-    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    const double start = ost_seconds();
-    const OstStatus status = solve_unsymmetric(solver, further, relative, f, u, report);
-    report->setup_seconds = solver->setup_seconds;
-    report->solve_seconds = ost_seconds() - start;
-    ost_ledger_leave(solver->ctx);
-    return status;
-}
-
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found)
 {
     OstCgSystem system;
     OstPreconditioner preconditioner;
     *found = 0;
-    if (solver->method == OST_METHOD_AUTO || !(solver->smallest > 0.0))
+    if (!ost_solver_has_preconditioner(solver) || !(solver->smallest > 0.0))
         return OST_SUCCESS;
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
-    current_system(solver, &system, &preconditioner);
+    ost_solver_system(solver, &system, &preconditioner);
     const OstStatus status =
         ost_error_of_residual(&system, &preconditioner, solver->smallest, missing, residual, error, found);
     ost_ledger_leave(solver->ctx);
@@ -588,11 +513,11 @@ OstStatus ost_solver_precondition(OstSolver *solver, const double *r, double *z,
     OstCgSystem system;
     OstPreconditioner preconditioner;
     double *scaled = NULL;
-    *found = solver->method != OST_METHOD_AUTO;
+    *found = ost_solver_has_preconditioner(solver);
     if (!*found)
         return OST_SUCCESS;
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
-    current_system(solver, &system, &preconditioner);
+    ost_solver_system(solver, &system, &preconditioner);
     const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
     OST_FREE(scaled);
     return status;

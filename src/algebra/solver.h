@@ -4,12 +4,8 @@
 
 #include "algebra/krylov/error_of_residual.h"
 #include "algebra/krylov/gmres.h"
-#include "algebra/krylov/goal.h"
 #include "algebra/matrix/geometry.h"
-#include "algebra/saddle/saddle.h"
-#include "orthostat/solver.h"
-
-typedef struct OstSolver OstSolver;
+#include "algebra/solver_aim.h"
 
 /* Collective. Plans (ost_solver_plan) and builds the first strategy (account OST_LEDGER_HIERARCHY), or, with AUTO, the
  * next one that can be built. The matrix stays the caller's, unchanged, and is used until the solver is destroyed, as
@@ -29,18 +25,7 @@ void ost_solver_destroy(OstSolver **solver);
 typedef enum { OST_UPDATE_REBUILD, OST_UPDATE_KEEP } OstSolverUpdate;
 OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how);
 
-/* Local. How later solves go about it, in place of the options' relative residual: Newton's method needs little at
- * first. `stop`: ends a solve by multigrid before that, where the error in the norm of the energy is small enough; it
- * lives as long as the aim. `goes_on`: solves begin with the u given and not with 0. `crude`: the error of the solution
- * is not estimated. `probing`: the matrix may be indefinite, and the first sign of it ends update and solve with
- * OST_NOT_CONVERGED or OST_INVALID_INPUT, where other strategies would be tried otherwise. */
-typedef struct OstSolverAim {
-    double relative_residual; /* 0: the options' */
-    int crude, probing;
-    OstMethod first; /* an update that rebuilds begins with this strategy, or a later one that the plan names */
-    const OstErrorStop *stop; /* NULL: none */
-    int goes_on;
-} OstSolverAim;
+/* Local. How later solves go about it. */
 void ost_solver_aim(OstSolver *solver, OstSolverAim aim);
 
 /* Collective. Solves A u = f from u = 0 (but see OstSolverAim) until ||f - A u|| <= options.relative_residual ||f|| in
@@ -64,6 +49,10 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
  * ost_saddle_goal, in the report too. `saddle`: NULL for none. */
 OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                                  OstSolveReport *report);
+
+/* Collective. How many eigenvalues of a mixed form's stiffness are negative (ost_saddle_factors_negative), with A as it
+ * now is. *known: 0 if the factors that tell do not fit into memory. */
+OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known);
 
 /* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the
  * solver was last built with, of whatever matrix that was: A may be indefinite, S unsymmetric. The report has method,

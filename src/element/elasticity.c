@@ -3,6 +3,7 @@
 
 #include "core/small.h"
 #include "material/axes_formula.h"
+#include "material/turn.h"
 
 #include <float.h>
 #include <math.h>
@@ -105,16 +106,11 @@ static void fill_batch(const double stiffness[36], OstSimd *c)
 /* Reads each tet's axes from memory. */
 static inline void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH], OstSimd axes[9])
 {
-    OstSimd rows[2][OST_SIMD_WIDTH];
-    const double *of_tet[OST_SIMD_WIDTH];
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        of_tet[slot] = field->tet_axes + 9 * (size_t)tets[slot];
-        rows[0][slot] = *(const OstSimdUnaligned *)of_tet[slot];
-        rows[1][slot] = *(const OstSimdUnaligned *)(of_tet[slot] + 4);
-    }
-    ost_simd_transpose(rows[0], axes);
-    ost_simd_transpose(rows[1], axes + 4);
-    axes[8] = (OstSimd){of_tet[0][8], of_tet[1][8], of_tet[2][8], of_tet[3][8]};
+    OstSimd rows[OST_SIMD_WIDTH], turn[4];
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        rows[slot] = *(const OstSimdUnaligned *)(field->tet_turn + 4 * (size_t)tets[slot]);
+    ost_simd_transpose(rows, turn);
+    OST_AXES_OF_TURN(turn, axes);
 }
 
 static void dot(const OstSimd a[3], const OstSimd b[3], OstSimd *product)

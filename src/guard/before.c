@@ -54,7 +54,7 @@ static void diagonal_range(const OstBlockMatrix *matrix, double *low, double *hi
     *low = HUGE_VAL;
     *high = 0.0;
     for (OstLocal row = 0; row < matrix->rows; row++) {
-        const double size = largest_of(9, matrix->value + 9 * (size_t)matrix->diagonal[row]);
+        const double size = largest_of(9, ost_block_matrix_diagonal(matrix, row));
         *low = fmin(*low, size);
         *high = fmax(*high, size);
     }

@@ -184,9 +184,9 @@ static OstStatus find_span(Rows *rows)
 static void add_row(const OstBlockMatrix *matrix, OstLocal row, const double *motion, Resistance *worst)
 {
     double force[3] = {0.0};
-    double size[3] = {0.0};
+    double size[3] = {0.0}, room[9];
     for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
-        const double *block = matrix->value + 9 * (size_t)k;
+        const double *block = ost_block_matrix_block(matrix, row, k, room);
         const double *u = motion + 3 * (size_t)matrix->column[k];
         for (int n = 0; n < 9; n++) {
             const double term = block[n] * u[n % 3];

@@ -6,6 +6,7 @@
 #include "core/small.h"
 #include "material/axes_formula.h"
 #include "material/definite.h"
+#include "material/turn.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,9 +16,11 @@ static const double world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double stiffness[36])
 {
     const int32_t region = field->tet_region[tet];
-    if (field->region_varies[region])
-        ost_material_rotate_stiffness(field->material[region].stiffness, field->tet_axes + 9 * (size_t)tet, stiffness);
-    else
+    double axes[9];
+    if (field->region_varies[region]) {
+        ost_field_axes(field, tet, axes);
+        ost_material_rotate_stiffness(field->material[region].stiffness, axes, stiffness);
+    } else
         memcpy(stiffness, field->region_stiffness + 36 * (size_t)region, 36 * sizeof(double));
     for (int i = 0; i < 36 && field->tet_scale; i++)
         stiffness[i] *= field->tet_scale[tet];
@@ -40,12 +43,12 @@ OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const
 
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
 {
-    const double *source = world;
-    if (field->tet_axes)
-        source = field->tet_axes + 9 * (size_t)tet;
-    else if (field->region_axes)
-        source = field->region_axes + 9 * (size_t)field->tet_region[tet];
-    memcpy(axes, source, sizeof world);
+    const double *turn = field->tet_turn ? field->tet_turn + 4 * (size_t)tet : NULL;
+    if (turn)
+        OST_AXES_OF_TURN(turn, axes);
+    else
+        memcpy(axes, field->region_axes ? field->region_axes + 9 * (size_t)field->tet_region[tet] : world,
+               sizeof world);
 }
 
 void ost_field_metric(const OstMaterialField *field, OstLocal tet, double metric[6])
@@ -149,7 +152,7 @@ static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const T
     for (OstLocal t = 0; t < tets->count; t++) {
         if (tets->region[t] != region)
             continue;
-        double *axes = field->tet_axes + 9 * (size_t)t;
+        double axes[9];
         OstStatus status = OST_SUCCESS;
         if (formula) {
             status = ost_axes_formula_at(formula, tets->centroids + 3 * (size_t)t, axes);
@@ -159,6 +162,7 @@ static OstStatus tet_axes_of_region(OstMaterialField *field, int region, const T
         }
         if (status != OST_SUCCESS)
             return raise_for_tet(field->ctx, status, &field->material[region], tets->label[t]);
+        ost_turn_of_axes(axes, field->tet_turn + 4 * (size_t)t);
     }
     return OST_SUCCESS;
 }
@@ -180,13 +184,13 @@ static OstStatus fill_varying_region(OstMaterialField *field, int region, const 
 
 static OstStatus fill_tet_axes(OstMaterialField *field, const OstAxesSpec *specs, const Tets *tets)
 {
-    OST_TRY(OST_NEW(field->ctx, &field->tet_axes, 9 * (size_t)tets->count));
+    OST_TRY(OST_NEW(field->ctx, &field->tet_turn, 4 * (size_t)tets->count));
     for (int r = 0; r < field->region_count; r++)
         if (field->region_varies[r])
             OST_TRY(fill_varying_region(field, r, &specs[r], tets));
     for (OstLocal t = 0; t < tets->count; t++)
         if (!field->region_varies[tets->region[t]])
-            memcpy(field->tet_axes + 9 * (size_t)t, field->region_axes + 9 * (size_t)tets->region[t], sizeof world);
+            ost_turn_of_axes(field->region_axes + 9 * (size_t)tets->region[t], field->tet_turn + 4 * (size_t)t);
     return OST_SUCCESS;
 }
 
@@ -446,6 +450,6 @@ void ost_field_destroy(OstMaterialField **field)
     OST_FREE((*field)->region_stiffness);
     OST_FREE((*field)->region_axes);
     OST_FREE((*field)->region_varies);
-    OST_FREE((*field)->tet_axes);
+    OST_FREE((*field)->tet_turn);
     OST_FREE(*field);
 }

@@ -23,7 +23,7 @@ struct OstMaterialField {
     double *region_stiffness;     /* region_count × 36, world axes; valid where the region's axes do not vary */
     double *region_axes;          /* region_count × 9; NULL if no material is orthotropic */
     unsigned char *region_varies; /* region_count */
-    double *tet_axes;             /* NULL if no orthotropic region's axes vary; else tet_count × 9 (rows e1 e2 e3) */
+    double *tet_turn;             /* NULL if no orthotropic region's axes vary; else tet_count × 4 (material/turn.h) */
     const int32_t *tet_region;    /* the mesh's; not owned */
 
     /* region_count, NULL for regions whose axes have no formula; NULL if no region's axes have one. */

@@ -53,7 +53,7 @@ static int is_made(const OstResult *result, OstOutputFieldBit field)
     case OST_FIELD_LOAD:
         return result->force != NULL;
     case OST_FIELD_AXES:
-        return result->field->region_axes || result->field->tet_axes;
+        return result->field->region_axes || result->field->tet_turn;
     case OST_FIELD_STRAIN:
         return result->strain != NULL;
     case OST_FIELD_RANK:

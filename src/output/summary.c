@@ -188,7 +188,8 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
         return 0;
     snprintf(text, OST_LONGEST_WARNING,
              "it is not known whether the state at rest is stable: without its pressures the stiffness is indefinite "
-             "there, as it is near a buckling load and beyond one; element: {mixed: off} with nu below 1/2 tells");
+             "there, as it is near a buckling load and beyond one, and factors that would tell take more memory than "
+             "there is; element: {mixed: off} with nu below 1/2 tells");
     return 1;
 }
 

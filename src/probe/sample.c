@@ -9,14 +9,17 @@
 #include "recovery/derived.h"
 #include "recovery/recovery.h"
 
+#include <math.h>
+
 /* Numbers of a sample that the rank with the tet has, and all get by a sum. */
-enum { WIDTH = 3 + OST_STRESS_MEASURES };
+enum { BETTER = 3 + OST_STRESS_MEASURES, WIDTH = BETTER + OST_STRESS_MEASURES };
 
 static OstStatus sample(const OstResult *result, const OstLocated *located, double row[WIDTH])
 {
     const OstMesh *mesh = result->mesh;
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, located->tet);
-    double values[OST_MAX_TET_NODES], at_nodes[6 * OST_MAX_TET_NODES], stress[6] = {0.0};
+    const float *surplus = result->node_stress_surplus;
+    double values[OST_MAX_TET_NODES], at_nodes[6 * OST_MAX_TET_NODES], stress[6] = {0.0}, better[6] = {0.0};
     ost_shape_values(mesh->nodes_per_tet, located->at, values);
     ost_tet_nodal_stress(result, located->tet, at_nodes);
     for (int a = 0; a < mesh->nodes_per_tet; a++) {
@@ -24,9 +27,16 @@ static OstStatus sample(const OstResult *result, const OstLocated *located, doub
             row[i] += values[a] * result->displacement[3 * (size_t)nodes[a] + (size_t)i];
         for (int p = 0; p < 6; p++)
             stress[p] += values[a] * at_nodes[6 * a + p];
+        for (size_t p = 0; p < 6 && surplus; p++)
+            better[p] +=
+                values[a] * (double)surplus[6 * ((size_t)mesh->nodes_per_tet * (size_t)located->tet + (size_t)a) + p];
     }
-    for (int m = 0; m < OST_STRESS_MEASURES; m++)
+    for (int p = 0; p < 6; p++)
+        better[p] += stress[p];
+    for (int m = 0; m < OST_STRESS_MEASURES; m++) {
         OST_TRY(ost_stress_measure(result, located->tet, stress, (OstStressMeasure)m, &row[3 + m]));
+        OST_TRY(ost_stress_measure(result, located->tet, better, (OstStressMeasure)m, &row[BETTER + m]));
+    }
     return OST_SUCCESS;
 }
 
@@ -41,6 +51,7 @@ static OstStatus sample_own(const OstResult *result, OstLocal count, const OstLo
 OstStatus ost_sample_points(const OstResult *result, OstLocal count, const double *points, OstSample *samples)
 {
     OstContext *ctx = result->ctx;
+    const int knows_errors = result->node_stress_surplus && result->formulation == OST_FORMULATION_LINEAR;
     OstLocated *located = NULL;
     double *rows = NULL;
     OstStatus status = OST_NEW(ctx, &located, count);
@@ -54,8 +65,10 @@ OstStatus ost_sample_points(const OstResult *result, OstLocal count, const doubl
         samples[p].tet = located[p].label;
         for (int i = 0; i < 3; i++)
             samples[p].displacement[i] = row[i];
-        for (int m = 0; m < OST_STRESS_MEASURES; m++)
+        for (int m = 0; m < OST_STRESS_MEASURES; m++) {
             samples[p].stress[m] = row[3 + m];
+            samples[p].stress_error[m] = knows_errors ? row[BETTER + m] - row[3 + m] : NAN;
+        }
     }
 done:
     OST_FREE(located);

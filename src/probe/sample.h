@@ -11,6 +11,7 @@ typedef struct OstSample {
     OstGlobal tet;                      /* label of the tet that holds it; 0: outside the body, and the rest is 0 */
     double displacement[3];             /* by the tet's shape functions */
     double stress[OST_STRESS_MEASURES]; /* of the tet's own stress at the point: not averaged with its neighbours' */
+    double stress_error[OST_STRESS_MEASURES]; /* the exact values less these, as estimated; NAN: not known */
 } OstSample;
 
 /* Collective. The answer at `count` points, which all ranks pass alike; every rank gets all samples. */

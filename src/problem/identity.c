@@ -54,7 +54,7 @@ static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLoca
         hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
     if (field->tet_eigenstrain)
         hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
-    return field->tet_axes ? ost_hash(hash, 9 * (size_t)tets * sizeof(double), field->tet_axes) : hash;
+    return field->tet_turn ? ost_hash(hash, 4 * (size_t)tets * sizeof(double), field->tet_turn) : hash;
 }
 
 /* What this rank knows of the problem. */

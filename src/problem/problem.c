@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "problem/problem.h"
 
+#include "algebra/matrix/fold.h"
 #include "assembly/batch.h"
 #include "assembly/springs.h"
 #include "case/plan.h"
@@ -386,7 +387,14 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
 {
     if (!problem->system)
         OST_TRY(make_pattern(problem));
+    OstBlockMatrix *matrix = problem->system->matrix;
     const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
+    if (fills || stiffness) {
+        ost_ledger_enter(problem->ctx, OST_LEDGER_PATTERN);
+        const OstStatus status = ost_block_matrix_unfold(matrix);
+        ost_ledger_leave(problem->ctx);
+        OST_TRY(ost_agree(problem->ctx, status));
+    }
     if (fills && !problem->system->block_of_tet)
         OST_TRY(ost_agree(problem->ctx, ost_system_restore_scatter(problem->system)));
     if (fills)
@@ -397,7 +405,7 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
     else if (problem->pressures && fills)
         ost_pressure_coupling_at(problem->pressures, problem->system, problem->field,
                                  problem->formulation == OST_FORMULATION_LINEAR ? NULL : u, problem->coupling);
-    const OstBlockMatrix *matrix = problem->system->matrix;
+    problem->lent |= stiffness != NULL;
     if (stiffness)
         *stiffness = (OstStiffness){.rows = matrix->rows,
                                     .columns = matrix->columns,
@@ -456,11 +464,18 @@ void ost_problem_release_scatter(OstProblem *problem)
         ost_system_release_scatter(problem->system);
 }
 
+OstStatus ost_problem_fold_stiffness(OstProblem *problem)
+{
+    if (problem->lent || !problem->linear)
+        return OST_SUCCESS;
+    return ost_agree(problem->ctx, ost_block_matrix_fold(problem->system->matrix));
+}
+
 void ost_problem_release_stiffness(OstProblem *problem)
 {
     ost_coupling_destroy(&problem->coupling);
     ost_system_destroy(&problem->system);
-    problem->filled = 0;
+    problem->filled = problem->lent = 0;
 }
 
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs)

@@ -35,6 +35,7 @@ struct OstProblem {
     OstMaterialField own;         /* the field, where the problem has changed it (problem/mixed.c) */
     OstSystem *system;            /* NULL before ost_problem_stiffness, and after its release */
     int filled;                   /* does the matrix have values? */
+    int lent;                     /* has a caller been given its arrays, which then stay as they are? */
     int linear;                   /* is the internal force linear in the displacement? */
     OstFormulation formulation;   /* of energy, force and stiffness now */
     OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
@@ -57,6 +58,10 @@ OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, doubl
 
 /* Collective. The displacement u = P v + g(t) of every local node, from v of the rows. */
 OstStatus ost_problem_displacement(const OstProblem *problem, double t, const double *v, double *u);
+
+/* Collective. Halves the memory of a linear problem's stiffness (algebra/matrix/fold.h). Whoever asks for its arrays
+ * or for other values gets it whole again; not while a solver uses it. */
+OstStatus ost_problem_fold_stiffness(OstProblem *problem);
 
 /* Collective. What the plan of the solver depends on: facts of the materials, the mesh, the unknowns and the machines.
  */

@@ -4,22 +4,32 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialField *field, int with_metric,
-                                  OstRowGeometry *rows)
+static OstStatus fill(OstRowGeometry *rows)
 {
-    OstContext *ctx = system->ctx;
-    const size_t count = (size_t)system->matrix->rows;
+    OstContext *ctx = rows->system->ctx;
+    const size_t count = (size_t)rows->system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &rows->coordinates, 3 * count);
     OST_THEN(OST_NEW(ctx, &rows->modes, 18 * count));
-    if (status == OST_SUCCESS && with_metric) {
+    if (status == OST_SUCCESS && rows->with_metric) {
         ost_ledger_enter(ctx, OST_EFFECT_ORTHOTROPY);
         status = OST_NEW(ctx, &rows->metric, 6 * count);
         ost_ledger_leave(ctx);
     }
     OST_TRY(ost_agree(ctx, status));
-    rows->geometry =
-        (OstSolverGeometry){.coordinates = rows->coordinates, .metric = rows->metric, .modes = rows->modes};
-    return ost_system_geometry(system, field, rows->coordinates, rows->metric, rows->modes);
+    rows->geometry.coordinates = rows->coordinates;
+    rows->geometry.metric = rows->metric;
+    rows->geometry.modes = rows->modes;
+    return ost_system_geometry(rows->system, rows->field, rows->coordinates, rows->metric, rows->modes);
+}
+
+OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialField *field, int with_metric,
+                                  OstRowGeometry *rows)
+{
+    rows->geometry = (OstSolverGeometry){0};
+    rows->system = system;
+    rows->field = field;
+    rows->with_metric = with_metric;
+    return fill(rows);
 }
 
 void ost_row_geometry_release(OstRowGeometry *rows)
@@ -27,4 +37,29 @@ void ost_row_geometry_release(OstRowGeometry *rows)
     OST_FREE(rows->coordinates);
     OST_FREE(rows->metric);
     OST_FREE(rows->modes);
+}
+
+static void release(void *data)
+{
+    OstRowGeometry *rows = data;
+    if (!rows->kept)
+        ost_row_geometry_release(rows);
+}
+
+static OstStatus renew(void *data, OstSolverGeometry *geometry)
+{
+    OstRowGeometry *rows = data;
+    if (!rows->coordinates)
+        OST_TRY(fill(rows));
+    geometry->coordinates = rows->coordinates;
+    geometry->metric = rows->metric;
+    geometry->modes = rows->modes;
+    return OST_SUCCESS;
+}
+
+void ost_row_geometry_lend(OstRowGeometry *rows)
+{
+    rows->geometry.owner = rows;
+    rows->geometry.renew = renew;
+    rows->geometry.release = release;
 }

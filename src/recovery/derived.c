@@ -201,7 +201,7 @@ int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field)
     if (field >= OST_FIELD_TSAI_WU && field <= OST_FIELD_MAXIMUM_STRESS && !ost_field_has_strengths(result->field))
         return 0;
     if (field >= OST_FIELD_E1 && field <= OST_FIELD_E3)
-        return result->field->region_axes || result->field->tet_axes;
+        return result->field->region_axes || result->field->tet_turn;
     if (field == OST_FIELD_MIXED_PRESSURE)
         return result->pressure != NULL;
     return has_stress && has_strain;

@@ -40,13 +40,14 @@ static OstStatus find_worst(const OstResult *result, double *share, OstAnswerErr
     return OST_MPI(ctx, MPI_Bcast(answer->place, 3, MPI_DOUBLE, most.rank, ost_comm(ctx)));
 }
 
-/* Is a mean stress watched, and has the error one? That of a mixed form has no pressure. */
-static int watches_stress(const OstProblem *problem)
+/* Is a stress watched that the estimate knows: a mean one, or one at a place? The error of a mixed form has no
+ * pressure. */
+static int watches_stress(const OstProblem *problem, int is_mean)
 {
     int any = 0;
     for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++) {
         const OstWatch *watch = &problem->scene->c->watches[w];
-        any |= watch->kind == OST_WATCH_STRESS && watch->region && watch->take == OST_TAKE_MEAN;
+        any |= watch->kind == OST_WATCH_STRESS && (watch->region && watch->take == OST_TAKE_MEAN) == is_mean;
     }
     return any && !problem->pressures;
 }
@@ -68,9 +69,17 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
         status = OST_NEW(result->ctx, &result->tet_error, mesh->owned_tets);
     if (is_watched && !result->surplus)
         OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->owned_nodes));
-    if (watches_stress(problem) && !result->stress_surplus)
+    if (watches_stress(problem, 1) && !result->stress_surplus)
         OST_THEN(OST_NEW(result->ctx, &result->stress_surplus, 6 * (size_t)mesh->owned_tets));
+    if (watches_stress(problem, 0) && !result->node_stress_surplus)
+        OST_THEN(OST_NEW(result->ctx, &result->node_stress_surplus,
+                         6 * (size_t)mesh->nodes_per_tet * (size_t)mesh->tet_count));
     return ost_agree(result->ctx, status);
+}
+
+OstSurplus ost_result_surplus(const OstResult *result)
+{
+    return (OstSurplus){result->tet_error, result->surplus, result->stress_surplus, result->node_stress_surplus};
 }
 
 /* A mixed form's dual problem would have a pressure too: there is no estimate of its quantities. */
@@ -127,12 +136,14 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     OstContext *ctx = result->ctx;
     const OstLinear *linear = analysis->work;
     double *share = NULL;
+    OstSurplus surplus;
     OstStatus status = ost_result_allow_error(analysis->problem, result);
     OST_THEN(OST_NEW(ctx, &share, result->mesh->regions.count));
     OST_TRY_DONE(ost_agree(ctx, status));
+    surplus = ost_result_surplus(result);
     if (!result->answer.known) /* the solve may have been stopped by it */
-        OST_TRY_DONE(ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &result->answer,
-                                       &(OstSurplus){result->tet_error, result->surplus, result->stress_surplus}));
+        OST_TRY_DONE(
+            ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &result->answer, &surplus));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known && asks_of_quantity(analysis->problem))
@@ -143,6 +154,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
         OST_FREE(result->stress_surplus);
+        OST_FREE(result->node_stress_surplus);
     }
     for (OstLocal tet = 0; tet < result->mesh->owned_tets && result->answer.known; tet++)
         result->tet_error[tet] = sqrt(fmax(result->tet_error[tet], 0.0));

@@ -37,6 +37,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     OstProblem *problem = analysis->problem;
     OST_TRY(ost_problem_stiffness(problem, 1.0, NULL, NULL));
     ost_problem_release_scatter(problem);
+    OST_TRY(ost_problem_fold_stiffness(problem));
     OstLinear *linear = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &linear, 1)));
     analysis->work = linear;
@@ -49,6 +50,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
+    ost_row_geometry_lend(&linear->stiffness.rows);
     return ost_guard_stiffness(problem, linear->stiffness.rows.modes, &linear->rigid_motion, before);
 }
 
@@ -239,9 +241,9 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     OstSolveStop stop;
     state.field = result->field;
     OST_TRY(ost_result_allow_error(problem, result));
-    OST_TRY(ost_solve_stop_open(
-        &state, linear->stiffness.solver, analysis->options.algebraic_fraction, analysis->estimate,
-        &(OstSurplus){result->tet_error, result->surplus, result->stress_surplus}, &result->answer, &stop));
+    const OstSurplus surplus = ost_result_surplus(result);
+    OST_TRY(ost_solve_stop_open(&state, linear->stiffness.solver, analysis->options.algebraic_fraction,
+                                analysis->estimate, &surplus, &result->answer, &stop));
     const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
     ost_solve_stop_close(&stop);
     return solved;

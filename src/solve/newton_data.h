@@ -56,6 +56,7 @@ struct OstNewton {
     OstMethod method;    /* strategy that a new one begins with */
     double cost;         /* iterations per digit of the first solve since it was built; 0: none yet */
     int indefinite;      /* was the exact stiffness found indefinite in this load step? */
+    int leaving;         /* is a state that is not stable being left, by the definite stiffness? */
     int step_iterations; /* Newton iterations in this load step */
 };
 

@@ -172,6 +172,7 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
         return OST_SUCCESS;
     newton->forcing = forcing;
     OST_TRY(measure_decrement(newton));
+    newton->leaving = *definite && ost_newton_has_energy(newton);
     OST_TRY(ost_newton_search(newton, length));
     if (*definite || *length != 1.0)
         newton->decrement = INFINITY;

@@ -113,14 +113,16 @@ static void move(OstNewton *newton)
 
 /* Where nothing is minimised. On the way residuals may rise a thousandfold and say nothing: load steps are cut back
  * where whole corrections do not converge. */
-static OstStatus take_whole(OstNewton *newton, double *length)
+static OstStatus take_whole(OstNewton *newton, const Point *start, double *length)
 {
     Point point;
     OST_TRY(go_to(newton, 1.0, &point));
     if (!isfinite(newton->norm))
         return ost_newton_evaluate(newton, newton->displacement);
+    if (newton->leaving && point.value < start->value)
+        OST_TRY(extend(newton, start, &point));
     move(newton);
-    *length = 1.0;
+    *length = point.length;
     return OST_SUCCESS;
 }
 
@@ -131,7 +133,7 @@ OstStatus ost_newton_search(OstNewton *newton, double *length)
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
     if (ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton))
-        return take_whole(newton, length);
+        return take_whole(newton, &start, length);
     for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
         OST_TRY(go_to(newton, next, &point));
         if (is_low_enough(newton, &start, &point)) {

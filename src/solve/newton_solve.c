@@ -159,9 +159,12 @@ static OstStatus attempt(OstNewton *newton, int definite, double forcing, const 
     const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
     const int unsymmetric = ost_newton_is_unsymmetric(newton) && !definite;
     OstStatus status;
-    ost_solver_aim(
-        newton->stiffness->solver,
-        (OstSolverAim){.relative_residual = forcing, .crude = 1, .probing = !definite, .first = newton->method});
+    ost_solver_aim(newton->stiffness->solver,
+                   (OstSolverAim){.relative_residual = forcing,
+                                  .crude = 1,
+                                  .probing = !definite,
+                                  .first = newton->method,
+                                  .coupling = ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL});
     newton->solve.indefinite = 0;
     if (unsymmetric) {
         OST_TRY(update_unsymmetric(newton));

@@ -63,8 +63,20 @@ static OstStatus push_along(OstNewton *newton, double size)
     for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
         largest = fmax(largest, fabs(newton->direction[i]));
     OST_TRY(ost_max(newton->ctx, 1, &largest));
+    const double length = push * size / largest;
     for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
-        newton->displacement[i] += push * size / largest * newton->direction[i];
+        newton->displacement[i] += length * newton->direction[i];
+    return OST_SUCCESS;
+}
+
+/* The pressures may hold what the rest of the stiffness does not. *stable: also where that is not known. */
+static OstStatus judge_mixed(OstNewton *newton, int *stable)
+{
+    OstGlobal negative;
+    int known;
+    OST_TRY(ost_solver_count_negative(newton->stiffness->solver, newton->problem->coupling, &negative, &known));
+    newton->report.stability_unknown = !known;
+    *stable = !known || negative == 0;
     return OST_SUCCESS;
 }
 
@@ -79,12 +91,10 @@ OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *res
         newton->moved = 0;
         OST_TRY(smooth_forces(newton, newton->residual, &size));
         OST_TRY(ost_newton_solve(newton, 0, 1e-3, newton->residual, &stable));
+        if (!stable && ost_newton_is_mixed(newton))
+            OST_TRY(judge_mixed(newton, &stable));
         if (stable)
             return OST_SUCCESS;
-        if (ost_newton_is_mixed(newton)) { /* the pressures may hold what the rest of the stiffness does not */
-            newton->report.stability_unknown = 1;
-            return OST_SUCCESS;
-        }
         ost_log(newton->ctx, OST_LOG_VERBOSE,
                 "newton: t %.6g: at rest, but not stable; pushed along its softest motion", newton->t);
         *rest = OST_REST_UNSTABLE;

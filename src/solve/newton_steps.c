@@ -62,14 +62,15 @@ static OstStatus measure_stiffness(OstStiffnessSolver *stiffness)
     double square = 0.0;
     if (stiffness->size > 0.0)
         return OST_SUCCESS;
-    for (OstLocal row = 0; row < matrix->rows; row++)
-        for (int i = 0; i < 3; i++) {
-            double sum = 0.0;
-            for (OstLocal block = matrix->row_start[row]; block < matrix->row_start[row + 1]; block++)
-                for (int j = 0; j < 3; j++)
-                    sum += fabs(matrix->value[9 * (size_t)block + (size_t)(3 * i + j)]);
-            square += sum * sum;
+    for (OstLocal row = 0; row < matrix->rows; row++) {
+        double sum[3] = {0.0}, room[9];
+        for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
+            const double *block = ost_block_matrix_block(matrix, row, k, room);
+            for (int n = 0; n < 9; n++)
+                sum[n / 3] += fabs(block[n]);
         }
+        square += ost_dot3(sum, sum);
+    }
     OST_TRY(ost_sum(matrix->ctx, 1, &square));
     stiffness->size = sqrt(square);
     return OST_SUCCESS;

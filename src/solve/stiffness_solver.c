@@ -48,6 +48,8 @@ OstStatus ost_stiffness_solver_make(OstStiffnessSolver *stiffness)
 OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, const double *displacement)
 {
     const OstProblem *problem = stiffness->problem;
+    OST_TRY(ost_geometry_renew(&stiffness->rows.geometry));
+    stiffness->rows.kept = 1;
     OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
     if (stiffness->coarse)
         OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT,

@@ -63,6 +63,9 @@ OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *resu
 /* Collective. Makes room for what the estimate says of tets and, where the case watches something, of nodes. */
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result);
 
+/* Local. That room. */
+OstSurplus ost_result_surplus(const OstResult *result);
+
 /* Local. Marks a result that the solver left unfinished, with its words. */
 void ost_result_take_outcome(OstResult *result, OstStatus solved);
 

@@ -3,9 +3,12 @@
 
 #include "case/select.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "element/element.h"
 #include "probe/sample.h"
 #include "recovery/derived.h"
+#include "recovery/recovery.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,6 +19,7 @@ typedef struct Over {
     double more;        /* what the estimate adds to the sum */
     double best;        /* the least value, or the largest one's negative */
     OstGlobal tet;      /* the lowest label of those that have it, but for rounding */
+    int region;         /* its */
     double place[3];
     double size; /* the largest von Mises stress */
 } Over;
@@ -80,18 +84,82 @@ static OstStatus find_place(const OstResult *result, const OstWatch *watch, doub
         if (sign * value > over->best + alike * over->size)
             continue;
         over->tet = mesh->tet_label[tet];
+        over->region = mesh->tet_region[tet];
         ost_tet_centre(mesh, tet, over->place);
     }
     return OST_SUCCESS;
 }
 
-static OstStatus share_place(OstContext *ctx, Over *over)
+/* Tells all ranks of the place, and of the tet's region, by the rank that has the tet of the lowest label. */
+static OstStatus share_place(const OstResult *result, Over *over)
 {
+    OstContext *ctx = result->ctx;
     OstGlobal lowest = over->tet;
     OST_TRY(ost_min_numbers(ctx, 1, &lowest));
     int holder = over->tet == lowest ? ost_rank(ctx) : -1;
     OST_TRY(ost_max_ints(ctx, 1, &holder));
-    return OST_MPI(ctx, MPI_Bcast(over->place, 3, MPI_DOUBLE, holder, ost_comm(ctx)));
+    double told[4] = {over->place[0], over->place[1], over->place[2], over->region};
+    OST_TRY(OST_MPI(ctx, MPI_Bcast(told, 4, MPI_DOUBLE, holder, ost_comm(ctx))));
+    memcpy(over->place, told, sizeof over->place);
+    over->region = (int)told[3];
+    return OST_SUCCESS;
+}
+
+/* Adds a tet's stress at its vertices, with what the estimate adds to it, times the volume; the volume comes last. */
+static void add_better(const OstResult *result, OstLocal tet, double *sums)
+{
+    const OstMesh *mesh = result->mesh;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    const float *surplus = result->node_stress_surplus + 6 * (size_t)mesh->nodes_per_tet * (size_t)tet;
+    const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes));
+    double at_nodes[6 * OST_MAX_TET_NODES];
+    ost_tet_nodal_stress(result, tet, at_nodes);
+    for (size_t a = 0; a < 4; a++) {
+        double *sum = sums + 7 * (size_t)nodes[a];
+        for (size_t p = 0; p < 6 && nodes[a] < mesh->owned_nodes; p++)
+            sum[p] += volume * (at_nodes[6 * a + p] + (double)surplus[6 * a + p]);
+        if (nodes[a] < mesh->owned_nodes)
+            sum[6] += volume;
+    }
+}
+
+/* The least of the means at vertices, which many tets share: stresses of single ones scatter. */
+static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, double sign, int region, double *least)
+{
+    const OstMesh *mesh = result->mesh;
+    double *sums = NULL;
+    OstStatus status = OST_NEW(result->ctx, &sums, 7 * (size_t)mesh->owned_nodes);
+    *least = INFINITY;
+    for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
+        if (mesh->tet_region[tet] == region)
+            add_better(result, tet, sums);
+    for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
+        for (int a = 0; a < 4 && mesh->tet_region[tet] == region && status == OST_SUCCESS; a++) {
+            const OstLocal node = ost_mesh_nodes_of(mesh, tet)[a];
+            double stress[6], value;
+            if (node >= mesh->owned_nodes || !(sums[7 * (size_t)node + 6] > 0.0))
+                continue;
+            for (size_t p = 0; p < 6; p++)
+                stress[p] = sums[7 * (size_t)node + p] / sums[7 * (size_t)node + 6];
+            status = ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, &value);
+            *least = fmin(*least, sign * value);
+        }
+    OST_FREE(sums);
+    return status;
+}
+
+/* By how much the exact extreme is larger: that of stresses with what the estimate adds to them. */
+static OstStatus find_beyond(const OstResult *result, const OstWatch *watch, double sign, const Over *over,
+                             double *error)
+{
+    double least;
+    *error = NAN;
+    if (!result->node_stress_surplus || result->formulation != OST_FORMULATION_LINEAR)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(result->ctx, least_of_means(result, watch, sign, over->region, &least)));
+    OST_TRY(ost_min(result->ctx, 1, &least));
+    *error = sign * (least - over->best);
+    return OST_SUCCESS;
 }
 
 static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWatched *watched)
@@ -111,7 +179,8 @@ static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWa
         return OST_SUCCESS;
     }
     OST_TRY(ost_agree(ctx, find_place(result, watch, sign, &over)));
-    OST_TRY(share_place(ctx, &over));
+    OST_TRY(share_place(result, &over));
+    OST_TRY(find_beyond(result, watch, sign, &over, &watched->error));
     watched->placed = 1;
     memcpy(watched->place, over.place, sizeof over.place);
     return OST_SUCCESS;
@@ -128,6 +197,7 @@ OstStatus ost_watch_stress(const OstScene *scene, const OstResult *result, const
         return of_region(result, watch, watched);
     OST_TRY(ost_sample_points(result, 1, watch->at, &sample));
     watched->value = sample.stress[watch->component];
+    watched->error = sample.stress_error[watch->component];
     watched->scale = sample.stress[OST_STRESS_MEASURE_VON_MISES];
     return OST_SUCCESS;
 }

@@ -3,6 +3,7 @@
 
 #include "elastic_block.h"
 
+#include "algebra/matrix/fold.h"
 #include "core/small.h"
 
 static const ElasticBlock held = {
@@ -95,7 +96,66 @@ static void the_six_modes_are_independent(void **state)
     elastic_destroy(&problem);
 }
 
+/* Half of the blocks, the same product, compensated residual and entries; unfolded, every bit as before. */
+static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
+{
+    (void)state;
+    ElasticProblem problem, folded;
+    assert_success(elastic_create(ctx, &held, &problem));
+    assert_success(elastic_create(ctx, &held, &folded));
+    const OstBlockMatrix *matrix = problem.matrix;
+    const size_t n = 3 * (size_t)matrix->rows, blocks = (size_t)matrix->row_start[matrix->rows];
+    double *f = NULL, *u = NULL, *left = NULL;
+    const size_t before = ost_ledger_bytes(ctx);
+    assert_success(ost_block_matrix_fold(folded.matrix));
+    if (matrix->rows > 0)
+        assert_true(ost_ledger_bytes(ctx) < before - blocks * 72 / 4);
+    double *y = product(&folded), *expected = product(&problem);
+    assert_success(OST_NEW(ctx, &f, 2 * n));
+    assert_success(OST_NEW(ctx, &u, 3 * (size_t)matrix->columns));
+    assert_success(OST_NEW(ctx, &left, n));
+    memcpy(u, problem.force, n * sizeof *u);
+    assert_success(ost_compensated_residual(matrix, f, u, left));
+    assert_success(ost_compensated_residual(folded.matrix, f, u, f + n));
+    for (size_t i = 0; i < n; i++) {
+        assert_close(y[i], expected[i], 1e-14);
+        assert_close(f[n + i], left[i], 1e-14);
+    }
+    assert_success(ost_block_matrix_unfold(folded.matrix));
+    for (size_t i = 0; i < 9 * blocks; i++)
+        assert_close(folded.matrix->value[i], matrix->value[i], 1e-15);
+    OST_FREE(y);
+    OST_FREE(expected);
+    OST_FREE(f);
+    OST_FREE(u);
+    OST_FREE(left);
+    elastic_destroy(&problem);
+    elastic_destroy(&folded);
+}
+
+/* The diagonal of a row without its transpose. */
+static void a_matrix_that_is_not_symmetric_stays_as_it_is(void **state)
+{
+    (void)state;
+    ElasticProblem problem;
+    assert_success(elastic_create(ctx, &held, &problem));
+    OstBlockMatrix *matrix = problem.matrix;
+    if (matrix->rows > 1) { /* the last row has one block fewer */
+        const OstLocal row = matrix->rows - 1, first = matrix->row_start[row];
+        const size_t moved = (size_t)(matrix->row_start[row + 1] - first - 1);
+        assert_true(matrix->column[first] < row);
+        memmove(matrix->column + first, matrix->column + first + 1, moved * sizeof *matrix->column);
+        matrix->row_start[row + 1]--;
+        matrix->diagonal[row]--;
+        assert_success(ost_block_matrix_fold(matrix));
+        assert_null(matrix->upper);
+    }
+    elastic_destroy(&problem);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_folded_matrix_is_the_same_in_half_the_memory),
+    cmocka_unit_test(a_matrix_that_is_not_symmetric_stays_as_it_is),
     cmocka_unit_test(the_product_does_not_depend_on_the_ranks),
     cmocka_unit_test(rigid_motions_of_a_free_body_take_no_force),
     cmocka_unit_test(the_six_modes_are_independent),

@@ -100,7 +100,7 @@ static void apply(const OstDoubleMatrix *a, double *x, double *y)
     assert_success(ost_halo_import(a->halo, (size_t)size * sizeof *x, x));
     for (OstLocal i = 0; i < a->rows; i++)
         for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
-            double room[9];
+            double room[OST_BLOCK];
             const double *block = ost_double_matrix_block(a, size, i, k, room);
             for (int r = 0; r < size; r++)
                 for (int c = 0; c < size; c++)

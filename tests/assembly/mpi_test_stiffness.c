@@ -189,8 +189,8 @@ static void isotropic_constants_do_not_feel_their_axes(void **state)
     assert_success(ost_supports_create(mesh, &supports));
     OstMaterialField *plain = make_field(mesh, &isotropic, AXES_FIXED);
     OstMaterialField *random = make_field(mesh, &turned, AXES_RANDOM_BY_TET);
-    assert_null(plain->tet_axes);
-    assert_non_null(random->tet_axes);
+    assert_null(plain->tet_turn);
+    assert_non_null(random->tet_turn);
     OstSystem *a = make_system(mesh, supports, plain);
     OstSystem *b = make_system(mesh, supports, random);
     const OstLocal count = 9 * a->matrix->row_start[a->matrix->rows];

@@ -177,6 +177,34 @@ for order, points, kinds in (("linear", 23, {"tetra": 48, "triangle": 4}), ("qua
 bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
 check(bad.exit_code == 2 and ".msh" in bad.errors and ".vtu" in bad.errors, bad.errors)
 
+# --- meshio's sets, and whole numbers that look like them ---
+
+cubes = meshio.read(stored("meshio-linear-ascii.vtu"))
+TETS = [block for block in cubes.cells if block.type == "tetra"][0].data
+FIRST = np.arange(len(TETS)) < 24
+
+
+def by_meshio(names=(), data=None):
+    """Regions of a file in which meshio has written these sets, or these numbers of cells, and what is said of them."""
+    made = meshio.Mesh(cubes.points, [("tetra", TETS)], cell_data={key: [value] for key, value in (data or {}).items()})
+    if names:
+        made.cell_sets = {name: [np.where(FIRST == (k == 0))[0]] for k, name in enumerate(names)}
+    made.write(os.path.join(folder, "sets.vtu"))
+    said = run("mesh", "sets.vtu", "-v", folder=folder)
+    return [region["name"] for region in inspect("sets.vtu")["regions"]], said.output + said.errors
+
+
+NUMBERS = FIRST.astype(int)
+for names, data, regions, words in (
+        (["a", "b"], None, {"a", "b"}, "the numbers 'a-b' of cells are taken for 2 of meshio's sets"),
+        (["a-1", "b-2"], None, {"a-1", "b-2"}, "'a-1_b-2' of cells are taken for 2"),
+        (["a-1", "b"], None, {"a", "1_b"}, "after each '-', or each '_'"),
+        ([], {"part_id": NUMBERS}, {"volume"}, None),
+        ([], {"a_b#c": NUMBERS}, {"volume"}, None),
+        (["a", "b"], {"material": NUMBERS}, {"volume-0", "volume-1"}, "regions are the numbers 'material' of cells")):
+    found, said = by_meshio(names, data)
+    check(set(found) == regions and (words in said if words else "are taken for" not in said), f"{names} {data}: {found}\n{said}")
+
 # --- refine, raise, merge, orient ---
 
 fine = inspect(stored("tetgen-linear.ele"), "fine.msh", "--refine", "1")

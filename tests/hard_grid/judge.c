@@ -118,7 +118,7 @@ static void judge_mixed(HardReading *reading)
     const HardTruth *truth = &reading->truth;
     reading->digits = truth->known ? fmin(-log10(truth->error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
-        reading->outcome = HARD_GIVEN_UP;
+        reading->outcome = truth->indefinite || truth->rounded > hard_hopeless ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)
         fail(reading, HARD_FALSE, "solved, but there is no direct solution");
     else if (!states(reading->stated_error, truth->error) || !states(reading->stated_forces, truth->pressure))

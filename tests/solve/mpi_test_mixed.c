@@ -151,7 +151,7 @@ static void what_has_no_mixed_form_says_so(void **state)
     static const struct {
         const char *order, *nu, *rest, *message;
     } refused[] = {{"1", "0.5", "large_rotation: off\n", "element: {order: 2}"},
-                   {"2", "0.5", "large_rotation: on\nformulation: classical\n", "large_rotation: off"},
+                   {"2", "0.5", "large_rotation: on\nformulation: classical\n", "Set formulation: consistent"},
                    {"2", "0.5", "", "rotations are large"}};
     for (int i = 0; i < 4; i++) {
         char text[1024];
@@ -183,7 +183,8 @@ static void solve_to(const char *given, double residual, Run *run)
 }
 
 /* The stated error of the equations is that of the displacement, held against an answer to rounding: of a tenth to a
- * thousand times, and no less, where the material is uneven. */
+ * thousand times, and no less, where the material is uneven. Factors solve to rounding whatever is asked for; their
+ * answer is held against that of iterations, as far as both state. */
 static void the_stated_error_is_no_less_than_the_true_one(void **state)
 {
     (void)state;
@@ -191,7 +192,7 @@ static void the_stated_error_is_no_less_than_the_true_one(void **state)
     for (int m = 0; m < 4; m++)
         for (int direct = 0; direct < 2; direct++) {
             double sums[2] = {0.0};
-            char text[1024];
+            char text[1024], by_metric[1024];
             Run run, reference;
             snprintf(
                 text, sizeof text,
@@ -200,8 +201,9 @@ static void the_stated_error_is_no_less_than_the_true_one(void **state)
                 "40, 50]}}}]\nconstraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
                 "loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]\nsolver: {method: %s}\n",
                 moduli[m], direct ? "direct" : "metric");
+            snprintf(by_metric, sizeof by_metric, "%.*smetric}\n", (int)(strstr(text, "method: ") + 8 - text), text);
             solve_to(text, 1e-6, &run);
-            solve_to(text, 1e-13, &reference);
+            solve_to(by_metric, 1e-13, &reference);
             for (size_t i = 0; i < 3 * (size_t)run.scene->mesh->owned_nodes; i++) {
                 const double u = reference.result->displacement[i], d = run.result->displacement[i] - u;
                 sums[0] += d * d;
@@ -209,7 +211,8 @@ static void the_stated_error_is_no_less_than_the_true_one(void **state)
             }
             assert_success(ost_sum(ctx, 2, sums));
             const double error = sqrt(sums[0] / sums[1]), stated = run.result->checks.displacement_error;
-            if (!(stated >= 0.5 * error && stated <= 1e4 * error))
+            const double allowed = direct ? stated + reference.result->checks.displacement_error : 2.0 * stated;
+            if (!(error <= allowed && stated <= (direct ? 1e-9 : 1e4 * error)))
                 fail_msg("E %s, %s: error %g, stated %g", moduli[m], direct ? "direct" : "metric", error, stated);
             clear(&run);
             clear(&reference);

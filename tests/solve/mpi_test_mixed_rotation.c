@@ -261,10 +261,46 @@ static void a_stretched_bar_has_the_stress_of_its_strain(void **unused)
     clear(&run);
 }
 
+/* A straight column is at rest under any load, but beyond Euler's not stable: there A is indefinite from 87 % of it on,
+ * and the factors of both equations tell. Beyond the load it stands bent, as without pressures at 0.4999. */
+static void an_incompressible_column_buckles_at_eulers_load(void **unused)
+{
+    (void)unused;
+    static const char *const ratios[] = {"0.4999", "0.5"};
+    const double pi = 3.14159265358979, load = pi * pi / 4.0 * 1200.0 * 0.12 * pow(0.08, 3) / 12.0;
+    double bent[2] = {0.0};
+    for (int k = 0; k < 4; k++) {
+        const int beyond = k % 2;
+        char text[1024];
+        double aside = 0.0;
+        Run run;
+        snprintf(text, sizeof text,
+                 "mesh: {block: {size: [1, 0.12, 0.08], divisions: [10, 1, 1]}}\nelement: {order: 2}\n"
+                 "materials: [{region: all, youngs_modulus: 1200, poissons_ratio: %s}]\n"
+                 "constraints:\n  - {on: {boundary: xmin}, slide: [1, 0, 0]}\n"
+                 "  - {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}\n"
+                 "  - {on: {nearest: [0, 0.12, 0]}, displacement: [0, free, 0]}\n"
+                 "loads: [{on: {boundary: xmax}, total_force: [%.17g, 0, 0]}]\nlarge_rotation: \"on\"\n",
+                 ratios[k / 2], -(beyond ? 1.1 : 0.98) * load);
+        solve(text, &run);
+        const OstNewtonReport *report = &run.result->newton;
+        assert_int_equal(report->stability_unknown, 0);
+        assert_int_equal(report->jumps > 0, beyond);
+        for (OstLocal i = 0; i < run.scene->mesh->owned_nodes; i++)
+            aside = fmax(aside, fabs(run.result->displacement[3 * i + 2]));
+        assert_success(ost_max(ctx, 1, &aside));
+        assert_int_equal(aside > 0.1, beyond);
+        bent[k / 2] = aside;
+        clear(&run);
+    }
+    assert_close(bent[1] / bent[0], 1.0, 1e-3);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_tangent_is_the_derivative_of_both_equations),
     cmocka_unit_test(an_incompressible_cantilever_bends_as_the_elastica),
     cmocka_unit_test(a_stretched_bar_has_the_stress_of_its_strain),
+    cmocka_unit_test(an_incompressible_column_buckles_at_eulers_load),
 };
 
 OST_TEST_MAIN(tests)

@@ -104,7 +104,7 @@ static void measure_edges(OstMetricGraph *graph)
 
 static double trace(const OstBlockMatrix *matrix, OstLocal row)
 {
-    const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
+    const double *block = ost_block_matrix_diagonal(matrix, row);
     return block[0] + block[4] + block[8];
 }
 
@@ -116,7 +116,8 @@ static int are_apart(const OstBlockMatrix *matrix, OstLocal i, OstLocal k, doubl
 {
     const double here = trace(matrix, i), there = trace(matrix, matrix->column[k]);
     const double softer = fmin(here, there), least = weakest_coupling * softer;
-    const double *between = matrix->value + 9 * (size_t)k;
+    double room[9];
+    const double *between = ost_block_matrix_block(matrix, i, k, room);
     return fmax(here, there) > apart * softer || ost_dot(9, between, between) < least * least;
 }
 

@@ -23,7 +23,8 @@ enum {
     JOB_ANALYSE = 1,
     JOB_FACTOR = 2,
     JOB_SOLVE = 3,
-    POSITIVE_DEFINITE = 1,     /* SYM */
+    POSITIVE_DEFINITE = 1, /* SYM */
+    SYMMETRIC = 2,
     SPARE_PERCENT = 30,        /* ICNTL(14): workspace beyond the estimate; doubled if it is not enough, */
     MOST_SPARE_PERCENT = 2000, /* up to this */
     ERROR_WORKSPACE = -9,      /* INFOG(1) */
@@ -101,11 +102,11 @@ static OstStatus check(OstMumps *mumps, const char *phase)
     }
 }
 
-static OstStatus start(OstMumps *mumps)
+static OstStatus start(OstMumps *mumps, int symmetry)
 {
     DMUMPS_STRUC_C *id = &mumps->id;
     id->par = 1;
-    id->sym = POSITIVE_DEFINITE;
+    id->sym = symmetry;
     id->comm_fortran = (MUMPS_INT)MPI_Comm_c2f(ost_comm(mumps->ctx));
     call(mumps, JOB_START);
     mumps->started = id->INFOG(1) >= 0;
@@ -115,13 +116,14 @@ static OstStatus start(OstMumps *mumps)
     id->ICNTL(3) = -1;
     id->ICNTL(4) = 0;
     id->ICNTL(18) = 3; /* each rank passes its own entries */
+    if (symmetry == SYMMETRIC)
+        id->ICNTL(13) = 1; /* ScaLAPACK would not count the negative pivots of the last front */
     return OST_SUCCESS;
 }
 
-static OstStatus number_unknowns(OstMumps *mumps, const OstDoubleMatrix *matrix)
+static OstStatus number_unknowns(OstMumps *mumps, OstGlobal mine)
 {
     OstContext *ctx = mumps->ctx;
-    const OstGlobal mine = (OstGlobal)matrix->size * matrix->rows;
     OstGlobal end = 0;
     mumps->unknowns = (int)mine;
     OST_TRY(OST_MPI(ctx, MPI_Scan(&mine, &end, 1, MPI_INT64_T, MPI_SUM, ost_comm(ctx))));
@@ -139,7 +141,7 @@ static void fill_entries(const OstDoubleMatrix *matrix, const OstGlobal *number,
 {
     const int size = matrix->size;
     MUMPS_INT8 n = 0;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const OstLocal j = matrix->column[k];
@@ -193,7 +195,7 @@ static OstStatus factor_entries(OstMumps *mumps)
     } while ((id->INFOG(1) == ERROR_WORKSPACE || id->INFOG(1) == ERROR_INTEGER_WORKSPACE) &&
              spare <= MOST_SPARE_PERCENT);
     OST_TRY(check(mumps, "factorisation"));
-    if (id->INFOG(12) > 0) {
+    if (id->sym == POSITIVE_DEFINITE && id->INFOG(12) > 0) {
         char finding[96];
         snprintf(finding, sizeof finding, "the stiffness is not positive definite (%d negative pivots)", id->INFOG(12));
         return raise_singular(mumps->ctx, finding);
@@ -224,22 +226,31 @@ static OstStatus factor(OstMumps *mumps)
     return status;
 }
 
-static OstStatus factor_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
+static OstStatus take_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
 {
-    DMUMPS_STRUC_C *id = &mumps->id;
     OstGlobal *number = NULL;
-    OstStatus status;
-    OST_TRY_DONE(ost_agree(mumps->ctx, allocate_entries(matrix, id)));
-    OST_TRY_DONE(ost_double_matrix_numbers(matrix, mumps->first, &number));
-    id->n = (MUMPS_INT)mumps->all;
-    fill_entries(matrix, number, id);
-    OST_TRY_DONE(factor(mumps));
-done:
+    OST_TRY(ost_agree(mumps->ctx, allocate_entries(matrix, &mumps->id)));
+    const OstStatus status = ost_double_matrix_numbers(matrix, mumps->first, &number);
+    if (status == OST_SUCCESS)
+        fill_entries(matrix, number, &mumps->id);
     OST_FREE(number);
-    OST_FREE(id->irn_loc);
-    OST_FREE(id->jcn_loc);
-    OST_FREE(id->a_loc);
     return status;
+}
+
+static void take_entries(OstMumps *mumps, OstMumpsEntries *entries)
+{
+    mumps->id.irn_loc = entries->row;
+    mumps->id.jcn_loc = entries->column;
+    mumps->id.a_loc = entries->value;
+    mumps->id.nnz_loc = (MUMPS_INT8)entries->count;
+    *entries = (OstMumpsEntries){0};
+}
+
+static void free_entries(OstMumps *mumps)
+{
+    OST_FREE(mumps->id.irn_loc);
+    OST_FREE(mumps->id.jcn_loc);
+    OST_FREE(mumps->id.a_loc);
 }
 
 /* Where each rank's unknowns are in the vectors on rank 0. */
@@ -258,9 +269,10 @@ static OstStatus prepare_vectors(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-static OstStatus create(const OstDoubleMatrix *matrix, double memory, double most_shift, OstMumps **mumps)
+/* Of one or the other. */
+static OstStatus create(OstContext *ctx, OstGlobal unknowns, const OstDoubleMatrix *matrix, OstMumpsEntries *entries,
+                        double memory, double most_shift, OstMumps **mumps)
 {
-    OstContext *ctx = matrix->ctx;
     OstMumps *made = NULL;
     *mumps = NULL;
     OstStatus status;
@@ -268,11 +280,18 @@ static OstStatus create(const OstDoubleMatrix *matrix, double memory, double mos
     made->ctx = ctx;
     made->memory = memory;
     made->most_shift = most_shift;
-    OST_TRY_DONE(number_unknowns(made, matrix));
+    OST_TRY_DONE(number_unknowns(made, unknowns));
     OST_TRY_DONE(prepare_vectors(made));
-    OST_TRY_DONE(start(made));
-    OST_TRY_DONE(factor_matrix(made, matrix));
+    OST_TRY_DONE(start(made, entries ? SYMMETRIC : POSITIVE_DEFINITE));
+    if (entries)
+        take_entries(made, entries);
+    else
+        OST_TRY_DONE(take_matrix(made, matrix));
+    made->id.n = (MUMPS_INT)made->all;
+    OST_TRY_DONE(factor(made));
 done:
+    if (made)
+        free_entries(made);
     if (status != OST_SUCCESS)
         ost_mumps_destroy(&made);
     *mumps = made;
@@ -281,7 +300,15 @@ done:
 
 OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps)
 {
-    return create(matrix, memory, 0.0, mumps);
+    return create(matrix->ctx, (OstGlobal)matrix->size * matrix->rows, matrix, NULL, memory, 0.0, mumps);
+}
+
+OstStatus ost_mumps_create_symmetric(OstContext *ctx, OstLocal unknowns, OstMumpsEntries *entries, double memory,
+                                     OstGlobal *negative, OstMumps **mumps)
+{
+    OST_TRY(create(ctx, unknowns, NULL, entries, memory, 0.0, mumps));
+    *negative = (*mumps)->id.INFOG(12);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
@@ -290,7 +317,8 @@ OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScalin
     OstDoubleMatrix *view = NULL;
     *mumps = NULL;
     OST_TRY(ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &view)));
-    const OstStatus status = create(view, memory, shift ? rounding_shift : 0.0, mumps);
+    const OstStatus status =
+        create(matrix->ctx, 3 * (OstGlobal)matrix->rows, view, NULL, memory, shift ? rounding_shift : 0.0, mumps);
     if (status == OST_SUCCESS && shift)
         *shift = (*mumps)->shift;
     ost_double_matrix_destroy(&view);

@@ -4,8 +4,16 @@
 
 #include "algebra/level/double_matrix.h"
 
-/* MUMPS's factors of a symmetric positive definite matrix of blocks. */
+/* MUMPS's factors of a symmetric matrix. */
 typedef struct OstMumps OstMumps;
+
+/* Entries of a symmetric matrix that a rank has, each pair of equal ones once; numbers are global and count from 1.
+ * Entries of the same row and column are added. */
+typedef struct OstMumpsEntries {
+    size_t count;
+    int *row, *column;
+    double *value;
+} OstMumpsEntries;
 
 /* Collective. Analyses and factors; the matrix is not kept. Its diagonal should be of order 1 (OstScaling). Raises
  * OST_OUT_OF_MEMORY if the analysis foresees more than `memory` bytes over all ranks (0: more than the machines have
@@ -18,6 +26,12 @@ OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMump
  */
 OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScaling *scaling, double memory,
                                    double *shift, OstMumps **mumps);
+
+/* Collective. Factors a symmetric matrix that need not be definite, of which this rank numbers `unknowns`, following on
+ * those of the ranks before; takes over the entries' arrays. *negative: its eigenvalues below 0 (Sylvester's law: as
+ * many as negative pivots). Raises what ost_mumps_create raises, but for an indefinite matrix. */
+OstStatus ost_mumps_create_symmetric(OstContext *ctx, OstLocal unknowns, OstMumpsEntries *entries, double memory,
+                                     OstGlobal *negative, OstMumps **mumps);
 void ost_mumps_destroy(OstMumps **mumps);
 
 /* Collective. x = A^-1 b, size × rows numbers each; as OstPreconditioner's `apply`, with the factors as `data`. */

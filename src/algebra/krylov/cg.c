@@ -49,7 +49,7 @@ OstStatus ost_cg_rounding_scale(const OstCgRun *run, double *scale)
     const OstBlockMatrix *matrix = run->system->matrix;
     *scale = 0.0;
     for (OstLocal i = 0; i < matrix->rows; i++) {
-        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[i], *p = run->unscaled + 3 * (size_t)i;
+        const double *block = ost_block_matrix_diagonal(matrix, i), *p = run->unscaled + 3 * (size_t)i;
         *scale += fabs(block[0]) * p[0] * p[0] + fabs(block[4]) * p[1] * p[1] + fabs(block[8]) * p[2] * p[2];
     }
     return ost_sum(run->ctx, 1, scale);

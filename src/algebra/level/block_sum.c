@@ -8,9 +8,7 @@
 
 #include <string.h>
 
-/* A coarse row of tets has about 55 blocks, of which the diagonal one and half of the others are summed. Room for these
- * is reserved at once: pages that are not used cost no memory, while growing would copy all. */
-enum { BLOCK = OST_MODES * OST_MODES, LIKELY_ENTRIES = 28 };
+enum { BLOCK = OST_BLOCK };
 
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum)
 {
@@ -19,9 +17,6 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
     OstStatus status = ost_index_create(ctx, 1, &(*sum)->ghost);
     if (status == OST_SUCCESS)
         status = ost_index_create(ctx, 1, &(*sum)->entry);
-    (*sum)->room = LIKELY_ENTRIES * owned + 64;
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &(*sum)->value, BLOCK * (size_t)(*sum)->room);
     if (status != OST_SUCCESS)
         ost_block_sum_destroy(sum);
     return status;
@@ -33,7 +28,9 @@ void ost_block_sum_destroy(OstBlockSum **sum)
         return;
     ost_index_destroy(&(*sum)->ghost);
     ost_index_destroy(&(*sum)->entry);
-    OST_FREE((*sum)->value);
+    for (OstLocal c = 0; c < (*sum)->chunks; c++)
+        OST_FREE((*sum)->chunk[c]);
+    OST_FREE((*sum)->chunk);
     OST_FREE(*sum);
 }
 
@@ -48,17 +45,26 @@ OstStatus ost_block_sum_number(OstBlockSum *sum, OstGlobal number, OstLocal *nod
     return OST_SUCCESS;
 }
 
+static OstStatus add_chunk(OstBlockSum *sum)
+{
+    if (sum->chunks == sum->room) {
+        const OstLocal room = 2 * sum->room + 16;
+        OST_TRY(OST_RESIZE(sum->ctx, &sum->chunk, room));
+        sum->room = room;
+    }
+    OST_TRY(OST_NEW(sum->ctx, &sum->chunk[sum->chunks], BLOCK * OST_CHUNK));
+    sum->chunks++;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, double **block)
 {
     const OstGlobal key = (OstGlobal)row << 32 | column;
     OstLocal place;
     OST_TRY(ost_index_place(sum->entry, &key, &place));
-    if (place >= sum->room) {
-        const OstLocal room = sum->room + sum->room / 4;
-        OST_TRY(OST_RESIZE(sum->ctx, &sum->value, BLOCK * (size_t)room));
-        sum->room = room;
-    }
-    *block = sum->value + BLOCK * (size_t)place;
+    if (place / OST_CHUNK >= sum->chunks)
+        OST_TRY(add_chunk(sum));
+    *block = ost_chunk_block(sum->chunk, place);
     return OST_SUCCESS;
 }
 
@@ -97,7 +103,7 @@ static OstStatus pack(const OstBlockSum *sum, OstFetchedRows *out)
             continue;
         const OstLocal k = next[row_of(sum, e) - sum->owned]++;
         out->column[k] = number_of(sum, column_of(sum, e));
-        memcpy(value + BLOCK * (size_t)k, sum->value + BLOCK * (size_t)e, BLOCK * sizeof *value);
+        memcpy(value + BLOCK * (size_t)k, ost_chunk_block(sum->chunk, e), BLOCK * sizeof *value);
     }
     OST_FREE(next);
     return status;
@@ -139,7 +145,7 @@ done:
 /* The rows of the matrix as lists of blocks: entry e, or ~e for the transpose of entry e. */
 typedef struct Listing {
     OstLocal *start;    /* owned + 2, the last one scratch; becomes the matrix's row_start */
-    OstLocal *block;    /* start[owned] */
+    OstLocal *block;    /* start[owned]; becomes the matrix's place */
     OstLocal *renumber; /* local number here -> column of the matrix */
     OstGlobal *ghost;   /* global numbers of the matrix's ghosts, ascending */
     OstLocal columns;
@@ -209,15 +215,7 @@ static void sort_row(const OstBlockSum *sum, const Listing *list, OstLocal i, Os
     }
 }
 
-static void copy_block(const OstBlockSum *sum, OstLocal block, double *value)
-{
-    const double *kept = sum->value + BLOCK * (size_t)(block >= 0 ? block : ~block);
-    for (int r = 0; r < OST_MODES; r++)
-        for (int c = 0; c < OST_MODES; c++)
-            value[OST_MODES * r + c] = block >= 0 ? kept[OST_MODES * r + c] : kept[OST_MODES * c + r];
-}
-
-static OstStatus fill(const OstBlockSum *sum, Listing *list, OstDoubleMatrix **matrix)
+static OstStatus fill(OstBlockSum *sum, Listing *list, OstDoubleMatrix **matrix)
 {
     OST_TRY(list_rows(sum, list));
     OST_TRY(number_columns(sum, list));
@@ -225,17 +223,19 @@ static OstStatus fill(const OstBlockSum *sum, Listing *list, OstDoubleMatrix **m
     OST_TRY(OST_NEW(sum->ctx, matrix, 1));
     **matrix = (OstDoubleMatrix){.ctx = sum->ctx, .size = OST_MODES, .rows = sum->owned, .columns = list->columns};
     OST_TRY(OST_NEW(sum->ctx, &(*matrix)->column, blocks));
-    OST_TRY(OST_NEW(sum->ctx, &(*matrix)->value, BLOCK * (size_t)blocks));
     for (OstLocal i = 0; i < sum->owned; i++)
         sort_row(sum, list, i, (*matrix)->column);
-    for (OstLocal k = 0; k < blocks; k++)
-        copy_block(sum, list->block[k], (*matrix)->value + BLOCK * (size_t)k);
+    (*matrix)->chunk = sum->chunk;
+    (*matrix)->chunks = sum->chunks;
+    (*matrix)->place = list->block;
     (*matrix)->row_start = list->start;
-    list->start = NULL;
+    sum->chunk = NULL;
+    sum->chunks = sum->room = 0;
+    list->start = list->block = NULL;
     return OST_SUCCESS;
 }
 
-OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstDoubleMatrix **matrix)
+OstStatus ost_block_sum_finish(OstBlockSum *sum, OstDoubleMatrix **matrix)
 {
     OstContext *ctx = sum->ctx;
     Listing list = {0};

@@ -11,12 +11,12 @@
  * symmetric: of the blocks between this rank's own nodes only those on and right of the diagonal are summed. */
 typedef struct OstBlockSum {
     OstContext *ctx;
-    OstGlobal first; /* global number of this rank's first node */
-    OstLocal owned;  /* number of its nodes */
-    OstIndex *ghost; /* other ranks' nodes, by global number */
-    OstIndex *entry; /* the blocks, by row and column */
-    double *value;   /* room × OST_MODES × OST_MODES: the blocks, row by row */
-    OstLocal room;
+    OstGlobal first;       /* global number of this rank's first node */
+    OstLocal owned;        /* number of its nodes */
+    OstIndex *ghost;       /* other ranks' nodes, by global number */
+    OstIndex *entry;       /* the blocks, by row and column */
+    double **chunk;        /* the blocks, row by row, OST_CHUNK in each */
+    OstLocal chunks, room; /* room: of the list of chunks */
 } OstBlockSum;
 
 OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned, OstBlockSum **sum);
@@ -38,7 +38,7 @@ OstStatus ost_block_sum_find(OstBlockSum *sum, OstLocal row, OstLocal column, do
  * and the ghosts that appeared first. */
 OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo);
 
-/* Collective. The matrix: this rank's rows with both triangles, columns ascending. */
-OstStatus ost_block_sum_finish(const OstBlockSum *sum, OstDoubleMatrix **matrix);
+/* Collective. The matrix: this rank's rows, columns ascending. It takes over the blocks. */
+OstStatus ost_block_sum_finish(OstBlockSum *sum, OstDoubleMatrix **matrix);
 
 #endif

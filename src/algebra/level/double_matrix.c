@@ -4,30 +4,41 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <string.h>
+
 OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScaling *scaling, OstDoubleMatrix **source)
 {
     OST_TRY(OST_NEW(matrix->ctx, source, 1));
     **source = (OstDoubleMatrix){.ctx = matrix->ctx,
                                  .size = 3,
-                                 .borrowed = 1,
+                                 .of = matrix,
                                  .scaling = scaling,
                                  .rows = matrix->rows,
                                  .columns = matrix->columns,
                                  .row_start = matrix->row_start,
                                  .column = matrix->column,
-                                 .value = matrix->value,
                                  .halo = matrix->halo};
     return OST_SUCCESS;
+}
+
+static void free_chunks(OstDoubleMatrix *matrix)
+{
+    for (OstLocal c = 0; c < matrix->chunks; c++)
+        OST_FREE(matrix->chunk[c]);
+    OST_FREE(matrix->chunk);
+    OST_FREE(matrix->place);
+    matrix->chunks = 0;
 }
 
 void ost_double_matrix_destroy(OstDoubleMatrix **source)
 {
     if (!*source)
         return;
-    if (!(*source)->borrowed) {
+    if (!(*source)->of) {
         OST_FREE((*source)->row_start);
         OST_FREE((*source)->column);
         OST_FREE((*source)->value);
+        free_chunks(*source);
         ost_halo_destroy(&(*source)->halo);
     }
     OST_FREE(*source);
@@ -41,6 +52,20 @@ OstStatus ost_double_matrix_numbers(const OstDoubleMatrix *matrix, OstGlobal fir
     return ost_agree(matrix->ctx, ost_halo_import(matrix->halo, sizeof **number, *number));
 }
 
+OstStatus ost_double_matrix_unfold(OstDoubleMatrix *matrix)
+{
+    const OstLocal entries = matrix->row_start[matrix->rows];
+    double room[OST_BLOCK];
+    if (matrix->value)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(matrix->ctx, &matrix->value, OST_BLOCK * (size_t)entries));
+    for (OstLocal k = 0; k < entries; k++)
+        memcpy(matrix->value + OST_BLOCK * (size_t)k, ost_double_matrix_block(matrix, OST_MODES, 0, k, room),
+               sizeof room);
+    free_chunks(matrix);
+    return OST_SUCCESS;
+}
+
 double *ost_double_matrix_find(const OstDoubleMatrix *matrix, OstLocal row, OstLocal column)
 {
     OstLocal low = matrix->row_start[row];
@@ -52,6 +77,8 @@ double *ost_double_matrix_find(const OstDoubleMatrix *matrix, OstLocal row, OstL
         else
             high = middle;
     }
+    if (matrix->chunk)
+        return ost_chunk_block(matrix->chunk, matrix->place[low] >= 0 ? matrix->place[low] : ~matrix->place[low]);
     return matrix->value + (size_t)(matrix->size * matrix->size) * (size_t)low;
 }
 

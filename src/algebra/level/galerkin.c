@@ -126,7 +126,7 @@ OST_UNROLLED OstStatus multiply_row(Product *product, int size, OstLocal i, size
     const OstDoubleMatrix *a = product->a;
     const OstProlongator *p = product->p;
     const OstFetchedRows *far = product->far;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
         const double *value = ost_double_matrix_block(a, size, i, k, room);
         const OstLocal j = a->column[k];

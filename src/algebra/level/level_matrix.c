@@ -31,7 +31,7 @@ OST_UNROLLED void fill_upper_half(const OstDoubleMatrix *source, int size, OstLe
 {
     const size_t square = (size_t)(size * size);
     OstLocal upper = 0;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < source->rows; i++) {
         matrix->own_end[i] = upper;
         for (OstLocal k = source->row_start[i]; k < source->row_start[i + 1]; k++) {
@@ -102,7 +102,7 @@ OstStatus ost_level_matrix_keep_rest(const OstDoubleMatrix *source, OstLevelMatr
     const int size = source->size;
     const size_t square = (size_t)(size * size);
     OstLocal upper = 0;
-    double room[9];
+    double room[OST_BLOCK];
     OST_TRY(OST_NEW(source->ctx, &matrix->diagonal_rest, square * (size_t)source->rows + OST_PADDING));
     OST_TRY(OST_NEW(source->ctx, &matrix->value_rest, square * (size_t)matrix->row_start[source->rows] + OST_PADDING));
     for (OstLocal i = 0; i < source->rows; i++)

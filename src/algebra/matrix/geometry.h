@@ -5,7 +5,8 @@
 #include "algebra/matrix/block_matrix.h"
 #include "orthostat/solver.h"
 
-/* What multigrid needs beyond the matrix. Arrays belong to the caller and outlive the solver. */
+/* What multigrid needs beyond the matrix. Arrays belong to the caller and outlive the solver, unless there is an
+ * `owner`: then they are released once a hierarchy has taken what it needs, and made again for the next one. */
 typedef struct OstSolverGeometry {
     const double *coordinates; /* rows × 3 */
     const double *metric;      /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
@@ -15,7 +16,23 @@ typedef struct OstSolverGeometry {
                             direct method uses nothing of this */
     const struct OstCoarseSpace *coarse; /* METRIC to TWO_LEVEL: a coarser discretisation for corrections, or NULL */
     const OstSolverFacts *facts;         /* for the plan, or NULL */
+    void *owner;                         /* of the arrays; NULL: they stay */
+    OstStatus (*renew)(void *owner, struct OstSolverGeometry *geometry); /* collective; does nothing if all are there */
+    void (*release)(void *owner);                                        /* local */
 } OstSolverGeometry;
+
+/* Collective. Makes the arrays if they have been released. */
+static inline OstStatus ost_geometry_renew(OstSolverGeometry *geometry)
+{
+    return geometry->owner ? geometry->renew(geometry->owner, geometry) : OST_SUCCESS;
+}
+
+/* Local. They are not needed any more. */
+static inline void ost_geometry_release(const OstSolverGeometry *geometry)
+{
+    if (geometry->owner)
+        geometry->release(geometry->owner);
+}
 
 /* A coarser discretisation of the same body on the same ranks: linear tets for quadratic ones (p-multigrid). A fine
  * node interpolates its four parents by weights, projected on the directions in which the fine node is unconstrained.

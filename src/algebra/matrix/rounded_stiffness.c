@@ -47,8 +47,9 @@ void ost_rounded_stiffness_force(const OstBlockMatrix *matrix, const double *u, 
     for (OstLocal row = 0; row < matrix->rows; row++)
         for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
             const OstLocal column = matrix->column[k];
+            double room[9];
             const OstGlobal i = matrix->label[row], j = matrix->label[column];
-            add_block(matrix->value + 9 * (size_t)k, bits_of_pair(i, j, which), place_of_block(i, j),
+            add_block(ost_block_matrix_block(matrix, row, k, room), bits_of_pair(i, j, which), place_of_block(i, j),
                       u + 3 * (size_t)column, force + 3 * (size_t)row);
         }
 }
@@ -63,9 +64,9 @@ static void add_squares(const double *block, const double *u, double *square)
 void ost_term_rounding(const OstBlockMatrix *matrix, const double *u, double *rounding)
 {
     for (OstLocal row = 0; row < matrix->rows; row++) {
-        double square[3] = {0.0};
+        double square[3] = {0.0}, room[9];
         for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++)
-            add_squares(matrix->value + 9 * (size_t)k, u + 3 * (size_t)matrix->column[k], square);
+            add_squares(ost_block_matrix_block(matrix, row, k, room), u + 3 * (size_t)matrix->column[k], square);
         for (int i = 0; i < 3; i++)
             rounding[3 * (size_t)row + (size_t)i] = DBL_EPSILON * sqrt(square[i]);
     }

@@ -10,8 +10,7 @@
 typedef struct OstScaling {
     OstContext *ctx;
     OstLocal rows;
-    double *factor;  /* S, columns × 9 row-major (ghosts' too), lower triangular */
-    double *inverse; /* S^-1 = L, rows × 9 */
+    double *factor; /* S, columns × 6 (ghosts' too): 11, 21 22, 31 32 33 of a lower triangle */
 } OstScaling;
 
 /* Collective. Raises OST_INVALID_INPUT with the global row whose diagonal block is not finite or not positive
@@ -23,18 +22,18 @@ void ost_scaling_destroy(OstScaling **scaling);
 static inline void ost_scaling_block(const OstScaling *scaling, OstLocal i, OstLocal j, const double block[9],
                                      double scaled[9])
 {
-    const double *s = scaling->factor + 9 * (size_t)i;
-    const double *t = scaling->factor + 9 * (size_t)j;
+    const double *s = scaling->factor + 6 * (size_t)i;
+    const double *t = scaling->factor + 6 * (size_t)j;
     double left[9];
     for (int c = 0; c < 3; c++) {
         left[c] = s[0] * block[c];
-        left[3 + c] = s[3] * block[c] + s[4] * block[3 + c];
-        left[6 + c] = s[6] * block[c] + s[7] * block[3 + c] + s[8] * block[6 + c];
+        left[3 + c] = s[1] * block[c] + s[2] * block[3 + c];
+        left[6 + c] = s[3] * block[c] + s[4] * block[3 + c] + s[5] * block[6 + c];
     }
     for (int r = 0; r < 9; r += 3) {
         scaled[r] = left[r] * t[0];
-        scaled[r + 1] = left[r] * t[3] + left[r + 1] * t[4];
-        scaled[r + 2] = left[r] * t[6] + left[r + 1] * t[7] + left[r + 2] * t[8];
+        scaled[r + 1] = left[r] * t[1] + left[r + 1] * t[2];
+        scaled[r + 2] = left[r] * t[3] + left[r + 1] * t[4] + left[r + 2] * t[5];
     }
 }
 

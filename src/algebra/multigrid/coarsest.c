@@ -59,7 +59,7 @@ static void spread_rows(const OstDoubleMatrix *matrix, const OstGlobal *number, 
 {
     const int size = matrix->size;
     const size_t order = (size_t)coarsest->order;
-    double room[9];
+    double room[OST_BLOCK];
     for (OstLocal i = 0; i < matrix->rows; i++)
         for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
             const double *value = ost_double_matrix_block(matrix, size, i, k, room);

@@ -129,10 +129,11 @@ done:
 
 static OstStatus bring_blocks(const OstLooseLevel *level, Group *g)
 {
-    const OstDoubleMatrix *a = *level->matrix;
+    OstDoubleMatrix *a = *level->matrix;
     const OstLocal blocks = a->row_start[a->rows];
     OstGlobal *node = NULL, *number = NULL;
-    OstStatus status = OST_NEW(g->ctx, &node, a->columns);
+    OstStatus status = ost_double_matrix_unfold(a);
+    OST_THEN(OST_NEW(g->ctx, &node, a->columns));
     OST_THEN(OST_NEW(g->ctx, &number, blocks));
     OST_TRY_DONE(ost_agree(g->ctx, status));
     for (OstLocal i = 0; i < a->rows; i++)

@@ -92,6 +92,7 @@ static OstStatus build_levels(OstMetric *metric, const OstBlockMatrix *matrix, c
     double *modes = NULL;
     OstStatus status;
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
+    ost_geometry_release(geometry);
     OST_TRY_DONE(ost_levels_create(matrix, scaling, &modes, graph, &metric->options, levels));
     OST_TRY_DONE(measure_levels(metric, levels));
 done:
@@ -189,6 +190,7 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
         OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, levels));
     } else {
         metric->over_linear = 1;
+        ost_geometry_release(geometry);
         OST_TRY_DONE(build_linear(metric, space, geometry->facts, levels));
         OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
                                                 &metric->options, quadratic));

@@ -116,7 +116,7 @@ OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
     const size_t block = (size_t)(size * OST_MODES);
     const OstLocal start = s->block_start[b], count = s->block_start[b + 1] - start;
     const OstLocal first = s->blocks->node_start[b], nodes = s->blocks->node_start[b + 1] - first;
-    double room[9];
+    double room[OST_BLOCK];
     memset(s->sum, 0, (size_t)nodes * (size_t)size * (size_t)count * sizeof *s->sum);
     for (OstLocal c = 0; c < count; c++)
         s->place[s->block_column[start + c]] = c;

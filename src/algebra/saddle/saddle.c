@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/saddle/saddle.h"
 
+#include "algebra/krylov/energy_error.h"
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
@@ -20,6 +21,9 @@ static const double margin = 1.2, near = 1.05, first_eigenvalue = 0.7;
  * pass begins again from where it began; so often at most. */
 static const double enlarge = 1.5, grown = 1e9;
 enum { MOST_RESTARTS = 12 };
+
+/* Iterations grow as the root of tau: with a larger one another strategy is quicker, and rounding raises it further. */
+static const double most_tau = 1e4;
 
 /* M works in single precision in part, so that z = N^-1 r, which is carried along, is off by that share of what it was
  * when it was last computed: it is computed anew where r has become so much smaller. */
@@ -83,6 +87,23 @@ static OstStatus create(Run *run)
     return OST_SUCCESS;
 }
 
+static Run run_of(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
+                  const double *f, double *u, OstGoal *goal)
+{
+    const OstCoupling *coupling = saddle->coupling;
+    return (Run){.ctx = coupling->ctx,
+                 .system = system,
+                 .preconditioner = preconditioner,
+                 .saddle = saddle,
+                 .f = f,
+                 .u = u,
+                 .goal = goal,
+                 .n = 3 * (size_t)coupling->unknowns,
+                 .m = (size_t)coupling->rows,
+                 .mg = (size_t)coupling->columns,
+                 .tau = margin / (preconditioner && preconditioner->factors ? 1.0 : first_eigenvalue)};
+}
+
 static void destroy(Run *run)
 {
     OST_FREE(run->memory);
@@ -91,64 +112,13 @@ static void destroy(Run *run)
 
 /* --- norms --- */
 
-/* Squares of a residual: of its forces, and of the energy of its error of volume. */
-enum { FORCE, VOLUME, SQUARES };
-
-/* `q` and `work` are work space of pressures, `force` of displacements. */
-static OstStatus squares_of(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
-                            double *force, double squares[SQUARES])
-{
-    const size_t n = 3 * (size_t)coupling->unknowns;
-    OST_TRY(ost_coupling_schur_solve(coupling, r_p, q, work));
-    OST_TRY(ost_coupling_transpose(coupling, q, force));
-    squares[FORCE] = ost_dot(n, r_u, r_u) + ost_dot(n, force, force);
-    squares[VOLUME] = ost_dot((size_t)coupling->rows, r_p, q);
-    return ost_sum(coupling->ctx, SQUARES, squares);
-}
-
-static OstStatus mean_diagonal(const OstBlockMatrix *matrix, double *mean)
-{
-    *mean = 0.0;
-    for (OstLocal row = 0; row < matrix->rows; row++) {
-        const double *block = matrix->value + 9 * (size_t)matrix->diagonal[row];
-        *mean += block[0] + block[4] + block[8];
-    }
-    OST_TRY(ost_sum(matrix->ctx, 1, mean));
-    *mean /= 3.0 * (double)matrix->global_rows;
-    return OST_SUCCESS;
-}
-
-OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double *size)
-{
-    const OstCoupling *coupling = saddle->coupling;
-    const size_t n = 3 * (size_t)coupling->unknowns, m = (size_t)coupling->rows, mg = (size_t)coupling->columns;
-    double *memory = NULL, squares[SQUARES], mean;
-    OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &memory, n + mg + 3 * m)));
-    OstStatus status = squares_of(coupling, f, saddle->g, memory + n, memory + n + mg, memory, squares);
-    OST_THEN(mean_diagonal(matrix, &mean));
-    if (status == OST_SUCCESS)
-        *size = sqrt(squares[FORCE] + mean * squares[VOLUME]);
-    OST_FREE(memory);
-    return status;
-}
-
-OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double relative,
-                          OstGoal *goal)
-{
-    OST_TRY(ost_saddle_size(matrix, saddle, f, &goal->start));
-    goal->norm = goal->start;
-    goal->target = relative * goal->start;
-    if (isfinite(goal->start))
-        return OST_SUCCESS;
-    return OST_RAISE(goal->ctx, OST_INVALID_INPUT, "the right-hand side holds a number that is not finite");
-}
-
 /* The norm of the residual at hand. */
 static OstStatus find_norm(Run *run, double *norm)
 {
-    double squares[SQUARES];
-    OST_TRY(squares_of(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, squares));
-    *norm = sqrt(squares[FORCE] + run->goal->start * run->goal->start / run->energy * squares[VOLUME]);
+    double squares[OST_SADDLE_SQUARES];
+    OST_TRY(ost_saddle_squares(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, squares));
+    *norm = sqrt(squares[OST_SADDLE_FORCE] +
+                 run->goal->start * run->goal->start / run->energy * squares[OST_SADDLE_VOLUME]);
     return OST_SUCCESS;
 }
 
@@ -344,6 +314,13 @@ static OstStatus iterate(Run *run, int *broken)
         *broken = !(norm <= most);
         if (!ost_goal_count(goal, norm, run->weight) || *broken)
             return OST_SUCCESS;
+        if (run->tau > most_tau && goal->patience > 0) {
+            goal->end = OST_END_SLOW;
+            snprintf(goal->words, sizeof goal->words,
+                     "after %d iterations the smallest eigenvalue is found to be below %.1g: too slow",
+                     goal->convergence.count, 1.0 / run->tau);
+            return OST_SUCCESS;
+        }
         OST_TRY(judge_error(run));
         if (goal->enough)
             return OST_SUCCESS;
@@ -435,6 +412,7 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
     int again;
     ost_lanczos_extremes(&run->lanczos, &smallest, &largest);
     goal->smallest = smallest;
+    report->error_estimate = report->energy_error = 0.0;
     report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
     if (goal->crude || goal->end == OST_END_PRECONDITIONER || !(smallest > 0.0))
         return OST_SUCCESS;
@@ -456,21 +434,115 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
     return OST_SUCCESS;
 }
 
+/* --- by factors of both equations --- */
+
+/* Corrections by factors are taken while each is this share of the one before. After that they are the rounding of
+ * residuals, each a random sample of the error: their root mean square, with some caution, is stated. */
+static const double shrinks = 0.5, caution = 1.5, no_change = 1e-16;
+enum { MOST_CORRECTIONS = 30, SAMPLES = 4 };
+
+/* The sizes of the correction at hand, relative to u and to the energy. */
+static OstStatus measure_correction(Run *run, double *of_u, double *of_p)
+{
+    const OstCoupling *coupling = run->saddle->coupling;
+    double sums[3];
+    OST_TRY(ost_coupling_mass(coupling, run->z.p, run->work));
+    for (size_t i = 0; i < run->m; i++)
+        run->work[i] *= coupling->schur[i];
+    sums[0] = ost_dot(run->n, run->z.u, run->z.u);
+    sums[1] = ost_dot(run->n, run->u, run->u);
+    sums[2] = ost_dot(run->m, run->z.p, run->work);
+    OST_TRY(ost_sum(run->ctx, 3, sums));
+    *of_u = sums[1] > 0.0 ? sqrt(sums[0] / sums[1]) : 1.0;
+    *of_p = sqrt(fmax(sums[2], 0.0) / run->energy);
+    return OST_SUCCESS;
+}
+
+/* Where the squares are relative to in norms (find_norm): the energy, once u and p are about right. */
+static OstStatus take_energy(Run *run)
+{
+    double size;
+    OST_TRY(find_size(run, &size));
+    run->energy = size > 0.0 ? size * size : INFINITY;
+    return OST_SUCCESS;
+}
+
+static void take_correction(Run *run)
+{
+    for (size_t i = 0; i < run->n; i++)
+        run->u[i] += run->z.u[i];
+    for (size_t i = 0; i < run->m; i++)
+        run->saddle->p[i] += run->z.p[i];
+}
+
+/* Until corrections no longer shrink; the last one is not taken. */
+static OstStatus correct(Run *run, const OstSaddleFactors *factors, double *of_u, double *of_p)
+{
+    double before = INFINITY, u, p, squares[2] = {0.0};
+    int samples = 0;
+    for (int k = 0; k < MOST_CORRECTIONS; k++) {
+        OST_TRY(find_residual(run));
+        OST_TRY(ost_saddle_factors_solve(factors, run->r.u, run->r.p, run->z.u, run->z.p));
+        OST_TRY(measure_correction(run, &u, &p));
+        const double change = fmax(u, p);
+        samples += samples > 0 || (k > 0 && !(change < shrinks * before)) || k + SAMPLES == MOST_CORRECTIONS;
+        squares[0] += samples > 0 ? u * u : 0.0;
+        squares[1] += samples > 0 ? p * p : 0.0;
+        *of_u = samples > 0 ? sqrt(squares[0] / samples) : u;
+        *of_p = samples > 0 ? sqrt(squares[1] / samples) : p;
+        const int is_crude = run->goal->crude && k > 0 && run->goal->norm <= run->goal->target;
+        if (samples == SAMPLES || change < no_change || is_crude)
+            return OST_SUCCESS;
+        take_correction(run);
+        OST_TRY(take_energy(run));
+        run->goal->iterations++;
+        before = k > 0 ? change : INFINITY;
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_saddle_correct(const OstCgSystem *system, const OstSaddleFactors *factors, const OstSaddle *saddle,
+                             const double *f, double *u, OstGoal *goal, OstSolveReport *report)
+{
+    Run run = run_of(system, NULL, saddle, f, u, goal);
+    double of_u = 0.0, of_p = 0.0;
+    goal->end = OST_END_REACHED;
+    if (goal->start == 0.0)
+        return OST_SUCCESS;
+    OstStatus status;
+    OST_TRY_DONE(create(&run));
+    run.energy = INFINITY;
+    OST_TRY_DONE(correct(&run, factors, &of_u, &of_p));
+    goal->limit = goal->norm; /* what the factors cannot correct is rounding */
+    if (!(goal->norm <= goal->target))
+        ost_goal_explain_end(goal, "");
+    report->error_estimate = caution * of_u;
+    report->energy_error = caution * fmax(of_u, of_p);
+done:
+    destroy(&run);
+    return status;
+}
+
+static int is_digit_left(const OstSolveReport *report)
+{
+    return report->error_estimate > 0.0 && report->error_estimate < ost_least_digit;
+}
+
+/* The residual is as small as rounding allows, but so small an eigenvalue was met that nothing is known of u. Factors
+ * do not go by eigenvalues. */
+static void leave_rounding(OstGoal *goal)
+{
+    if (goal->end != OST_END_ROUNDING)
+        return;
+    goal->end = OST_END_STALLED;
+    snprintf(goal->words, sizeof goal->words, "after %d iterations the residual is rounding's, but u is not known",
+             goal->convergence.count);
+}
+
 OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    const OstCoupling *coupling = saddle->coupling;
-    Run run = {.ctx = coupling->ctx,
-               .system = system,
-               .preconditioner = preconditioner,
-               .saddle = saddle,
-               .f = f,
-               .u = u,
-               .goal = goal,
-               .n = 3 * (size_t)coupling->unknowns,
-               .m = (size_t)coupling->rows,
-               .mg = (size_t)coupling->columns,
-               .tau = margin / (preconditioner->factors ? 1.0 : first_eigenvalue)};
+    Run run = run_of(system, preconditioner, saddle, f, u, goal);
     goal->end = OST_END_REACHED;
     if (goal->start == 0.0)
         return OST_SUCCESS;
@@ -478,6 +550,8 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
     OST_TRY_DONE(create(&run));
     OST_TRY_DONE(run_passes(&run));
     OST_TRY_DONE(report_error(&run, report));
+    if (!goal->crude && !is_digit_left(report))
+        leave_rounding(goal);
 done:
     ost_progress(run.ctx, "solve", -1.0);
     destroy(&run);

@@ -2,26 +2,9 @@
 #ifndef ORTHOSTAT_ALGEBRA_SADDLE_SADDLE_H
 #define ORTHOSTAT_ALGEBRA_SADDLE_SADDLE_H
 
-#include "algebra/krylov/goal.h"
 #include "algebra/krylov/preconditioner.h"
-#include "algebra/saddle/coupling.h"
-
-/* What stands beside A u = f in a mixed form (coupling.h). */
-typedef struct OstSaddle {
-    const OstCoupling *coupling;
-    const double *g; /* coupling->rows */
-    double *p;       /* coupling->columns; improved in place */
-} OstSaddle;
-
-/* Collective. The size of both right-hand sides, as forces: of f and of B' q, where q = S^-1 g is the pressure that g
- * is worth, and of what the nodes feel of g's energy g·q where its forces balance (over the mean diagonal of A). */
-OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double *size);
-
-/* Collective. Prepares the goal for both equations, that of f alone being set: `relative` is the residual asked for.
- * The norm is that of f - A u - B'p and of the forces B' q of the error of volume, and, relative to the energy of the
- * right-hand sides, that of the error of volume. */
-OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle, const double *f, double relative,
-                          OstGoal *goal);
+#include "algebra/saddle/factors.h"
+#include "algebra/saddle/norm.h"
 
 /* Collective. Improves u and p until the goal is reached or ended, preconditioned by M for A and by S for the
  * pressures' Schur complement, by the conjugate gradients of J. H. Bramble and J. E. Pasciak (A preconditioning
@@ -36,5 +19,10 @@ OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle,
  */
 OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstSaddle *saddle,
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report);
+
+/* Collective. The same by factors of both equations: corrections for the true residual until they no longer shrink.
+ * The report's errors are the next correction, with some caution. */
+OstStatus ost_saddle_correct(const OstCgSystem *system, const OstSaddleFactors *factors, const OstSaddle *saddle,
+                             const double *f, double *u, OstGoal *goal, OstSolveReport *report);
 
 #endif

@@ -61,11 +61,14 @@ static int get_rows(ML_Operator *operator, int count, int *rows, int space, int 
         lengths[i] = 3 * (end - start);
         if (n + lengths[i] > space)
             return 0;
-        for (OstLocal k = start; k < end; k++)
+        for (OstLocal k = start; k < end; k++) {
+            double room[9];
+            const double *block = ost_block_matrix_block(a, row, k, room);
             for (int c = 0; c < 3; c++) {
                 columns[n] = 3 * a->column[k] + c;
-                values[n++] = a->value[9 * (size_t)k + line + (size_t)c];
+                values[n++] = block[line + (size_t)c];
             }
+        }
     }
     return 1;
 }
@@ -117,7 +120,7 @@ static OstStatus set_matrix(OstSmoothedAggregation *hierarchy)
     ML_Set_Amatrix_Matvec(ml, FINEST, multiply);
     for (OstLocal i = 0; i < a->rows; i++)
         for (int c = 0; c < 3; c++)
-            hierarchy->vector[3 * i + c] = a->value[9 * (size_t)a->diagonal[i] + 4 * (size_t)c];
+            hierarchy->vector[3 * i + c] = ost_block_matrix_diagonal(a, i)[4 * c];
     ML_Set_Amatrix_Diag(ml, FINEST, unknowns, hierarchy->vector);
     ml->Amat[FINEST].N_nonzeros = 9 * a->row_start[a->rows];
     ml->Amat[FINEST].num_PDEs = 3;

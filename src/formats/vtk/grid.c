@@ -177,8 +177,10 @@ static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
     char sign;
     const OstVtkArray *region = region_array(grid);
     const OstVtkArray *sets = region ? NULL : ost_vtk_sets(grid, 0, &sign);
+    if (region)
+        ost_log(grid->ctx, OST_LOG_VERBOSE, "%s: regions are the numbers '%s' of cells", grid->path, region->name);
     if (sets)
-        OST_TRY(ost_vtk_name_sets(sets, sign, cells));
+        OST_TRY(ost_vtk_name_sets(grid, sets, sign, cells));
     for (int n = 0; n < grid->name_count; n++)
         OST_TRY(ost_cells_name(cells, grid->name[n].dimension, grid->name[n].number, grid->name[n].name));
     for (OstGlobal p = 0; p < grid->points; p++)

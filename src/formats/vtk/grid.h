@@ -57,7 +57,7 @@ OstStatus ost_vtk_add_array(OstVtkGrid *grid, const char *name, int on_points, i
  * of such a file, or NULL; `sign` stands between their names. Names the groups of cells by it; makes sets of nodes. */
 int ost_vtk_is_by_meshio(const OstMshCursor *cursor);
 const OstVtkArray *ost_vtk_sets(const OstVtkGrid *grid, int on_points, char *sign);
-OstStatus ost_vtk_name_sets(const OstVtkArray *array, char sign, OstCells *cells);
+OstStatus ost_vtk_name_sets(const OstVtkGrid *grid, const OstVtkArray *array, char sign, OstCells *cells);
 OstStatus ost_vtk_take_point_sets(const OstVtkGrid *grid, OstCells *cells);
 
 /* VTK's types of numbers. */

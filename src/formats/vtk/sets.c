@@ -40,6 +40,24 @@ static int count_names(const char *name, char sign)
     return count;
 }
 
+/* Would meshio have put this sign between such names? Those before it then stand in some of them: "part_id" of two
+ * numbers is no pair of sets, which had been "part-id". */
+static int may_be_between(const char *name, const char *sign)
+{
+    int may = 1;
+    for (const char *before = signs; before < sign; before++)
+        may &= strchr(name, *before) != NULL;
+    return may;
+}
+
+/* The first sign, from `s` on, by which the array has as many names as numbers; '\0': none. */
+static char find_sign(const OstVtkArray *array, int numbers, const char *s)
+{
+    while (*s && !(count_names(array->name, *s) == numbers && may_be_between(array->name, s)))
+        s++;
+    return *s;
+}
+
 /* Has the array as many names as it has numbers? Then *sign stands between them (0: there is one name). */
 static int is_of_sets(const OstVtkArray *array, char *sign)
 {
@@ -47,9 +65,7 @@ static int is_of_sets(const OstVtkArray *array, char *sign)
     *sign = '\0';
     if (numbers <= 1 || strlen(array->name) + 1 >= OST_VTK_NAME)
         return numbers == 1;
-    for (const char *s = signs; *s && !*sign; s++)
-        if (count_names(array->name, *s) == numbers)
-            *sign = *s;
+    *sign = find_sign(array, numbers, signs);
     return *sign != '\0';
 }
 
@@ -76,10 +92,25 @@ static const char *take_name(const char *rest, char sign, char name[OST_VTK_NAME
     return end ? end + 1 : NULL;
 }
 
-OstStatus ost_vtk_name_sets(const OstVtkArray *array, char sign, OstCells *cells)
+/* Whole numbers of another meaning may look like sets; and "a-1_b" is of the sets a and 1_b, or of a-1 and b. */
+static void say(const OstVtkGrid *grid, const OstVtkArray *array, char sign)
+{
+    const char *const what = array->on_points ? "points" : "cells";
+    const int count = sign ? count_names(array->name, sign) : 1;
+    ost_log(grid->ctx, OST_LOG_VERBOSE, "%s: the numbers '%s' of %s are taken for %d of meshio's sets", grid->path,
+            array->name, what, count);
+    if (sign && find_sign(array, count, strchr(signs, sign) + 1))
+        ost_warn(grid->ctx,
+                 "%s: the sets of %s in '%s' have their names before and after each '%c', or each '%c': the first is "
+                 "taken; to have the other, rename the sets before meshio writes them",
+                 grid->path, what, array->name, sign, find_sign(array, count, strchr(signs, sign) + 1));
+}
+
+OstStatus ost_vtk_name_sets(const OstVtkGrid *grid, const OstVtkArray *array, char sign, OstCells *cells)
 {
     char name[OST_VTK_NAME];
     OstGlobal number = 0;
+    say(grid, array, sign);
     for (const char *rest = array->name; rest; number++) {
         rest = take_name(rest, sign, name);
         OST_TRY(ost_cells_name(cells, -1, number, name));
@@ -92,6 +123,8 @@ OstStatus ost_vtk_take_point_sets(const OstVtkGrid *grid, OstCells *cells)
     char sign, name[OST_VTK_NAME];
     const OstVtkArray *array = ost_vtk_sets(grid, 1, &sign);
     OstGlobal number = 0;
+    if (array)
+        say(grid, array, sign);
     for (const char *rest = array ? array->name : NULL; rest; number++) {
         int set = 0;
         rest = take_name(rest, sign, name);

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_SOLVER_DATA_H
+#define ORTHOSTAT_ALGEBRA_SOLVER_DATA_H
+
+#include "algebra/direct/direct.h"
+#include "algebra/matrix/geometry.h"
+#include "algebra/multigrid/metric.h"
+#include "algebra/solver_aim.h"
+#include "algebra/trilinos/epetra.h"
+#include "algebra/trilinos/smoothed_aggregation.h"
+
+struct OstSolver {
+    OstContext *ctx;
+    const OstBlockMatrix *matrix;
+    OstSolverGeometry geometry;
+    OstSolverOptions options; /* the user's */
+    OstSolverAim aim;
+    const OstSaddle *saddle; /* of the mixed form that is being solved, or NULL */
+    int aged;                /* have the matrix's values changed since the current strategy was built? */
+    int precise;             /* has single precision been found too little for the coarse levels? */
+    OstSolverPlan plan;
+    /* the current strategy: */
+    OstMethod method;              /* AUTO if there is none */
+    OstSmoothedAggregation *plain; /* one of these three is set up */
+    OstMetric *metric;
+    OstDirect *direct;
+    OstSaddleFactors *whole; /* beside `direct`, of a mixed form's both equations; NULL if there are none */
+    OstEpetraMap *map;
+    double nonzeros;         /* of the matrix, over all ranks */
+    double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
+    double setup_seconds;    /* for all strategies so far */
+    double strategy_seconds; /* setup of the current one, until it is added to a step */
+    int steps;               /* strategies that could not be built before the current one */
+    OstSolveStep step[OST_MAX_STEPS];
+};
+
+/* Local. What the current strategy iterates on, and its preconditioner. */
+void ost_solver_system(const OstSolver *solver, OstCgSystem *system, OstPreconditioner *preconditioner);
+
+/* Local. Has the current strategy one? Factors of both equations of a mixed form alone are none of A. */
+int ost_solver_has_preconditioner(const OstSolver *solver);
+
+/* Collective. Sets up solver->direct. Where A cannot be factored, as it is indefinite, but both equations of the aim's
+ * mixed form can, and the second holds what A does not, solver->whole takes its place. */
+OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
+
+/* Collective. Improves u and the pressures of solver->saddle by the current strategy, as ost_saddle_solve. */
+OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,
+                                   OstSolveReport *report);
+
+#endif

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The estimated error of watched stresses at points, and of least and largest ones, against formulas of thick tubes (Lame, and
+Lekhnitskii for one that is 10 times stiffer around)."""
+import math
+
+from program import check, fewer, new_folder, solve
+
+TUBE = """mesh:
+  sector: {{axis: z, length: 0.5, radii: [1, 2], angle: 90, divisions: {{around: 8, radial: 6, axial: 2}}}}
+element: {{order: {order}}}
+materials:
+  - region: all
+    {moduli}
+    axes: {{cylindrical: {{origin: [0, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}}}
+constraints:
+  - {{on: {{boundary: [bottom, top]}}, slide: [0, 0, 1]}}
+  - {{on: {{boundary: start}}, slide: [1, 0, 0]}}
+  - {{on: {{boundary: finish}}, slide: [0, 1, 0]}}
+loads: [{{on: {{boundary: inner}}, pressure: 1}}]
+large_rotation: off
+watch:
+  hoop: {{stress: {{region: all}}, component: {around}, take: largest}}
+"""
+LAME = ("youngs_modulus: 1000\n    poissons_ratio: 0.3", 1.0, "largest_principal")
+ORTHOTROPIC = ("youngs_modulus: [10, 100, 10]\n    poissons_ratio: {nu12: 0.03, nu23: 0.3, nu13: 0.3}\n    "
+               "shear_modulus: {G12: 5, G23: 5, G31: 5}", 3.030287741, "22")
+PLACES = [(1.15 + 0.09 * k, 0.2 + (0.37 * k) % 1.2, 0.06 + (0.17 * k) % 0.4) for k in range(8)]  # r, angle, z
+folder = new_folder()
+
+
+def stresses(r, k):
+    """Radial and hoop, under a pressure of 1 within, of a tube of radii 1 and 2."""
+    scale = 0.5 ** (k + 1) / (1 - 0.25 ** k)
+    grows, falls = (r / 2) ** (k - 1), (2 / r) ** (k + 1)
+    return scale * (grows - falls), scale * k * (grows + falls)
+
+
+for moduli, k, around in LAME, ORTHOTROPIC:
+    for order in 1, 2:
+        text = TUBE.format(order=order, moduli=moduli, around=around)
+        for n, (r, angle, z) in enumerate(PLACES):
+            text += f"  p{n}: {{stress: {{at: [{r * math.cos(angle)}, {r * math.sin(angle)}, {z}]}}, component: yy}}\n"
+        first = None
+        for ranks in fewer((1, 2, 4)) if order == 2 else (1,):
+            done, report, _ = solve(text, ranks=ranks, folder=folder)
+            check(done.exit_code == 0, done.errors)
+            watched = report["watched"]
+            true = left = stated = 0.0
+            for n, (r, angle, _) in enumerate(PLACES):
+                radial, hoop = stresses(r, k)
+                missing = radial * math.sin(angle) ** 2 + hoop * math.cos(angle) ** 2 - watched[f"p{n}"]["value"]
+                true += abs(missing)
+                stated += abs(watched[f"p{n}"]["error"])
+                left += abs(missing - watched[f"p{n}"]["error"])
+            name = f"k {k}, order {order}, {ranks} ranks"
+            check(0.7 < stated / true < 1.4 and left < 0.45 * true, f"{name}: {true} missing, {stated} stated, {left} left")
+            missing = stresses(1, k)[1] - watched["hoop"]["value"]
+            check(0.5 < watched["hoop"]["error"] / missing < 1.5, f"{name}: {watched['hoop']}, missing {missing}")
+            errors = [watched[key]["error"] for key in watched]
+            first = first or errors
+            check(all(abs(a - b) < 0.1 * abs(a) + 0.02 * abs(first[0]) for a, b in zip(first, errors, strict=True)),
+                  f"{name}: {errors}, on one rank {first}")
