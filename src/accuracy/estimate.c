@@ -64,6 +64,7 @@ static OstStatus create(OstEstimate *estimate)
     OST_TRY(ost_operator_unit(problem, &stiffness->unit));
     estimate->enough = find_enough(problem);
     estimate->enough_of_adjoint = problem->mesh->nodes_per_tet == 4 ? enough_of_locked : estimate->enough;
+    estimate->enough_of_adjoint.by_left = 0;
     OstStatus status = ost_light_tets_create(problem, &estimate->complement, stiffness->unit, &stiffness->light);
     OST_THEN(OST_NEW(problem->ctx, &estimate->factor, OST_PER_BLOCK * (size_t)estimate->complement.count));
     return ost_agree(problem->ctx, status);
