@@ -12,21 +12,21 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second.
- * Gains of pairs of steps are taken to fall by no less than the ratio. On linear tets that lock they fall, and then
+/* Gains of pairs of steps are taken to fall by no less than the ratio. On linear tets that lock they fall, and then
  * stay for long: more is asked for there. */
-static const Enough enough_of_linear = {0.45, 0.2}, enough_of_locked = {0.25, 0.115}, enough_of_quadratic = {0.45, 1.0};
+static const Enough enough_of_linear = {0.45, 0.2, 1}, enough_of_locked = {0.25, 0.115, 0},
+                    enough_of_quadratic = {0.45, 1.0, 1};
 static const double largest_ratio = 0.75;
 
-/* The share where errors of other loads gave a start, and what one pair of steps may add to that to be the last. */
-static const double small_rest_of_start = 0.05, little_new = 0.03;
+/* What later steps add to |e|² is about this often what is left of r'B r on the functions: 2 to 5 times after three or
+ * four steps in seven of ten errors of `verify`, and to 11 in nine. It tells if r'B r falls, or is small beside |e|².
+ */
+static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to_come = 0.05;
 
-enum { most_pairs = 12 };
+/* What two steps may add, where errors of other loads gave a start, to be the last. */
+static const double little_new = 0.03;
 
-/* The later steps of an error add about as much to the first pair as those of another load's error did whose second
- * step was as large beside its first (within the factor): then they are taken to, unless it is too much of the whole.
- * Seen on beams and tubes, linear and quadratic: the size differs by up to 6 % from that of all steps. */
-static const double alike = 1.3, most_of_tail = 0.5;
+enum { least_steps = 3, most_steps = 24 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
 {
@@ -66,6 +66,7 @@ static OstStatus create(OstEstimate *estimate)
     OST_TRY(ost_operator_unit(problem, &stiffness->unit));
     estimate->enough = find_enough(problem);
     estimate->enough_of_adjoint = problem->mesh->nodes_per_tet == 4 ? enough_of_locked : estimate->enough;
+    estimate->enough_of_adjoint.by_left = 0;
     OstStatus status = ost_light_tets_create(problem, &estimate->complement, stiffness->unit, &stiffness->light);
     OST_THEN(OST_NEW(problem->ctx, &estimate->factor, OST_PER_BLOCK * (size_t)estimate->complement.count));
     return ost_agree(problem->ctx, status);
@@ -141,80 +142,57 @@ static double gains_to_come(double gain, double last)
     return gain * ratio / (1.0 - ratio);
 }
 
-static int is_alike(double a, double b)
-{
-    return a <= alike * b && b <= alike * a;
-}
-
-/* What steps after the first pair would add, as with an earlier load; NAN: none was alike. */
-static double learned_to_come(const Tails *tails, double second, double gain)
-{
-    for (int k = 0; k < tails->count; k++)
-        if (is_alike(second, tails->second[k]))
-            return (tails->whole[k] - 1.0) * gain;
-    return NAN;
-}
-
-static void learn(Tails *tails, double second, double whole)
-{
-    if (tails->count == MOST_TAILS || !(second > 0.0 && whole >= 1.0))
-        return;
-    tails->second[tails->count] = second;
-    tails->whole[tails->count++] = whole;
-}
-
 double ost_search_true_square(const Search *search, double square)
 {
     return search->steps.size * search->steps.size * search->estimate->stiffness.unit * square;
 }
 
-/* Pairs of steps until what is to come of |e|_A² is small; `start` is that of the part of e that was found before. */
-OstStatus ost_search_iterate(Search *search, double start, double *square)
+/* What is known after some steps; `sum` is |e|² so far, `pair` and `last` what the last two steps and the two before
+ * added. */
+typedef struct Progress {
+    int steps;
+    double start, sum, gain, pair, last, to_come;
+} Progress;
+
+static int is_enough(const Enough *enough, const Progress *now)
 {
-    OstContext *ctx = search->estimate->problem->ctx;
-    const OstEstimate *estimate = search->estimate;
-    const Enough *enough = search->of_adjoint ? &estimate->enough_of_adjoint : &estimate->enough;
-    double weight = 0.0, of_step = 0.0, gain = 0.0, sum = start, first = 0.0, second = 0.0;
-    Tails *tails = search->estimate->earlier && !search->of_adjoint ? &search->estimate->tails : NULL;
-    int learns = tails != NULL;
-    *square = start;
-    ost_steps_start(&search->steps);
-    for (int k = 1; k <= most_pairs && !search->steps.failed; k++) {
-        const double last = gain;
-        OST_TRY(ost_steps_pair(&search->steps, &weight, &of_step, &gain));
-        sum += gain;
-        double to_come = gains_to_come(gain, last);
-        if (k == 1) {
-            first = gain;
-            second = of_step / (gain - of_step);
-            const double learned = tails ? learned_to_come(tails, second, gain) : NAN;
-            learns &= isnan(learned);
-            search->is_short = learned <= most_of_tail * (sum + learned);
-            to_come = search->is_short ? learned : to_come;
-        }
-        *square = sum + to_come;
-        ost_log(ctx, OST_LOG_VERBOSE, "error estimate: pair %d of steps: %.6e, with %.6e to come", k,
-                sqrt(ost_search_true_square(search, sum)), sqrt(ost_search_true_square(search, to_come)));
-        const int falls =
-            to_come <= (start > 0.0 ? small_rest_of_start : enough->rest) * *square && gain <= enough->gain * sum;
-        const int known = start > 0.0 && gain <= little_new * sum;
-        if (!(gain > 0.0) || (k > 1 ? falls : known || search->is_short))
-            break;
-    }
-    if (learns && gain < first)
-        learn(tails, second, (*square - start) / first);
-    search->longer = sum > 0.0 ? *square / sum : 1.0;
-    return OST_SUCCESS;
+    const int n = now->steps, is_pair = n % 2 == 0;
+    const double by_gains = gains_to_come(now->pair, now->last), square = now->sum + now->to_come;
+    if (n < least_steps)
+        return is_pair && now->start > 0.0 && now->pair <= little_new * now->sum;
+    if (enough->by_left && (is_pair || n == least_steps) && now->to_come <= share_to_come * square &&
+        (now->to_come <= small_to_come * square || now->to_come <= per_left * falling * now->gain))
+        return 1;
+    return is_pair && (n > 4 || !enough->by_left) && now->pair <= enough->gain * now->sum &&
+           by_gains <= enough->rest * (now->sum + by_gains);
 }
 
-/* Makes up for the steps that were not taken. */
-static void lengthen(Search *search)
+OstStatus ost_search_iterate(Search *search, double start, double *square)
 {
-    for (size_t i = 0; i < search->steps.rows; i++)
-        search->steps.e.rows[i] *= search->longer;
-    for (size_t i = 0; i < OST_PER_FUNCTION * search->steps.functions; i++)
-        search->steps.e.functions[i] *= (float)search->longer;
-    search->longer = 1.0;
+    const OstEstimate *estimate = search->estimate;
+    const Enough *enough = search->of_adjoint ? &estimate->enough_of_adjoint : &estimate->enough;
+    OstSteps *steps = &search->steps;
+    Progress now = {.start = start, .sum = start};
+    ost_steps_start(steps);
+    while (now.steps < most_steps && !steps->failed) {
+        OST_TRY(ost_steps_next(steps));
+        OST_TRY(ost_steps_left(steps, &now.to_come));
+        now.to_come *= per_left;
+        now.gain = steps->gain;
+        now.sum += now.gain;
+        now.last = now.steps % 2 == 0 ? now.pair : now.last;
+        now.pair = now.steps % 2 == 0 ? now.gain : now.pair + now.gain;
+        now.steps++;
+        if (!enough->by_left)
+            now.to_come = fmax(now.to_come, gains_to_come(now.pair, now.last));
+        ost_log(estimate->problem->ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", now.steps,
+                sqrt(ost_search_true_square(search, now.sum)), sqrt(ost_search_true_square(search, now.to_come)));
+        if (!(now.gain > 0.0) || is_enough(enough, &now))
+            break;
+    }
+    *square = now.sum + now.to_come;
+    search->longer = now.sum > 0.0 ? *square / now.sum : 1.0;
+    return OST_SUCCESS;
 }
 
 /* Steps from the best combination of what was found for other loads. */
@@ -332,10 +310,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
     OST_THEN(has_earlier ? iterate_from(&search, &square) : ost_search_iterate(&search, 0.0, &square));
     if (status == OST_SUCCESS && !search.steps.failed) {
         square = ost_search_true_square(&search, square);
-        if (surplus->displacement || search.is_short)
+        if (surplus->displacement)
             status = ost_steps_settle(&search.steps);
-        if (search.is_short)
-            lengthen(&search);
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error, surplus->stress));

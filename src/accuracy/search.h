@@ -9,19 +9,12 @@
 /* The conjugate gradients of an estimate, on elements and complement: for accuracy/estimate.c, and for adjoint problems
  * (accuracy/adjoint.c). */
 
-/* Steps end when what is to come is below the first share of |e|_A², and what the last pair added below the second. */
+/* When steps end: what the last pair added is below a share of |e|², and so is what is to come if gains go on falling
+ * as they did. */
 typedef struct Enough {
     double rest, gain;
+    int by_left; /* does what is left on the functions tell before? */
 } Enough;
-
-enum { MOST_TAILS = 16 };
-
-/* Of errors for which more than one pair of steps was taken: the second step over the first, and what all steps add
- * over what the first pair does. */
-typedef struct Tails {
-    int count;
-    double second[MOST_TAILS], whole[MOST_TAILS];
-} Tails;
 
 typedef struct OstEstimate {
     const OstProblem *problem;
@@ -32,7 +25,6 @@ typedef struct OstEstimate {
     float *factor;                    /* of the functions' blocks, once they are known */
     int has_factor;                   /* of linear theory */
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
-    Tails tails;                      /* of them */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
 } OstEstimate;
 
@@ -42,7 +34,6 @@ typedef struct Search {
     double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
     double energy;  /* of this rank's tets, under u; NAN: not known */
     int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
-    int is_short;   /* were later steps taken to be as those of an earlier load? */
 } Search;
 
 /* Collective. Takes the stiffness to u. */
@@ -54,7 +45,7 @@ OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *sear
 /* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u);
 
-/* Collective. Pairs of steps until what is to come of |e|² is small; `start` is that of the part of e that was found
+/* Collective. Steps until what is to come of |e|² is small; `start` is that of the part of e that was found
  * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
 

@@ -61,6 +61,7 @@ void ost_steps_start(OstSteps *steps)
     memset(steps->p.functions, 0, 2 * OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
     ost_blocks_step(steps->functions, steps->factor, 0.0, steps->p.functions, steps->q.functions, steps->e.functions,
                     steps->r.functions, steps->products);
+    steps->weight = steps->gain = 0.0;
     steps->turns = 0;
 }
 
@@ -101,8 +102,8 @@ static OstStatus take_cycle(OstSteps *steps, int *found)
 }
 
 /* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle
- * takes as long as several products with A. On quadratic tets, where that is most of the time, the first pair of steps
- * is without. */
+ * takes as long as several products with A. On quadratic tets, where that is most of the time, the first two steps are
+ * without. */
 static OstStatus precondition(OstSteps *steps)
 {
     int found = 1;
@@ -115,28 +116,28 @@ static OstStatus precondition(OstSteps *steps)
     return OST_SUCCESS;
 }
 
-/* Goes along p: `gain` is what that adds to |e|², `weight` r'B r before. */
-static OstStatus go_on(OstSteps *steps, double weight, double *gain)
+/* Goes along p. */
+static OstStatus go_on(OstSteps *steps)
 {
     double curvature = 0.0;
     OST_TRY(multiply(steps));
     OST_TRY(ost_steps_dot(steps, &steps->p, &steps->q, &curvature));
     steps->failed = !(curvature > 0.0);
-    const double length = steps->failed ? 0.0 : weight / curvature;
+    const double length = steps->failed ? 0.0 : steps->weight / curvature;
     for (size_t i = 0; i < steps->rows; i++) {
         steps->e.rows[i] += length * steps->p.rows[i];
         steps->r.rows[i] -= length * steps->q.rows[i];
     }
     ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions, steps->e.functions,
                     steps->r.functions, steps->products);
-    *gain = length * weight;
+    steps->gain = length * steps->weight;
     return OST_SUCCESS;
 }
 
 /* The next direction, as if the preconditioner varied (Polak and Ribiere). */
-static OstStatus turn(OstSteps *steps, double gain, double *weight)
+static OstStatus turn(OstSteps *steps)
 {
-    const double before = *weight;
+    const double before = steps->weight;
     double sums[2] = {steps->products[0], steps->products[1]};
     OST_TRY(precondition(steps));
     for (size_t i = 0; i < steps->rows; i++) {
@@ -144,26 +145,26 @@ static OstStatus turn(OstSteps *steps, double gain, double *weight)
         sums[1] += steps->q.rows[i] * steps->z[i];
     }
     OST_TRY(ost_sum(steps->stiffness->problem->ctx, 2, sums));
-    const double share = before > 0.0 ? -gain * sums[1] / (before * before) : 0.0;
-    *weight = sums[0];
+    const double share = before > 0.0 ? -steps->gain * sums[1] / (before * before) : 0.0;
+    steps->weight = sums[0];
     for (size_t i = 0; i < steps->rows; i++)
         steps->p.rows[i] = steps->z[i] + share * steps->p.rows[i];
     ost_blocks_turn(steps->functions, steps->factor, steps->r.functions, share, steps->p.functions);
-    steps->failed |= !(*weight >= 0.0) || !isfinite(*weight);
+    steps->failed |= !(steps->weight >= 0.0) || !isfinite(steps->weight);
     return OST_SUCCESS;
 }
 
-OstStatus ost_steps_pair(OstSteps *steps, double *weight, double *of_step, double *gain)
+OstStatus ost_steps_next(OstSteps *steps)
 {
-    *gain = 0.0;
-    for (int k = 0; k < 2 && !steps->failed; k++) {
-        OST_TRY(turn(steps, *of_step, weight));
-        if (steps->failed || !(*weight > 0.0))
-            break;
-        OST_TRY(go_on(steps, *weight, of_step));
-        *gain += *of_step;
-    }
-    return OST_SUCCESS;
+    OST_TRY(turn(steps));
+    steps->gain = 0.0;
+    return steps->failed || !(steps->weight > 0.0) ? OST_SUCCESS : go_on(steps);
+}
+
+OstStatus ost_steps_left(const OstSteps *steps, double *left)
+{
+    *left = steps->products[0];
+    return ost_sum(steps->stiffness->problem->ctx, 1, left);
 }
 
 OstStatus ost_steps_settle(OstSteps *steps)

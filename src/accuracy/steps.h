@@ -19,6 +19,7 @@ typedef struct OstSteps {
     double *z;              /* of the rows alone */
     double *u, *force;      /* of nodes: a displacement, and forces on it */
     double products[2];     /* of the functions: r'B r, q'B r */
+    double weight, gain;    /* r'B r before the last step, and what the step added to |e|² */
     int turns;              /* directions found so far */
     int failed;             /* is the preconditioner, or the stiffness, not positive definite? */
 } OstSteps;
@@ -27,18 +28,21 @@ typedef struct OstSteps {
 OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps);
 void ost_steps_close(OstSteps *steps);
 
-/* Local. Room for 3 double-precision numbers a function, in place of p and q, before the first pair of steps. */
+/* Local. Room for 3 double-precision numbers a function, in place of p and q, before the first step. */
 double *ost_steps_spare(OstSteps *steps);
 
 /* Local. Takes forces on the functions (3 numbers each) over `divisor` for the residual's. */
 void ost_steps_take_residual(OstSteps *steps, const double *forces, double divisor);
 
-/* Local. Before the first pair of steps: r is the residual, e = 0. */
+/* Local. Before the first step: r is the residual, e = 0. */
 void ost_steps_start(OstSteps *steps);
 
-/* Collective. Two steps, of which at most one takes a multigrid cycle. `weight`: r'B r; `of_step`: what the last one
- * added to |e|², `gain`: what both did. */
-OstStatus ost_steps_pair(OstSteps *steps, double *weight, double *of_step, double *gain);
+/* Collective. A step, of which every other one takes a multigrid cycle; steps->gain is 0 where there is none to take.
+ */
+OstStatus ost_steps_next(OstSteps *steps);
+
+/* Collective. What is left of r'B r on the functions. */
+OstStatus ost_steps_left(const OstSteps *steps, double *left);
 
 /* Collective. What is left on the elements' own unknowns, once more: few steps have little of a displacement far from
  * where its error is made. */
