@@ -110,6 +110,36 @@ static OstStatus work_of(const Search *search, const double *motion, double *wor
     return ost_sum(search->problem->ctx, 1, work);
 }
 
+/* Statics alone gives the reaction where the supports allow what the rigid motion is beside the given one: the length
+ * of a vector from its three parts. */
+static OstStatus find_by_statics(const Search *whole, double t, const double *u, OstWatchedReaction *found)
+{
+    const int is_length = whole->watch->component == OST_WATCH_LENGTH;
+    double before[3] = {0.0}, exact[3] = {0.0};
+    int yes = 1;
+    for (int axis = 0; axis < 3 && yes; axis++) {
+        OstWatch part = *whole->watch;
+        Search search = {whole->problem, &part, {0}, whole->rigid, whole->imbalance};
+        if (!is_length && axis != part.component)
+            continue;
+        part.component = axis;
+        OstStatus status = ost_interest_create(search.problem, &part, t, u, &search.interest);
+        if (status == OST_SUCCESS)
+            find_rigid(&search);
+        OST_THEN(is_static(&search, &yes));
+        OST_THEN(work_of(&search, search.rigid, &exact[axis]));
+        before[axis] = search.interest.value;
+        exact[axis] += before[axis];
+        ost_interest_clear(&search.interest);
+        OST_TRY(status);
+    }
+    found->known = yes;
+    if (yes)
+        found->missing = is_length ? ost_norm3(exact) - ost_norm3(before)
+                                   : exact[whole->watch->component] - before[whole->watch->component];
+    return OST_SUCCESS;
+}
+
 /* The adjoint problem of an earlier load, or NULL. */
 static OstStatus look_up(const Search *search, const OstReactions *kept, OstAdjoint **adjoint)
 {
@@ -160,19 +190,13 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
     OST_THEN(find_imbalance(problem, t, u, &imbalance));
     for (int w = 0; w < c->watch_count && status == OST_SUCCESS; w++) {
         Search search = {problem, &c->watches[w], {0}, rigid, imbalance};
-        int yes = 0;
         if (search.watch->kind != OST_WATCH_REACTION)
             continue;
+        status = find_by_statics(&search, t, u, &found[w]);
+        if (status != OST_SUCCESS || found[w].known || problem->pressures)
+            continue;
         status = ost_interest_create(problem, search.watch, t, u, &search.interest);
-        if (status == OST_SUCCESS)
-            find_rigid(&search);
-        OST_THEN(is_static(&search, &yes));
-        if (status == OST_SUCCESS && yes) {
-            status = work_of(&search, rigid, &found[w].missing);
-            found[w].known = status == OST_SUCCESS;
-        } else if (status == OST_SUCCESS && !problem->pressures) {
-            status = find_by_adjoint(&search, estimate, solver, t, u, share, kept, &found[w]);
-        }
+        OST_THEN(find_by_adjoint(&search, estimate, solver, t, u, share, kept, &found[w]));
         ost_interest_clear(&search.interest);
     }
     OST_FREE(rigid);
