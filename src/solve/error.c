@@ -17,6 +17,9 @@ static const double small_error = 1e-6;
 /* One application of the preconditioner tells up to the condition too much; beyond this one that is not good enough. */
 static const double worst_condition = 100.0;
 
+/* The error is found to a part of its energy, of which forces may hold more than the displacement (docs/checks.md). */
+static const double forces_caution = 2.0;
+
 /* An error of the forces above this is looked at more closely where the displacement's is smaller. */
 static const double large_error = 1e-3;
 
@@ -258,6 +261,10 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     if (errors->known &&
         seem_lost(errors)) /* so rounding of the stiffness counts, which this displacement does not see */
         errors->displacement *= lost_caution;
+    if (!errors->corrected) {
+        errors->reaction *= forces_caution;
+        errors->stress *= forces_caution;
+    }
 done:
     OST_FREE(search.residual);
     OST_FREE(search.error);

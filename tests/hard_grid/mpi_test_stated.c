@@ -100,7 +100,21 @@ static void what_holds_no_digit_is_refused_for_rounding(void **state)
     ost_scene_destroy(&scene);
 }
 
+/* "checker, order 1, 0.999 of border, E3 x 1e+06, cylindrical": on four ranks its error, found to a tenth in the norm
+ * of the energy, was a quarter of that of the reactions. */
+static void what_forces_hold_more_of_is_stated(void **state)
+{
+    (void)state;
+    const HardPoint point = {
+        .shape = hard_find_shape("checker"), .order = 1, .poisson = 6, .ratio = 2, .stiff = 2, .axes = 1};
+    HardReading reading = {.outcome = HARD_OUTCOMES};
+    assert_success(hard_read(ctx, &point, &reading));
+    assert_int_equal(reading.status, OST_SUCCESS);
+    assert_true(reading.truth.off.known && hard_states_its_error(&reading));
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_forces_hold_more_of_is_stated),
     cmocka_unit_test(what_is_accepted_is_stated_rightly),
     cmocka_unit_test(a_slender_beam_keeps_its_digits),
     cmocka_unit_test(what_holds_no_digit_is_refused_for_rounding),
