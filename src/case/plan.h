@@ -56,6 +56,7 @@ typedef struct OstPlanMesh {
     const OstNames *regions;           /* NULL: one region of any name, as shapes have */
     const OstFileMaterials *materials; /* those that came with the file, or NULL */
     const OstEffect *load;             /* the effect of each load (ost_load_effects); NULL: by the case alone */
+    unsigned welded;                   /* what the partition kept on one rank each (mesh/mesh_data.h) */
 } OstPlanMesh;
 
 /* Local. The plan for a case on `ranks` ranks. */

@@ -4,6 +4,7 @@
 #include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "fields/output_field.h"
+#include "mesh/mesh_data.h"
 #include "orthostat/field.h"
 
 #include <math.h>
@@ -71,6 +72,10 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
                             .vertices = counts.vertices,
                             .edges = counts.edges,
                             .regions = mesh->regions ? mesh->regions->count : 1,
+                            .ranks = ranks,
+                            .stiff_welded = (mesh->welded & OST_WELDED_STIFF) != 0,
+                            .close_welded = (mesh->welded & OST_WELDED_CLOSE) != 0,
+                            .merge = c->merge,
                             .without = c->without};
     memset(plan, 0, sizeof *plan);
     plan->counts = counts;

@@ -6,6 +6,7 @@
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "mesh/mesh_data.h"
 #include "orthostat/solver.h"
 #include "output/summary.h"
 #include "problem/scene_parts.h"
@@ -21,11 +22,11 @@ static const struct argp explain_argp = {
     .parser = ost_cli_take,
     .args_doc = "CASE",
     .doc = "Say which effects a case calls for and why, how it will be solved, and how large the job is. Nothing is "
-           "assembled; the mesh is made only where it alone tells what a load acts on.",
+           "assembled; the mesh is made only where it alone tells what a load acts on, and on several ranks.",
 };
 
-/* Makes the mesh, because some load (on a box, or on a boundary of a file) acts on faces or on vertices, and only the
- * mesh tells which. */
+/* Makes the mesh, where it alone tells: if a load (on a box, or on a boundary of a file) acts on faces or on vertices;
+ * on several ranks, what the partition keeps whole. */
 static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
     OstMesh *mesh = NULL;
@@ -45,7 +46,8 @@ static OstStatus plan_with_mesh(OstContext *ctx, const OstCase *c, OstPlan *plan
                                .surface = surface,
                                .regions = &mesh->regions,
                                .materials = from_file,
-                               .load = load};
+                               .load = load,
+                               .welded = mesh->welded};
     ost_plan_make(c, &facts, ost_size(ctx), plan);
 done:
     OST_FREE(load);
@@ -90,7 +92,7 @@ static OstStatus plan_with_shape(OstContext *ctx, const OstCase *c, OstPlan *pla
 
 static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
 {
-    if (ost_loads_need_mesh(c))
+    if (ost_loads_need_mesh(c) || (ost_size(ctx) > 1 && c->mesh_kind != OST_MESH_FROM_PROGRAM))
         OST_TRY(plan_with_mesh(ctx, c, plan));
     else if (c->mesh_kind == OST_MESH_FILE)
         OST_TRY(plan_with_file(ctx, c, plan));

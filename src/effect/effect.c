@@ -71,6 +71,37 @@ static void several_materials(const OstEffectFacts *f, OstEffectState *state)
         off(state, "one material for the whole body");
 }
 
+/* What these three take is given back before the stiffness is made. */
+static void joined_vertices(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->merge > 0.0)
+        on(state, 0.0, "the case says so: vertices no farther apart than %g become one", f->merge);
+    else
+        off(state, "the case does not say merge");
+}
+
+static void whole(const OstEffectFacts *f, OstEffectState *state, int any, const char *why, const char *why_not)
+{
+    if (f->ranks < 2)
+        off(state, "one rank holds the whole body");
+    else if (any)
+        on(state, 0.0, "%s", why);
+    else
+        off(state, why_not);
+}
+
+static void close_nodes(const OstEffectFacts *f, OstEffectState *state)
+{
+    whole(f, state, f->close_welded, "edges of a tet differ more than fourfold: nodes that are close stay on one rank",
+          "no tet has edges that differ more than fourfold");
+}
+
+static void whole_inclusions(const OstEffectFacts *f, OstEffectState *state)
+{
+    whole(f, state, f->stiff_welded, "moduli differ by a ratio of more than 10,000: stiff inclusions stay on one rank",
+          "no tet is 10,000 times stiffer than another");
+}
+
 /* Does a constraint make nodes follow others? */
 static int has_links(const OstEffectFacts *f)
 {

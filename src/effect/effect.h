@@ -14,6 +14,9 @@
     X(OST_EFFECT_VARYING_AXES, "varying axes", varying_axes)                                  \
     X(OST_EFFECT_GRADIENT_AXES, "gradient axes", gradient_axes)                               \
     X(OST_EFFECT_REGIONS, "several materials", several_materials)                             \
+    X(OST_EFFECT_JOINED_VERTICES, "joined vertices", joined_vertices)                         \
+    X(OST_EFFECT_CLOSE_NODES, "close nodes", close_nodes)                                     \
+    X(OST_EFFECT_WHOLE_INCLUSIONS, "whole inclusions", whole_inclusions)                      \
     X(OST_EFFECT_MIXED, "mixed form", mixed)                                                  \
     X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
     X(OST_EFFECT_LARGE_ROTATION, "large rotation", large_rotation)                            \
@@ -80,9 +83,12 @@ typedef struct OstEffectFacts {
     int error_field; /* is the error of the answer among them? */
     int watches;     /* quantities of interest */
     int asks_error;  /* is the mesh to be refined until the answer has the accuracy asked for? */
-    double nodes, tets, regions; /* of the mesh */
-    double vertices, edges;      /* of its tets */
-    unsigned without;            /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    int ranks;
+    int stiff_welded, close_welded; /* are there stiff inclusions, close nodes that the partition keeps on one rank? */
+    double merge;                   /* vertices no farther apart are joined; 0: none */
+    double nodes, tets, regions;    /* of the mesh */
+    double vertices, edges;         /* of its tets */
+    unsigned without;               /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 
 /* An effect of one scene. `bytes`: estimated peak memory on one rank, without ghosts; 0 if it is negligible or not

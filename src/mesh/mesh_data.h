@@ -63,6 +63,9 @@ struct OstMeshChunk {
     int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
 };
 
+/* What the partition kept on one rank each (mesh/distribution/weld.h). */
+enum { OST_WELDED_STIFF = 1, OST_WELDED_CLOSE = 2 };
+
 /* One rank's part of the partitioned mesh: its owned nodes, every tet that touches one of them, and the other nodes of
  * those tets as ghosts. Local numbers: owned nodes first, then ghosts grouped by owner; owned tets first, then ghost
  * tets (the owner of a tet is the owner of its node with the lowest global number). Boundaries have every item that
@@ -88,6 +91,7 @@ struct OstMesh {
     OstBoundary *boundaries;
     struct OstHalo *halo;       /* over nodes */
     int straighten;             /* as in the chunk */
+    unsigned welded;            /* bits of the above, the same on all ranks; a refined mesh has those of the first */
     struct OstSurface *surface; /* once it was asked for (ost_mesh_surface); or NULL */
 };
 

@@ -231,7 +231,8 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
                          .quadratic = mesh->nodes_per_tet == 10,
                          .regions = &mesh->regions,
                          .materials = from_file,
-                         .load = scene->load_effect};
+                         .load = scene->load_effect,
+                         .welded = mesh->welded};
     if (facts.quadratic && !(ost_plan_shape_surface(c) > 0.0))
         OST_TRY(ost_mesh_surface_faces(mesh, &facts.surface));
     ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);

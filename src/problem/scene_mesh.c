@@ -58,7 +58,10 @@ static OstStatus merge_vertices(const OstCase *c, OstMeshChunk *chunk)
     OstGlobal merged = 0;
     if (!(c->merge > 0.0))
         return OST_SUCCESS;
-    OST_TRY(ost_chunk_merge(chunk, c->merge, &merged));
+    ost_ledger_enter(c->ctx, OST_EFFECT_JOINED_VERTICES);
+    const OstStatus status = ost_chunk_merge(chunk, c->merge, &merged);
+    ost_ledger_leave(c->ctx);
+    OST_TRY(status);
     if (merged == 0)
         ost_warn(c->ctx, "%s: merge: %g joined no vertices", c->path, c->merge);
     else
@@ -164,6 +167,7 @@ OstShapeSurface ost_scene_surface(const OstCase *c)
 
 static void replace(OstMesh **mesh, OstMesh **made)
 {
+    (*made)->welded = (*mesh)->welded;
     ost_mesh_destroy(mesh);
     *mesh = *made;
     *made = NULL;

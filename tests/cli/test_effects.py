@@ -60,10 +60,10 @@ CASES = {
 }
 
 
-def compare(name, on, folder):
-    explained = run("explain", name, "--json", folder=folder)
+def compare(name, on, folder, ranks=1):
+    explained = run("explain", name, "--json", folder=folder, ranks=ranks)
     check(explained.exit_code == 0, f"{name}: {explained.errors}")
-    solved = run("solve", name, "--json", "-", folder=folder)
+    solved = run("solve", name, "--json", "-", folder=folder, ranks=ranks)
     check(solved.exit_code == 0, f"{name}: {solved.errors}")
     said, done = json.loads(explained.output), json.loads(solved.output)
     accounts = {a["name"]: a for a in done["ledger"]["accounts"]}
@@ -90,3 +90,17 @@ for title, (text, on) in CASES.items():
     compare(f"{title}.yaml", on, folder)
 for name in ("block/gravity", "block/pressure", "block/sliding", "beam/cantilever", "tube/gradient"):
     compare(os.path.join(SOURCE, "cases", name + ".yaml"), [], folder)
+
+# What the partition keeps on one rank: `explain` on as many ranks looks at the mesh for it.
+WHOLE = {
+    "flat": (BLOCK.replace("[4, 2, 2]", "[4, 2, 20]") + STEEL, "close nodes"),
+    "stiff": ("mesh: {file: two.veg, refine: 1}\nmaterials: [{region: SOFT, youngs_modulus: 1, poissons_ratio: 0.3}]\n",
+              "whole inclusions"),
+    "neither": (BLOCK + STEEL, None),
+}
+for title, (text, effect) in WHOLE.items():
+    held = HELD + force("{boundary: xmax}") if "block" in text else FIXED + force("{vertices: [5]}")
+    with open(os.path.join(folder, f"{title}.yaml"), "w") as stream:
+        stream.write(text + held)
+    compare(f"{title}.yaml", [effect] if effect else [], folder, ranks=2)
+    compare(f"{title}.yaml", [], folder)

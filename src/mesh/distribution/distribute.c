@@ -60,13 +60,13 @@ static OstStatus take_all(OstMeshChunk *chunk, OstMesh *mesh)
     return ost_halo_create(ctx, mesh->owned_nodes, 0, 0, NULL, &mesh->halo);
 }
 
-static OstStatus weld(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part)
+static OstStatus weld(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part, int *any)
 {
     double *stiffness = NULL;
     OstStatus status = OST_NEW(chunk->ctx, &stiffness, chunk->tet_count);
     OST_THEN(tets->stiffness(tets->data, chunk, stiffness));
     status = ost_agree(chunk->ctx, status);
-    OST_THEN(ost_parts_weld_stiff(chunk, slab, stiffness, part));
+    OST_THEN(ost_parts_weld_stiff(chunk, slab, stiffness, part, any));
     OST_FREE(stiffness);
     return status;
 }
@@ -76,7 +76,7 @@ static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tet
     OstContext *ctx = chunk->ctx;
     Slab *slab = NULL;
     NodeMetric *metric = NULL;
-    int *part = NULL;
+    int *part = NULL, has_close = 0, has_stiff = 0;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
     if (tets && tets->fill)
@@ -84,9 +84,10 @@ static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tet
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
     OST_TRY_DONE(ost_partition(slab, metric, part));
     OST_FREE(metric);
-    OST_TRY_DONE(ost_parts_weld_close(chunk, slab, part));
+    OST_TRY_DONE(ost_parts_weld_close(chunk, slab, part, &has_close));
     if (tets && tets->stiffness)
-        OST_TRY_DONE(weld(chunk, slab, tets, part));
+        OST_TRY_DONE(weld(chunk, slab, tets, part, &has_stiff));
+    mesh->welded = (has_close ? OST_WELDED_CLOSE : 0U) | (has_stiff ? OST_WELDED_STIFF : 0U);
     take_names(chunk, mesh);
     OST_TRY_DONE(ost_mesh_redistribute(chunk, slab, part, mesh));
 done:

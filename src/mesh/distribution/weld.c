@@ -7,6 +7,7 @@
 #include "core/parallel/reduce.h"
 #include "core/parallel/rendezvous.h"
 #include "core/parallel/route.h"
+#include "effect/effect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -432,26 +433,9 @@ done:
     return status;
 }
 
-OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part)
-{
-    double *position = NULL;
-    int any = 0;
-    OstStatus status = find_positions(chunk, slab, &position);
-    if (status == OST_SUCCESS)
-        status = has_flat_tets(chunk, slab, position, &any);
-    if (status == OST_SUCCESS && any)
-        status = weld_close(chunk, slab, position, part);
-    OST_FREE(position);
-    return status;
-}
-
-OstStatus ost_parts_weld_stiff(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part)
+static OstStatus weld_stiff(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part)
 {
     Welding w;
-    int uneven_body = 0;
-    OST_TRY(is_uneven(chunk, stiffness, &uneven_body));
-    if (!uneven_body)
-        return OST_SUCCESS;
     OstStatus status = create_welding(chunk, slab, &w);
     OST_TRY_DONE(ost_agree(chunk->ctx, status));
     OST_TRY_DONE(sum_stiffness(&w, stiffness));
@@ -459,5 +443,31 @@ OstStatus ost_parts_weld_stiff(const OstMeshChunk *chunk, const Slab *slab, cons
     status = weld_sets(&w, part);
 done:
     destroy_welding(&w);
+    return status;
+}
+
+OstStatus ost_parts_weld_close(const OstMeshChunk *chunk, const Slab *slab, int *part, int *any)
+{
+    double *position = NULL;
+    OstStatus status = find_positions(chunk, slab, &position);
+    OST_THEN(has_flat_tets(chunk, slab, position, any));
+    if (status == OST_SUCCESS && *any) {
+        ost_ledger_enter(chunk->ctx, OST_EFFECT_CLOSE_NODES);
+        status = weld_close(chunk, slab, position, part);
+        ost_ledger_leave(chunk->ctx);
+    }
+    OST_FREE(position);
+    return status;
+}
+
+OstStatus ost_parts_weld_stiff(const OstMeshChunk *chunk, const Slab *slab, const double *stiffness, int *part,
+                               int *any)
+{
+    OST_TRY(is_uneven(chunk, stiffness, any));
+    if (!*any)
+        return OST_SUCCESS;
+    ost_ledger_enter(chunk->ctx, OST_EFFECT_WHOLE_INCLUSIONS);
+    const OstStatus status = weld_stiff(chunk, slab, stiffness, part);
+    ost_ledger_leave(chunk->ctx);
     return status;
 }
