@@ -162,7 +162,98 @@ static void the_largest_eigenvalue_of_a_chain_is_found(void **state)
     ost_halo_destroy(&chain.halo);
 }
 
+/* --- 6 × 6 blocks: a band on each rank --- */
+
+enum { BAND = 400, REACH = 4, BLOCK = 36, TURNS = 30 };
+
+static void set_block(OstLocal row, OstLocal column, double *to)
+{
+    for (int r = 0; r < 6; r++)
+        for (int c = 0; c < 6; c++)
+            to[6 * r + c] =
+                row <= column ? sin(1.0 + row + 7 * column + 6 * r + c) : sin(1.0 + column + 7 * row + 6 * c + r);
+    for (int r = 0; r < 6 && row == column; r++)
+        for (int c = 0; c < r; c++)
+            to[6 * r + c] = to[6 * c + r];
+}
+
+static OstDoubleMatrix *create_band(void)
+{
+    OstDoubleMatrix *band = NULL;
+    assert_success(OST_NEW(ctx, &band, 1));
+    *band = (OstDoubleMatrix){.ctx = ctx, .size = 6, .rows = BAND, .columns = BAND};
+    assert_success(OST_NEW(ctx, &band->row_start, BAND + 1));
+    assert_success(OST_NEW(ctx, &band->column, BAND * (2 * REACH + 1)));
+    assert_success(OST_NEW(ctx, &band->value, BLOCK * BAND * (2 * REACH + 1)));
+    OstLocal end = 0;
+    for (OstLocal i = 0; i < BAND; i++) {
+        for (OstLocal j = i - REACH; j <= i + REACH; j++) {
+            if (j < 0 || j >= BAND)
+                continue;
+            set_block(i, j, band->value + BLOCK * (size_t)end);
+            band->column[end++] = j;
+        }
+        band->row_start[i + 1] = end;
+    }
+    assert_success(ost_halo_create(ctx, BAND, (OstGlobal)BAND * ost_rank(ctx), 0, NULL, &band->halo));
+    return band;
+}
+
+/* As the product works, but number by number. */
+static void multiply_plainly(const OstLevelMatrix *matrix, const double *x, double *y)
+{
+    for (OstLocal i = 0; i < matrix->rows; i++) {
+        for (int r = 0; r < 6; r++)
+            for (int c = 0; c < 6; c++)
+                y[6 * i + r] += (double)matrix->diagonal[BLOCK * i + 6 * r + c] * x[6 * i + c];
+        for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+            const OstLocal j = matrix->column[k];
+            for (int r = 0; r < 6; r++)
+                for (int c = 0; c < 6; c++) {
+                    const double a = (double)matrix->value[BLOCK * k + 6 * r + c];
+                    y[6 * i + r] += a * x[6 * j + c];
+                    y[6 * j + c] += a * x[6 * i + r];
+                }
+        }
+    }
+}
+
+/* Blocks of six stay in registers: 0.21 of the time of plain loops; 0.58 where the compiler moves them to memory. */
+#if defined(__OPTIMIZE__) && defined(__AVX__) && !defined(__SANITIZE_ADDRESS__)
+static const double most_time = 0.4;
+#else
+static const double most_time = HUGE_VAL;
+#endif
+
+static void blocks_of_six_multiply_faster_than_plain_loops_do(void **state)
+{
+    (void)state;
+    OstDoubleMatrix *band = create_band();
+    OstLevelMatrix *level = NULL;
+    assert_success(ost_level_matrix_create(band, &level));
+    double *x = noise(level), *y = level_vector(level), *expected = level_vector(level);
+    double plain = HUGE_VAL, ours = HUGE_VAL;
+    for (int turn = 0; turn < TURNS; turn++) {
+        const double start = ost_seconds();
+        multiply_plainly(level, x, expected);
+        const double between = ost_seconds();
+        ost_level_matrix_add(level, 1.0, x, y);
+        ours = fmin(ours, ost_seconds() - between);
+        plain = fmin(plain, between - start);
+    }
+    for (size_t i = 0; i < ost_level_unknowns(level); i++)
+        assert_close(y[i], expected[i], 1e-9);
+    printf("6 x 6 blocks: %.3g of plain loops\n", ours / plain);
+    assert_true(ours < most_time * plain);
+    OST_FREE(x);
+    OST_FREE(y);
+    OST_FREE(expected);
+    ost_level_matrix_destroy(&level);
+    ost_double_matrix_destroy(&band);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(blocks_of_six_multiply_faster_than_plain_loops_do),
     cmocka_unit_test(half_a_matrix_multiplies_as_the_whole_does),
     cmocka_unit_test(one_block_of_any_size_inverts_its_nodes),
     cmocka_unit_test(the_largest_eigenvalue_of_a_chain_is_found),

@@ -23,7 +23,7 @@ typedef struct Product {
     double *p_column;     /* one column of the block's rows of P */
     /* the rows of A P of the current block: */
     OstLocal *place, *column, count; /* place: of each coarse node among the `count` columns, or -1 */
-    OstDouble8 *rows;                /* column by column, each `height` high */
+    OstRow6 *rows;                   /* column by column, each `height` high */
     size_t height, room;             /* room: of `rows` */
 } Product;
 
@@ -165,12 +165,12 @@ OST_UNROLLED void take_column(Product *product, int size, OstLocal b, OstLocal k
 }
 
 /* block += pᵀ × (a column of A P) */
-OST_UNROLLED void add_product(size_t height, const double *p, const OstDouble8 *column, double *block)
+OST_UNROLLED void add_product(size_t height, const double *p, const OstRow6 *column, double *block)
 {
-    OstDouble8 sum[WIDTH] = {{0}};
+    OstRow6 sum[WIDTH] = {{{0}, {0}}};
     for (size_t r = 0; r < height; r++)
         for (int c = 0; c < WIDTH; c++)
-            sum[c] += p[WIDTH * r + (size_t)c] * column[r];
+            ost_add_scaled_row6(p[WIDTH * r + (size_t)c], &column[r], &sum[c]);
     for (int c = 0; c < WIDTH; c++)
         ost_add_row6(&sum[c], block + WIDTH * c);
 }

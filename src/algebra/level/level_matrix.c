@@ -162,26 +162,31 @@ OST_KERNEL static void add6(const OstLevelMatrix *matrix, const float *diagonal,
     for (OstLocal i = 0; i < matrix->rows; i++) {
         const double *own = x + 6 * (size_t)i;
         const float *a = diagonal + 36 * (size_t)i;
-        OstDouble8 sum[6], v = OST_LOAD8(own);
+        OstRow6 sum[6] = {{{0}, {0}}}, row, v;
         OstLocal k = matrix->row_start[i];
-        for (int r = 0; r < 6; r++)
-            sum[r] = OST_LOAD_FLOAT8(a + 6 * r) * v;
+        ost_load_row6(own, &v);
+        for (int r = 0; r < 6; r++) {
+            ost_load_float_row6(a + 6 * r, &row);
+            ost_add_product_row6(&row, &v, &sum[r]);
+        }
         a = value + 36 * (size_t)k;
         for (; k < matrix->own_end[i]; k++, a += 36) {
             const size_t j = 6 * (size_t)matrix->column[k];
-            OstDouble8 mirrored = {0};
-            v = OST_LOAD8(x + j);
+            OstRow6 mirrored = {{0}, {0}};
+            ost_load_row6(x + j, &v);
             for (int r = 0; r < 6; r++) {
-                const OstDouble8 row = OST_LOAD_FLOAT8(a + 6 * r);
-                sum[r] += row * v;
-                mirrored += row * (scale * own[r]);
+                ost_load_float_row6(a + 6 * r, &row);
+                ost_add_product_row6(&row, &v, &sum[r]);
+                ost_add_scaled_row6(scale * own[r], &row, &mirrored);
             }
             ost_add_row6(&mirrored, y + j);
         }
         for (; k < matrix->row_start[i + 1]; k++, a += 36) {
-            v = OST_LOAD8(x + 6 * (size_t)matrix->column[k]);
-            for (int r = 0; r < 6; r++)
-                sum[r] += OST_LOAD_FLOAT8(a + 6 * r) * v;
+            ost_load_row6(x + 6 * (size_t)matrix->column[k], &v);
+            for (int r = 0; r < 6; r++) {
+                ost_load_float_row6(a + 6 * r, &row);
+                ost_add_product_row6(&row, &v, &sum[r]);
+            }
         }
         for (int r = 0; r < 6; r++)
             y[6 * (size_t)i + (size_t)r] += scale * ost_sum_row6(&sum[r]);

@@ -24,12 +24,15 @@ OST_UNROLLED void add_rows(const OstProlongator *p, const float *value, int heig
                            double *restrict x)
 {
     for (OstLocal i = 0; i < p->rows; i++) {
-        OstDouble8 sum[OST_MODES] = {{0}};
+        OstRow6 sum[OST_MODES] = {{{0}, {0}}};
         for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
             const float *a = value + (size_t)(height * OST_MODES) * (size_t)k;
-            const OstDouble8 v = OST_LOAD8(c + OST_MODES * (size_t)p->column[k]);
-            for (int r = 0; r < height; r++)
-                sum[r] += OST_LOAD_FLOAT8(a + OST_MODES * r) * v;
+            OstRow6 row, v;
+            ost_load_row6(c + OST_MODES * (size_t)p->column[k], &v);
+            for (int r = 0; r < height; r++) {
+                ost_load_float_row6(a + OST_MODES * r, &row);
+                ost_add_product_row6(&row, &v, &sum[r]);
+            }
         }
         for (int r = 0; r < height; r++)
             x[(size_t)height * (size_t)i + (size_t)r] += ost_sum_row6(&sum[r]);
@@ -43,9 +46,11 @@ OST_UNROLLED void restrict_rows(const OstProlongator *p, const float *value, int
         const double *v = x + (size_t)height * (size_t)i;
         for (OstLocal k = p->row_start[i]; k < p->row_start[i + 1]; k++) {
             const float *a = value + (size_t)(height * OST_MODES) * (size_t)k;
-            OstDouble8 sum = {0};
-            for (int r = 0; r < height; r++)
-                sum += OST_LOAD_FLOAT8(a + OST_MODES * r) * v[r];
+            OstRow6 row, sum = {{0}, {0}};
+            for (int r = 0; r < height; r++) {
+                ost_load_float_row6(a + OST_MODES * r, &row);
+                ost_add_scaled_row6(v[r], &row, &sum);
+            }
             ost_add_row6(&sum, c + OST_MODES * (size_t)p->column[k]);
         }
     }

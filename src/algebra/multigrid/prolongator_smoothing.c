@@ -19,7 +19,7 @@ typedef struct Smoothing {
     OstLocal *column;                     /* fine columns: the coarse column of each node, or -1 */
     OstLocal *block_start, *block_column; /* of each block: the coarse columns of its rows, ascending */
     OstLocal *place;                      /* coarse columns: the place of each in the current block, or -1 */
-    OstDouble8 *sum;                      /* the block's rows of A T, node by node, column by column */
+    OstRow6 *sum;                         /* the block's rows of A T, node by node, column by column */
 } Smoothing;
 
 static void destroy_smoothing(Smoothing *s)
@@ -122,7 +122,7 @@ OST_UNROLLED void sum_block(Smoothing *s, int size, OstLocal b)
         s->place[s->block_column[start + c]] = c;
     for (OstLocal m = 0; m < nodes; m++) {
         const OstLocal i = s->blocks->node[first + m];
-        OstDouble8 *row = s->sum + (size_t)m * (size_t)count * (size_t)size;
+        OstRow6 *row = s->sum + (size_t)m * (size_t)count * (size_t)size;
         for (OstLocal k = a->row_start[i]; k < a->row_start[i + 1]; k++) {
             const OstLocal column = s->column[a->column[k]];
             if (column >= 0)
@@ -149,13 +149,17 @@ OST_UNROLLED void smooth_block(Smoothing *s, int size, OstLocal b)
         float *value = p->value + (size_t)(size * OST_MODES) * (size_t)p->row_start[i] + (size_t)(OST_MODES * r);
         const float *tentative = s->tentative->block + (size_t)(size * OST_MODES) * (size_t)i + OST_MODES * r;
         for (OstLocal c = 0; c < count; c++, value += size * OST_MODES) {
-            OstDouble8 total = {0};
+            OstRow6 total = {{0}, {0}};
             for (int k = 0; k < side; k++)
-                total += (double)inverse[row * side + k] *
-                         s->sum[((size_t)(k / size) * (size_t)count + (size_t)c) * (size_t)size + (size_t)(k % size)];
+                ost_add_scaled_row6(
+                    (double)inverse[row * side + k],
+                    &s->sum[((size_t)(k / size) * (size_t)count + (size_t)c) * (size_t)size + (size_t)(k % size)],
+                    &total);
             const int own = s->block_column[start + c] == s->column[i];
+            double smoothed[OST_MODES] = {0};
+            ost_add_row6(&total, smoothed);
             for (int mode = 0; mode < OST_MODES; mode++)
-                value[mode] = (float)((own ? (double)tentative[mode] : 0.0) - s->omega * total[mode]);
+                value[mode] = (float)((own ? (double)tentative[mode] : 0.0) - s->omega * smoothed[mode]);
         }
     }
 }
