@@ -88,13 +88,15 @@ static OstStatus go_to(OstNewton *newton, double length, Point *point)
 }
 
 /* Twice as far, as long as the energy falls there nearly as steeply as at first: so it does along a direction of
- * negative curvature, of which the definite stiffness knows nothing. */
+ * negative curvature, of which the definite stiffness knows nothing. With pressures the slope alone tells, as values
+ * hold the work of pressures on volume that a long step changes, and the next one gives back. */
 static OstStatus extend(OstNewton *newton, const Point *start, Point *point)
 {
     for (int times = 0; times < MOST_EXTENSIONS && point->slope < steep * start->slope; times++) {
         Point next;
         OST_TRY(go_to(newton, 2.0 * point->length, &next));
-        if (!(next.value < point->value))
+        const int falls = ost_newton_is_mixed(newton) ? next.slope < steep * start->slope : next.value < point->value;
+        if (!falls)
             return go_to(newton, point->length, point);
         *point = next;
     }
