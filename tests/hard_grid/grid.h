@@ -35,6 +35,7 @@ typedef struct HardPoint {
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
     HardFlaw flaw;
     OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
+    int iterated;   /* without a factorisation; one at size always is */
 } HardPoint;
 
 typedef enum {
@@ -98,6 +99,7 @@ typedef struct HardRun {
     int quick;               /* a sample in which every value of every parameter occurs */
     int mixed;               /* the points of the mixed form, and no others */
     OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
+    int iterated;            /* solved without a factorisation */
     int all;                 /* with a size: all points, and not the spread of six a shape and order */
 } HardRun;
 

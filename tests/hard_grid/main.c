@@ -31,6 +31,7 @@ static const struct argp_option options[] = {
      "Bodies of about N unknowns (1000 to 1e8), six of each shape and order, solved without a factorisation, judged by "
      "their residual in 64 bits, and up to 10,000 unknowns by a direct solution",
      0},
+    {"iterated", 'I', 0, 0, "Leave the solver no factorisation but that of the coarsest level", 0},
     {"all", 'a', 0, 0, "With --size: all points and not six of each shape and order", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
     {0},
@@ -66,6 +67,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         return 0;
     case 'a':
         arguments->run.all = 1;
+        return 0;
+    case 'I':
+        arguments->run.iterated = 1;
         return 0;
     case 'M':
         arguments->run.mixed = 1;

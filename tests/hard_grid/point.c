@@ -62,7 +62,7 @@ typedef struct PointList {
     const int *wanted;
     int stride;
     int seen;
-    int mixed;
+    int mixed, iterated;
     OstGlobal size;
     int spread; /* only the spread of each shape and order? */
 } PointList;
@@ -93,6 +93,7 @@ static void add(PointList *list, HardPoint point)
     if (!taken || !list->wanted[point.shape])
         return;
     point.size = list->size;
+    point.iterated = list->iterated;
     if (list->point)
         list->point[list->count] = point;
     list->count++;
@@ -145,6 +146,7 @@ OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint
                                 : run->mixed ? QUICK_MIXED
                                              : QUICK_STRIDE,
                       .mixed = run->mixed,
+                      .iterated = run->iterated,
                       .size = run->size,
                       .spread = run->size > 0 && !run->all};
     add_all(&list);

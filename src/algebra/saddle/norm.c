@@ -8,11 +8,10 @@
 
 #include <math.h>
 
-OstStatus ost_saddle_squares(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
+OstStatus ost_saddle_squares(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q,
                              double *force, double squares[OST_SADDLE_SQUARES])
 {
     const size_t n = 3 * (size_t)coupling->unknowns;
-    OST_TRY(ost_coupling_schur_solve(coupling, r_p, q, work));
     OST_TRY(ost_coupling_transpose(coupling, q, force));
     squares[OST_SADDLE_FORCE] = ost_dot(n, r_u, r_u) + ost_dot(n, force, force);
     squares[OST_SADDLE_VOLUME] = ost_dot((size_t)coupling->rows, r_p, q);
@@ -37,7 +36,8 @@ OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle,
     const size_t n = 3 * (size_t)coupling->unknowns, m = (size_t)coupling->rows, mg = (size_t)coupling->columns;
     double *memory = NULL, squares[OST_SADDLE_SQUARES], mean;
     OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &memory, n + mg + 3 * m)));
-    OstStatus status = ost_saddle_squares(coupling, f, saddle->g, memory + n, memory + n + mg, memory, squares);
+    OstStatus status = ost_coupling_schur_solve(coupling, saddle->g, memory + n, memory + n + mg);
+    OST_THEN(ost_saddle_squares(coupling, f, saddle->g, memory + n, memory, squares));
     OST_THEN(mean_diagonal(matrix, &mean));
     if (status == OST_SUCCESS)
         *size = sqrt(squares[OST_SADDLE_FORCE] + mean * squares[OST_SADDLE_VOLUME]);

@@ -25,8 +25,8 @@ OstStatus ost_saddle_goal(const OstBlockMatrix *matrix, const OstSaddle *saddle,
 /* Squares of a residual: of its forces, and of the energy of its error of volume. */
 enum { OST_SADDLE_FORCE, OST_SADDLE_VOLUME, OST_SADDLE_SQUARES };
 
-/* Collective. `q` (with ghosts) and `work` (3 × rows) are work space of pressures, `force` of displacements. */
-OstStatus ost_saddle_squares(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q, double *work,
+/* Collective. q = S^-1 r_p, with room for ghosts; `force` is work space of displacements. */
+OstStatus ost_saddle_squares(const OstCoupling *coupling, const double *r_u, const double *r_p, double *q,
                              double *force, double squares[OST_SADDLE_SQUARES]);
 
 #endif

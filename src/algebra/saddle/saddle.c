@@ -5,6 +5,7 @@
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
+#include "algebra/saddle/means.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -56,6 +57,7 @@ typedef struct Run {
     double *wide, *scaled;     /* z with ghosts; work of the preconditioner */
     double *q;                 /* pressures: work, with ghosts */
     double *work;              /* of ost_coupling_schur_solve */
+    OstSoftMeans *means;       /* beside it, or NULL */
     double tau;
     double size; /* of r.u when z.u was last computed */
     double weight;
@@ -106,8 +108,15 @@ static Run run_of(const OstCgSystem *system, const OstPreconditioner *preconditi
 
 static void destroy(Run *run)
 {
+    ost_soft_means_destroy(&run->means);
     OST_FREE(run->memory);
     ost_lanczos_destroy(&run->lanczos);
+}
+
+static OstStatus schur_solve(const Run *run, const double *r, double *z)
+{
+    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, r, z, run->work));
+    return run->means ? ost_soft_means_add(run->means, r, z) : OST_SUCCESS;
 }
 
 /* --- norms --- */
@@ -116,7 +125,8 @@ static void destroy(Run *run)
 static OstStatus find_norm(Run *run, double *norm)
 {
     double squares[OST_SADDLE_SQUARES];
-    OST_TRY(ost_saddle_squares(run->saddle->coupling, run->r.u, run->r.p, run->q, run->work, run->w, squares));
+    OST_TRY(schur_solve(run, run->r.p, run->q));
+    OST_TRY(ost_saddle_squares(run->saddle->coupling, run->r.u, run->r.p, run->q, run->w, squares));
     *norm = sqrt(squares[OST_SADDLE_FORCE] +
                  run->goal->start * run->goal->start / run->energy * squares[OST_SADDLE_VOLUME]);
     return OST_SUCCESS;
@@ -127,7 +137,7 @@ static OstStatus find_energy(Run *run)
 {
     double sums[2];
     OST_TRY(ost_precondition(run->system, run->preconditioner, run->f, run->scaled, run->w));
-    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->saddle->g, run->q, run->work));
+    OST_TRY(schur_solve(run, run->saddle->g, run->q));
     sums[0] = ost_dot(run->n, run->f, run->w);
     sums[1] = ost_dot(run->m, run->saddle->g, run->q);
     OST_TRY(ost_sum(run->ctx, 2, sums));
@@ -193,7 +203,7 @@ static OstStatus complete(Run *run, int *again)
     }
     for (size_t i = 0; i < run->m; i++)
         run->q[i] = run->bz[i] - run->r.p[i];
-    OST_TRY(ost_coupling_schur_solve(coupling, run->q, run->z.p, run->work));
+    OST_TRY(schur_solve(run, run->q, run->z.p));
     sums[SUM_P] = ost_dot(run->m, run->z.p, run->q);
     OST_TRY(ost_sum(run->ctx, 1, &sums[SUM_P]));
     run->weight = sums[SUM_AZ] - sums[SUM_RZ] + sums[SUM_P];
@@ -395,7 +405,7 @@ static OstStatus run_passes(Run *run)
 /* The norm of the pressure that an error of volume r is worth, in that of the energy: r·S^-1 r. */
 static OstStatus worth(Run *run, const double *r, double *norm)
 {
-    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, r, run->q, run->work));
+    OST_TRY(schur_solve(run, r, run->q));
     double square = ost_dot(run->m, run->q, r);
     OST_TRY(ost_sum(run->ctx, 1, &square));
     *norm = sqrt(square);
@@ -548,6 +558,7 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
         return OST_SUCCESS;
     OstStatus status;
     OST_TRY_DONE(create(&run));
+    OST_TRY_DONE(ost_soft_means_create(system, preconditioner, saddle->coupling, &run.means));
     OST_TRY_DONE(run_passes(&run));
     OST_TRY_DONE(report_error(&run, report));
     if (!goal->crude && !is_digit_left(report))
