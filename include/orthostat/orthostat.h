@@ -37,6 +37,7 @@
 #include "orthostat/scene.h"
 #include "orthostat/solver.h"
 #include "orthostat/status.h"
+#include "orthostat/steps_file.h"
 #include "orthostat/time_table.h"
 #include "orthostat/watch.h"
 

@@ -5,6 +5,7 @@
 #include "orthostat/material.h"
 #include "orthostat/output_field.h"
 #include "orthostat/solver.h"
+#include "orthostat/steps_file.h"
 
 OST_API_BEGIN
 
@@ -148,6 +149,11 @@ typedef struct OstWatchedValue {
  * field data `refused`, the reasons in /Orthostat/Objections. Raises OST_FILE_FAILED, OST_INVALID_USAGE for another
  * ending. */
 OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path);
+
+/* Collective. The same as one step more of a file of several, with its place in time and its name, of a letter at
+ * least. All are of one mesh. Raises OST_FILE_FAILED, OST_INVALID_INPUT where there is no room for one more. */
+OstStatus ost_result_write_step(const OstResult *result, unsigned fields, OstStepsFile *file, double time,
+                                const char *name);
 
 /* Local. Frees the result; the pointer is nulled. */
 void ost_result_destroy(OstResult **result);

@@ -15,8 +15,9 @@ from .errors import (CheckFailed, FileFailed, InvalidInput, LibraryFailed, Limit
 from .material import Material
 from .mesh import Mesh, MeshArrays, MeshFile
 from .problem import Analysis, Path, Problem
-from .result import Result
+from .result import Result, write_steps
 
 __all__ = ["Analysis", "Case", "CheckFailed", "Context", "FileFailed", "InvalidInput", "LibraryFailed", "LimitExceeded",
            "LoadCases", "Material", "Mesh", "MeshArrays", "MeshFile", "NotConverged", "OrthostatError", "OrthostatWarning",
-           "OutOfMemory", "Path", "Problem", "Result", "Scene", "Sweep", "solve", "sweep"]
+           "OutOfMemory", "Path", "Problem", "Result", "Scene", "Sweep", "solve", "sweep",
+           "write_steps"]

@@ -204,12 +204,16 @@ OstStatus ost_check_probe_outputs(const OstCase *c, const char *fields, const ch
 OstStatus ost_check_case_outputs(const OstCase *c, const char *output)
 {
     char path[OST_LONGEST_PATH], table[OST_LONGEST_PATH];
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
+    const int in_one = ost_load_cases_in_one_file(c, output);
+    snprintf(path, sizeof path, "%s", output);
+    if (!in_one)
+        ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
     ost_load_case_table_name(output, sizeof table, table);
     OST_TRY(ost_check_outputs(c, 2, (const char *const[]){path, table}));
     for (int k = 0; k < c->load_case_count; k++) {
         ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
-        OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
+        if (!in_one)
+            OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
         OST_TRY(ost_check_probe_outputs(c, path, NULL));
     }
     return OST_SUCCESS;

@@ -58,7 +58,7 @@ static OstStatus report(const Run *run)
     OST_TRY_DONE(ost_watch_evaluate_all(scene, run->result, &watched));
     OST_TRY_DONE(ost_ledger_summarise(ctx, &ledger));
     if (ost_log_level(ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json)) {
-        ost_summary_print(scene, run->result, file);
+        ost_summary_print(scene, run->result, file, file);
         if (ost_rank(ctx) == 0)
             ost_watch_print(watched, scene->c->watch_count);
         if (run->path)

@@ -104,6 +104,14 @@ int ost_output_field_named(const char *word, OstOutputField *field)
     return 0;
 }
 
+int ost_output_field_is_of_body(const char *word)
+{
+    for (int f = 0; f < OST_FIELD_COUNT; f++)
+        if (strcmp(word_of[f], word) == 0)
+            return OST_FIELDS_OF_BODY >> f & 1;
+    return strcmp(word, label[0].word) == 0 || strcmp(word, label[1].word) == 0;
+}
+
 unsigned ost_output_fields_needed(unsigned asked)
 {
     unsigned needed = asked;

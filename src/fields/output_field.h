@@ -31,6 +31,15 @@ OstOutputField ost_output_field(OstOutputFieldBit field);
  * word. */
 int ost_output_field_named(const char *word, OstOutputField *field);
 
+/* Those of the body, whatever acts on it: a file of several results has them once. */
+enum {
+    OST_FIELDS_OF_BODY = 1U << OST_FIELD_AXES | 1U << OST_FIELD_REGION | 1U << OST_FIELD_RANK | 1U << OST_FIELD_E1 |
+                         1U << OST_FIELD_E2 | 1U << OST_FIELD_E3
+};
+
+/* Local. Is it one of these by its word, or a label? */
+int ost_output_field_is_of_body(const char *word);
+
 /* Local. The fields asked for, and all that they are made of. */
 unsigned ost_output_fields_needed(unsigned asked);
 

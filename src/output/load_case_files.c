@@ -48,6 +48,21 @@ void ost_load_case_report_release(OstLoadCaseReport *report)
 
 /* --- names --- */
 
+int ost_load_cases_in_one_file(const OstCase *c, const char *output)
+{
+    size_t stem;
+    return ost_result_form(output, &stem) == OST_RESULT_VTKHDF && !c->asks_error; /* each refines its own mesh */
+}
+
+/* What to open in ParaView. */
+static void name_whole(const OstCase *c, const char *output, size_t size, char *name)
+{
+    if (ost_load_cases_in_one_file(c, output))
+        snprintf(name, size, "%s", output);
+    else
+        ost_path_file_name(output, OST_PATH_SERIES, size, name);
+}
+
 void ost_load_case_fields_name(const char *output, const char *name, size_t size, char *path)
 {
     size_t stem;
@@ -152,8 +167,9 @@ static OstStatus write_rows(FILE *file, const void *content)
     return OST_SUCCESS;
 }
 
-OstStatus ost_load_cases_write(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output)
+OstStatus ost_load_cases_write(const OstCase *c, int count, const OstLoadCaseReport *reports, const char *output)
 {
+    OstContext *ctx = c->ctx;
     Table table = {count, reports, {0}};
     char name[LONGEST_PATH];
     if (ost_rank(ctx) != 0)
@@ -161,7 +177,8 @@ OstStatus ost_load_cases_write(OstContext *ctx, int count, const OstLoadCaseRepo
     OstStatus status = find_columns(ctx, count, reports, &table.columns);
     ost_load_case_table_name(output, sizeof name, name);
     OST_THEN(ost_write_aside(ctx, name, write_rows, &table));
-    OST_THEN(write_series(ctx, count, reports, output));
+    if (!ost_load_cases_in_one_file(c, output))
+        OST_THEN(write_series(ctx, count, reports, output));
     OST_FREE(table.columns.name);
     return status;
 }
@@ -197,7 +214,7 @@ static void print_rows(const Table *table)
 void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output)
 {
     Table table = {count, reports, {0}};
-    char series[LONGEST_PATH], csv[LONGEST_PATH];
+    char whole[LONGEST_PATH], csv[LONGEST_PATH];
     int written = 0;
     if (ost_rank(scene->ctx) != 0 || find_columns(scene->ctx, count, reports, &table.columns) != OST_SUCCESS)
         return;
@@ -206,10 +223,16 @@ void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseRep
     OST_FREE(table.columns.name);
     for (int k = 0; k < count; k++)
         written += reports[k].file != NULL;
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof series, series);
+    name_whole(scene->c, output, sizeof whole, whole);
     ost_load_case_table_name(output, sizeof csv, csv);
-    printf("  %-16s %d file%s, listed in %s for ParaView; this table in %s\n", "written to", written,
-           written == 1 ? "" : "s", series, csv);
+    printf("  %-16s ", "written to");
+    if (!ost_load_cases_in_one_file(scene->c, output))
+        printf("%d file%s, listed in %s for ParaView", written, written == 1 ? "" : "s", whole);
+    else if (written > 0)
+        printf("%d step%s of %s, for ParaView", written, written == 1 ? "" : "s", whole);
+    else
+        printf("no file");
+    printf("; this table in %s\n", csv);
 }
 
 /* --- JSON --- */
@@ -229,7 +252,7 @@ OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCas
 {
     OstContext *ctx = scene->ctx;
     json_t *cases = json_array();
-    char series[LONGEST_PATH];
+    char whole[LONGEST_PATH];
     double nonzeros = 0.0;
     int accepted = 1;
     if (ost_rank(ctx) != 0) {
@@ -241,12 +264,12 @@ OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCas
         nonzeros = fmax(nonzeros, reports[k].nonzeros);
         json_array_append_new(cases, case_json(&reports[k]));
     }
-    ost_path_file_name(output, OST_PATH_SERIES, sizeof series, series);
+    name_whole(scene->c, output, sizeof whole, whole);
     json_t *document = json_pack(
         "{s:s, s:s?, s:b, s:o, s:i, s:I, s:I, s:o, s:o, s:o, s:s}", "case", scene->c->path, "title", scene->c->title,
         "accepted", accepted, "warnings", ost_json_warnings(ctx), "ranks", ost_size(ctx), "vertices",
         (json_int_t)scene->mesh->global_nodes, "tets", (json_int_t)scene->mesh->global_tets, "cases", cases, "effects",
-        ost_effects_json(&scene->plan.effects), "ledger", ost_ledger_json(ctx, nonzeros, summary), "output", series);
+        ost_effects_json(&scene->plan.effects), "ledger", ost_ledger_json(ctx, nonzeros, summary), "output", whole);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds what JSON cannot hold");
     return ost_json_write(ctx, document, to);

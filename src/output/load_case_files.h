@@ -6,8 +6,9 @@
 
 #include <stddef.h>
 
-/* What comes of load cases: for bridge.vtkhdf the fields of each, bridge_wind.vtkhdf and so on; bridge.hdf.series,
- * which lists them in their order; and bridge_cases.csv, a line for each. */
+/* What comes of load cases: the fields of each, and bridge_cases.csv, a line for each. For bridge.vtkhdf the fields are
+ * steps of that file, where all have one mesh; else each has a file, bridge_wind.vtkhdf, bridge_wind.hdf or
+ * bridge_wind.vtu, and bridge.hdf.series or bridge.pvd lists them in their order. */
 
 /* One load case, solved or not. Start from {0}. */
 typedef struct OstLoadCaseReport {
@@ -30,12 +31,15 @@ OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, Ost
                              OstLoadCaseReport *report);
 void ost_load_case_report_release(OstLoadCaseReport *report);
 
-/* Local. The names of files, by that of the case's output file, which ends with .vtkhdf. */
+/* Local. Do the fields of all go into one file? */
+int ost_load_cases_in_one_file(const OstCase *c, const char *output);
+
+/* Local. The names of files, by that of the case's output file. Those of probes have the first too. */
 void ost_load_case_fields_name(const char *output, const char *name, size_t size, char *path);
 void ost_load_case_table_name(const char *output, size_t size, char *path);
 
-/* Local; rank 0 writes: the list of files for ParaView, and the table. */
-OstStatus ost_load_cases_write(OstContext *ctx, int count, const OstLoadCaseReport *reports, const char *output);
+/* Local; rank 0 writes: the list of files for ParaView, if there are several, and the table. */
+OstStatus ost_load_cases_write(const OstCase *c, int count, const OstLoadCaseReport *reports, const char *output);
 
 /* Local; rank 0 prints the table and where everything is. */
 void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output);

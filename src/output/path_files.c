@@ -21,7 +21,8 @@ void ost_path_file_name(const char *output, OstPathFile which, size_t size, char
         [OST_PATH_CHECKPOINT] = ".checkpoint",
     };
     size_t stem;
-    const int is_xml = ost_result_form(output, &stem) != OST_RESULT_VTKHDF;
+    const OstResultForm form = ost_result_form(output, &stem);
+    const int is_xml = form == OST_RESULT_VTU || form == OST_RESULT_PVTU;
     snprintf(name, size, "%.*s%s", (int)stem, output, is_xml && which == OST_PATH_SERIES ? ".pvd" : ending[which]);
 }
 

@@ -155,34 +155,71 @@ static OstStatus list_arrays(const OstResult *result, unsigned fields, Arrays *a
 
 /* --- the file --- */
 
+/* Why the result is no answer; NULL: it is one. */
+static const OstOutputMark *mark_of(const OstResult *result, char *reasons[OST_MOST_OBJECTIONS], OstOutputMark *mark)
+{
+    const OstVerdict *objections = &result->verdict;
+    for (int i = 0; i < objections->count; i++)
+        reasons[i] = (char *)objections->text[i];
+    *mark = (OstOutputMark){ost_result_status(result), result->unfinished, objections->count, reasons};
+    return objections->count > 0 ? mark : NULL;
+}
+
 static OstStatus write_file(const OstResult *result, const char *path, const Arrays *arrays)
 {
     static OstStatus (*const write[OST_RESULT_FORMS])(OstContext *, const char *, const OstMesh *, int,
-                                                      const OstOutputArray *, const OstOutputMark *) = {
-        [OST_RESULT_VTKHDF] = ost_vtkhdf_write, [OST_RESULT_VTU] = ost_vtu_write, [OST_RESULT_PVTU] = ost_pvtu_write};
-    const OstVerdict *objections = &result->verdict;
+                                                      const OstOutputArray *,
+                                                      const OstOutputMark *) = {[OST_RESULT_VTKHDF] = ost_vtkhdf_write,
+                                                                                [OST_RESULT_HDF] = ost_vtkhdf_write,
+                                                                                [OST_RESULT_VTU] = ost_vtu_write,
+                                                                                [OST_RESULT_PVTU] = ost_pvtu_write};
     char *reasons[OST_MOST_OBJECTIONS];
-    const OstOutputMark mark = {ost_result_status(result), result->unfinished, objections->count, reasons};
+    OstOutputMark mark;
     size_t stem;
     const OstResultForm form = ost_result_form(path, &stem);
-    for (int i = 0; i < objections->count; i++)
-        reasons[i] = (char *)objections->text[i];
     if (form == OST_RESULT_FORMS)
         return OST_RAISE(result->ctx, OST_INVALID_USAGE,
                          "'%s' does not end with " OST_RESULT_ENDINGS ", which a file of fields must", path);
-    return write[form](result->ctx, path, result->mesh, arrays->count, arrays->array,
-                       objections->count > 0 ? &mark : NULL);
+    return write[form](result->ctx, path, result->mesh, arrays->count, arrays->array, mark_of(result, reasons, &mark));
 }
 
-OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path)
+/* A file to itself, or a step of one. */
+typedef struct Place {
+    const char *path; /* NULL: a step */
+    OstStepsFile *file;
+    double time;
+    const char *name;
+} Place;
+
+static OstStatus write_step(const OstResult *result, const Place *place, const Arrays *arrays)
+{
+    char *reasons[OST_MOST_OBJECTIONS];
+    OstOutputMark mark;
+    return ost_vtkhdf_add(place->file, result->mesh, place->time, place->name, arrays->count, arrays->array,
+                          mark_of(result, reasons, &mark));
+}
+
+static OstStatus write_result(const OstResult *result, unsigned fields, const Place *place)
 {
     OstContext *ctx = result->ctx;
     Arrays arrays = {0};
     ost_ledger_enter(ctx, OST_LEDGER_OUTPUT);
     OstStatus status = list_arrays(result, fields, &arrays);
-    OST_THEN(write_file(result, path, &arrays));
+    OST_THEN(place->path ? write_file(result, place->path, &arrays) : write_step(result, place, &arrays));
     for (int f = 0; f < OST_FIELD_COUNT; f++)
         OST_FREE(arrays.made[f]);
     ost_ledger_leave(ctx);
     return status;
+}
+
+OstStatus ost_result_write(const OstResult *result, unsigned fields, const char *path)
+{
+    return write_result(result, fields, &(Place){.path = path});
+}
+
+OstStatus ost_result_write_step(const OstResult *result, unsigned fields, OstStepsFile *file, double time,
+                                const char *name)
+{
+    const unsigned of_step = ost_vtkhdf_has_step(file) ? fields & ~(unsigned)OST_FIELDS_OF_BODY : fields;
+    return write_result(result, of_step, &(Place){.file = file, .time = time, .name = name});
 }

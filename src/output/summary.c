@@ -272,16 +272,16 @@ static void print_failure(const OstResult *result)
     }
 }
 
-static void print_probes(const OstScene *scene, const char *file)
+static void print_probes(const OstScene *scene, const char *fields)
 {
     char name[4096];
-    for (int p = 0; file && p < scene->c->probe_count; p++) {
-        ost_probe_file_name(file, &scene->c->probes[p], sizeof name, name);
+    for (int p = 0; p < scene->c->probe_count; p++) {
+        ost_probe_file_name(fields, &scene->c->probes[p], sizeof name, name);
         printf("  %-16s %s\n", p == 0 ? "probes" : "", name);
     }
 }
 
-void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file)
+void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file, const char *probes)
 {
     if (ost_rank(scene->ctx) != 0)
         return;
@@ -306,7 +306,8 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
             printf("  %-16s %s\n", "WARNING", warning);
     for (int i = 0; i < result->verdict.count; i++)
         printf("  %-16s %s\n", i == 0 ? "NO ANSWER" : "", result->verdict.text[i]);
-    print_probes(scene, file);
+    if (file)
+        print_probes(scene, probes);
     if (file)
         printf("  written to       %s%s%s\n", file, result->verdict.count > 0 ? ", marked as " : "",
                result->verdict.count > 0 ? ost_result_status(result) : "");

@@ -21,9 +21,9 @@ typedef struct OstLedgerSummary {
 /* Collective. */
 OstStatus ost_ledger_summarise(OstContext *ctx, OstLedgerSummary *summary);
 
-/* Local; only rank 0 prints: a run in a few lines, then the ledger. `file` is where the fields were written, or NULL.
- */
-void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file);
+/* Local; only rank 0 prints: a run in a few lines, then the ledger. `file` is where the fields were written, or NULL;
+ * tables of probes have the name `probes`, which is that of the file unless several results share it. */
+void ost_summary_print(const OstScene *scene, const OstResult *result, const char *file, const char *probes);
 void ost_ledger_print(const OstScene *scene, const OstLedgerSummary *summary);
 
 /* Local; only rank 0 writes. The same as JSON, to a file (written aside and renamed) or, for "-", to standard output.

@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 
 PROGRAM = os.environ["ORTHOSTAT_PROGRAM"]
@@ -55,13 +56,17 @@ def solve(case_text, ranks=1, folder=None, name="case.yaml", extra=()):
     return finished, report, result
 
 
-def read_points(path, array="displacement"):
-    """{label: vector} of a point array, with VTK's own reader."""
+def read_points(path, array="displacement", step=None):
+    """{label: vector} of a point array, with VTK's own reader; of a step, from 0, as scripts/render takes it."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOHDF import vtkHDFReader
     reader = vtkHDFReader()
     reader.SetFileName(path)
     reader.Update()
+    if step is not None:
+        sys.path.insert(0, os.path.join(SOURCE, "scripts"))
+        import steps
+        steps.take(reader.GetOutput(), path, step)
     data = reader.GetOutput().GetPointData()
     labels = vtk_to_numpy(data.GetArray("vertex"))
     values = vtk_to_numpy(data.GetArray(array))

@@ -1,11 +1,17 @@
-"""Load cases as a user meets them: a file for each, a list and a table, the same answers as one run for each; errors of one case
+"""Load cases as a user meets them: a file with a step for each, and a table, the same answers as one run for each; errors of one case
 and refusals; --set, --case and a case from standard input."""
 import csv
 import json
 import os
 import subprocess
+import sys
 
-from program import MPIEXEC, PROGRAM, check, fewer, new_folder, read_points, run
+import h5py
+
+from program import MPIEXEC, PROGRAM, SOURCE, check, fewer, new_folder, read_points, run
+
+sys.path.insert(0, os.path.join(SOURCE, "scripts"))
+import steps  # noqa: E402
 
 CASE = """title: a beam
 mesh: {block: {size: [6, 1, 1], divisions: [12, 2, 2]}}
@@ -16,16 +22,16 @@ watch: {end: {displacement: {nearest: [6, 1, 1]}, component: z}}
 cases:
   - name: weight
     loads: [{gravity: [0, 0, -0.01]}]
+  - name: propped
+    constraints: [{on: {boundary: xmax}, displacement: [free, free, -0.02]}]
   - name: push
     loads: [{on: {boundary: xmax}, total_force: [0, 0.01, 0]}]
     watch: {held: {reaction: {boundary: xmin}, component: y}}
   - name: far
     loads: [{on: {boundary: xmax}, total_force: [0, 0, 5]}]
-  - name: propped
-    constraints: [{on: {boundary: xmax}, displacement: [free, free, -0.02]}]
 output: {file: beam.vtkhdf}
 """
-NAMES = ("weight", "push", "far", "propped")
+NAMES = ("weight", "propped", "push", "far")
 
 
 def folder_with(text, name="beam.yaml"):
@@ -44,25 +50,44 @@ def close(a, b, tolerance):
     return abs(a - b) <= tolerance * max(abs(a), abs(b))
 
 
+def check_steps(path, ranks):
+    """One mesh, and for each array the rows of the step: what VTK's format of steps asks for."""
+    with h5py.File(path, "r") as file:
+        root, series = file["VTKHDF"], file["VTKHDF/Steps"]
+        points, tets = sum(root["NumberOfPoints"]), sum(root["NumberOfCells"])
+        check(list(root.attrs["Version"]) == [2, 0] and series.attrs["NSteps"] == 4, dict(series.attrs))
+        check(list(series["Values"]) == [1, 2, 3, 4] and list(series["NumberOfParts"]) == 4 * [ranks], "steps are not 1 to 4")
+        check(len(root["Points"]) == points and len(root["Types"]) == tets == 288, "the mesh stands more than once")
+        for name in "PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets":
+            check(list(series[name]) == [0, 0, 0, 0], f"{name}: {list(series[name])}")
+        for group, rows in ("PointData", points), ("CellData", tets):
+            check(set(series[group + "Offsets"]) == set(root[group]), f"{group}: offsets of {list(series[group + 'Offsets'])}")
+            for name, array in root[group].items():
+                once = name in ("vertex", "tet", "region", "rank", "axes")
+                offsets = sorted(series[f"{group}Offsets/{name}"])
+                check(offsets == [0 if once else k * rows for k in range(4)], f"{name}: {offsets}")
+                check(len(array) == (rows if once else 4 * rows), f"{name}: {len(array)} rows")
+        check([name.decode() for name in root["FieldData/step"]] == list(NAMES) == steps.names(path), "the names of steps")
+
+
 # --- all cases, and each of them alone ---
 for ranks in fewer((1, 2, 4)):
     folder = folder_with(CASE)
     finished = run("solve", "beam.yaml", "--json", "beam.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 0 and "4 load cases" in finished.output, finished.output + finished.errors)
     report = load(folder, "beam.json")
-    series = load(folder, "beam.hdf.series")
-    check([entry["name"] for entry in series["files"]] == [f"beam_{name}.vtkhdf" for name in NAMES], series)
-    check([entry["time"] for entry in series["files"]] == [1, 2, 3, 4], series)
+    check("4 steps of beam.vtkhdf" in finished.output and report["output"] == "beam.vtkhdf", finished.output)
+    check_steps(os.path.join(folder, "beam.vtkhdf"), ranks)
     with open(os.path.join(folder, "beam_cases.csv")) as stream:
         rows = list(csv.DictReader(stream))
     check([row["case"] for row in rows] == list(NAMES) == [one["load_case"] for one in report["cases"]], rows)
     check(report["accepted"] and "ledger" in report and "ledger" not in report["cases"][0], list(report))
-    check(not os.path.exists(os.path.join(folder, "beam.vtkhdf")), "a file of one answer stands beside those of the cases")
+    check(sorted(os.listdir(folder)) == ["beam.json", "beam.vtkhdf", "beam.yaml", "beam_cases.csv"], os.listdir(folder))
     for name, row, one in zip(NAMES, rows, report["cases"]):
         alone = run("solve", "beam.yaml", "--case", name, "--json", "one.json", "-o", "one.vtkhdf", "-q", folder=folder)
         check(alone.exit_code == 0, alone.errors)
         single = load(folder, "one.json")
-        check(one["title"] == single["title"] == "a beam: " + name and one["output"] == f"beam_{name}.vtkhdf", one["title"])
+        check(one["title"] == single["title"] == "a beam: " + name and one["output"] == "beam.vtkhdf", one["title"])
         check(set(one) == set(single) - {"ledger"} | {"load_case"}, set(one) ^ set(single))
         for key in one["watched"]:
             check(close(one["watched"][key]["value"], single["watched"][key]["value"], 1e-6), (name, key))
@@ -70,7 +95,7 @@ for ranks in fewer((1, 2, 4)):
         check(one["large_rotation"]["newton"] == single["large_rotation"]["newton"] == (name == "far"), name)
         check(close(one["answer_error"]["relative"], single["answer_error"]["relative"], 0.03), name)
         check(row["held"] == "" if name != "push" else close(float(row["held"]), -0.01, 1e-6), row)
-        together = read_points(os.path.join(folder, f"beam_{name}.vtkhdf"))
+        together = read_points(os.path.join(folder, "beam.vtkhdf"), step=NAMES.index(name))
         apart = read_points(os.path.join(folder, "one.vtkhdf"))
         check(max(abs(together[v] - apart[v]).max() for v in apart) <= 1e-6 * single["largest_displacement"], name)
 
@@ -81,12 +106,14 @@ finished = run("solve", "beam.yaml", "--json", "beam.json", "-q", folder=folder)
 check(finished.exit_code == 1 and "3 of 4 load cases have no answer, and nothing of them was written:" in finished.errors
       and "\n  weight: " in finished.errors, finished.errors)
 report = load(folder, "beam.json")
-check([one["accepted"] for one in report["cases"]] == [False, True, False, False] and not report["accepted"], report)
-check(sorted(os.listdir(folder)) == ["beam.hdf.series", "beam.json", "beam.yaml", "beam_cases.csv", "beam_push.vtkhdf"],
-      os.listdir(folder))
+check([one["accepted"] for one in report["cases"]] == [False, False, True, False] and not report["accepted"], report)
+check(sorted(os.listdir(folder)) == ["beam.json", "beam.vtkhdf", "beam.yaml", "beam_cases.csv"], os.listdir(folder))
+check(steps.names(os.path.join(folder, "beam.vtkhdf")) == ["push"], "a case without an answer has a step")
 finished = run("solve", "beam.yaml", "--keep", folder=folder)
-check(finished.exit_code == 1 and "4 files" in finished.output and "NO ANSWER" in finished.output, finished.output)
-check(os.path.exists(os.path.join(folder, "beam_weight.vtkhdf")), "--keep kept nothing")
+check(finished.exit_code == 1 and "4 steps" in finished.output and "NO ANSWER" in finished.output, finished.output)
+with h5py.File(os.path.join(folder, "beam.vtkhdf"), "r") as file:
+    check(list(file["VTKHDF/FieldData/refused"]) == [1, 1, 0, 1], list(file["VTKHDF/FieldData/refused"]))
+    check(file["Orthostat/Objections"][0].startswith(b"weight: "), list(file["Orthostat/Objections"]))
 
 # --- check, and what is refused ---
 folder = folder_with(CASE)
@@ -115,6 +142,26 @@ for number, name in enumerate(NAMES, 1):
     check(f'timestep="{number}" file="xml_{name}.pvtu"' in listed and os.path.exists(os.path.join(folder, f"xml_{name}.pvtu")),
           listed)
 check(os.path.exists(os.path.join(folder, "xml_cases.csv")), os.listdir(folder))
+other = run("solve", "beam.yaml", "-q", "-o", "single.hdf", folder=folder)
+series = load(folder, "single.hdf.series")
+check([entry["name"] for entry in series["files"]] == [f"single_{name}.hdf" for name in NAMES], series)
+check([entry["time"] for entry in series["files"]] == [1, 2, 3, 4], series)
+
+# --- a file of steps as a mesh, with a field of one of them ---
+check(run("solve", "beam.yaml", "-q", folder=folder).exit_code == 0, "the beam is not solved again")
+for field, words in (("load:far", ""), ("load:4", ""), ("load", "'load' has several steps; write load:STEP with one of these: weight, "
+                                                        "propped, push, far"), ("load:pull", "'load' has no step 'pull'")):
+    with open(os.path.join(folder, "swollen.yaml"), "w") as stream:
+        stream.write(f"""mesh: {{file: beam.vtkhdf}}
+materials: [{{region: all, youngs_modulus: 1, poissons_ratio: 0, eigenstrain: {{field: "{field}"}}}}]
+constraints: free_body
+large_rotation: off
+watch: {{energy: {{strain_energy: all}}}}
+""")
+    swollen = run("solve", "swollen.yaml", "--json", "swollen.json", "-q", ranks=2, folder=folder)
+    check(swollen.exit_code == (2 if words else 0) and words in swollen.errors, f"{field}: {swollen.errors}")
+    if not words:
+        check(load(folder, "swollen.json")["watched"]["energy"]["value"] > 1e-3, f"{field}: the load of another step was read")
 
 # --- settings, and standard input ---
 changed = run("solve", "beam.yaml", "--set", "cases.weight.loads.0.value.z=-0.02", "--set", "large_rotation=off",

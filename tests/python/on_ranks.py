@@ -137,6 +137,12 @@ def load_cases_share_a_stiffness(folder):
     results = failure.result
     assert set(results) == {"pull", "both", "moved"} and "both" in results["both"].scene.case.title
     close(results["moved"].displacement - results["pull"].displacement, np.tile([0.004, 0, 0], (results["pull"].mesh.node_count, 1)), 1e-6)
+    together = os.path.join(folder, "together.vtkhdf")
+    orthostat.write_steps(results, together)
+    assert os.path.exists(together)
+    other = orthostat.solve({**BAR, "element": {"order": 2}})
+    raises(orthostat.InvalidInput, "takes no other mesh", orthostat.write_steps, {**results, "other": other},
+           os.path.join(folder, "mixed.vtkhdf"))
     alone = orthostat.Case({**BAR, "constraints": LEFT_FIXED, "loads": BAR["loads"] + bend, "accuracy": {"relative_residual": 1e-10}}).solve()
     close(results["both"].displacement, alone.displacement, 1e-7)
     close(results["both"].watch["end"].value, alone.watch["end"].value, 1e-7)

@@ -94,10 +94,8 @@ OstResultForm ost_result_form(const char *path, size_t *stem)
     static const struct {
         const char *ending;
         OstResultForm form;
-    } known[] = {{".vtkhdf", OST_RESULT_VTKHDF},
-                 {".hdf", OST_RESULT_VTKHDF},
-                 {".vtu", OST_RESULT_VTU},
-                 {".pvtu", OST_RESULT_PVTU}};
+    } known[] = {
+        {".vtkhdf", OST_RESULT_VTKHDF}, {".hdf", OST_RESULT_HDF}, {".vtu", OST_RESULT_VTU}, {".pvtu", OST_RESULT_PVTU}};
     const size_t length = strlen(path);
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         const size_t ending = strlen(known[k].ending);

@@ -31,8 +31,9 @@ int ost_output_has_array(int count, const OstOutputArray *arrays, OstCentring ce
 /* Local. Refuses arrays that cannot be named so, and numbers that are not finite. */
 OstStatus ost_output_check_arrays(const OstMesh *mesh, const char *path, int count, const OstOutputArray *arrays);
 
-/* The form of a file of fields, by its name's ending. */
-typedef enum { OST_RESULT_VTKHDF, OST_RESULT_VTU, OST_RESULT_PVTU, OST_RESULT_FORMS } OstResultForm;
+/* The form of a file of fields, by its name's ending. One that ends with .hdf is a VTKHDF file too, but of one result:
+ * ParaView 5.11, which knows the ending, knows no steps. */
+typedef enum { OST_RESULT_VTKHDF, OST_RESULT_HDF, OST_RESULT_VTU, OST_RESULT_PVTU, OST_RESULT_FORMS } OstResultForm;
 
 /* The endings, for messages. */
 #define OST_RESULT_ENDINGS ".vtkhdf, .hdf, .vtu or .pvtu"

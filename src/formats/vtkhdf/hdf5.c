@@ -129,6 +129,15 @@ OstStatus ost_hdf5_open(OstContext *ctx, const char *path, OstHdf5 *h5)
     return h5->file < 0 ? ost_hdf5_raise(h5, "open the file", "") : OST_SUCCESS;
 }
 
+OstStatus ost_hdf5_reopen(OstContext *ctx, const char *path, OstHdf5 *h5)
+{
+    begin(ctx, path, h5);
+    h5->links = H5Pcreate(H5P_LINK_CREATE);
+    if (h5->links >= 0 && H5Pset_create_intermediate_group(h5->links, 1) >= 0)
+        h5->file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    return h5->file < 0 ? ost_hdf5_raise(h5, "open the file again", "") : OST_SUCCESS;
+}
+
 OstStatus ost_hdf5_close(OstHdf5 *h5)
 {
     OstStatus status = OST_SUCCESS;

@@ -38,6 +38,9 @@ OstStatus ost_hdf5_create(OstContext *ctx, const char *path, OstHdf5 *h5);
  * Close it even after a failure. */
 OstStatus ost_hdf5_open(OstContext *ctx, const char *path, OstHdf5 *h5);
 
+/* Local. Opens a file that is there and closed, to add to it by this rank alone. Close it even after a failure. */
+OstStatus ost_hdf5_reopen(OstContext *ctx, const char *path, OstHdf5 *h5);
+
 /* Collective for a file that was created, else local. Raises OST_FILE_FAILED if not all was written. */
 OstStatus ost_hdf5_close(OstHdf5 *h5);
 
@@ -56,7 +59,12 @@ OstStatus ost_hdf5_raise(const OstHdf5 *h5, const char *action, const char *name
 OstStatus ost_hdf5_write_rows(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows,
                               const void *values);
 
-/* Collective. Attributes of a group: a few integers, a string of fixed length. */
+/* Collective. Writes step `step` of `steps`: a dataset has the rows of all of them, one after the other, and step 0
+ * creates it. */
+OstStatus ost_hdf5_write_step(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows, int step,
+                              int steps, const void *values);
+
+/* Collective. Attributes of a group: a few integers (a scalar if `count` is 0), a string of fixed length. */
 OstStatus ost_hdf5_write_integers(OstHdf5 *h5, const char *group, const char *name, int count, const int *values);
 OstStatus ost_hdf5_write_text(OstHdf5 *h5, const char *group, const char *name, const char *text);
 
@@ -84,5 +92,9 @@ OstStatus ost_hdf5_read_text(const OstHdf5 *h5, const char *group, const char *n
 /* Collective / local. A list of names as strings of one length. */
 OstStatus ost_hdf5_write_names(OstHdf5 *h5, const char *name, int count, char *const *names);
 OstStatus ost_hdf5_read_names(const OstHdf5 *h5, const char *name, int *count, char ***names);
+
+/* Local. Adds a new dataset of strings of any length to a file that is closed: VTK reads no others, and HDF5 writes
+ * them on one rank alone. */
+OstStatus ost_hdf5_add_texts(OstContext *ctx, const char *path, const char *name, int count, const char *const *texts);
 
 #endif

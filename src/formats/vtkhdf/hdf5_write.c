@@ -45,22 +45,40 @@ static OstStatus write_block(OstHdf5 *h5, const char *name, hid_t dataset, hid_t
     return ost_agree(h5->ctx, status);
 }
 
-OstStatus ost_hdf5_write_rows(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows,
-                              const void *values)
+/* The dataset, made with room for all steps unless it is there. */
+static OstStatus open_for_step(OstHdf5 *h5, const char *name, hid_t type, int components, OstGlobal rows, int step,
+                               hid_t *dataset)
+{
+    if (step == 0)
+        return create_dataset(h5, name, type, components, rows, dataset);
+    *dataset = H5Dopen2(h5->file, name, H5P_DEFAULT);
+    return *dataset < 0 ? ost_hdf5_raise(h5, "open", name) : OST_SUCCESS;
+}
+
+OstStatus ost_hdf5_write_step(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows, int step,
+                              int steps, const void *values)
 {
     hid_t dataset = H5I_INVALID_HID;
-    OstStatus status = ost_agree(h5->ctx, create_dataset(h5, name, type, components, rows->total, &dataset));
+    const OstGlobal above = step * rows->total + rows->first;
+    OstStatus status =
+        ost_agree(h5->ctx, open_for_step(h5, name, type, components, steps * rows->total, step, &dataset));
     const size_t row_bytes = H5Tget_size(type) * (size_t)components;
     const OstGlobal block = (OstGlobal)(h5->block_bytes > row_bytes ? h5->block_bytes / row_bytes : 1);
     for (OstGlobal from = 0; status == OST_SUCCESS && from < rows->most; from += block) {
         const OstGlobal left = rows->count > from ? rows->count - from : 0;
         const OstGlobal here = left < block ? left : block;
         const char *start = left > 0 ? (const char *)values + (size_t)from * row_bytes : values;
-        status = write_block(h5, name, dataset, type, components, rows->first + (left > 0 ? from : 0), here, start);
+        status = write_block(h5, name, dataset, type, components, above + (left > 0 ? from : 0), here, start);
     }
     if (dataset >= 0 && H5Dclose(dataset) < 0 && status == OST_SUCCESS)
         status = ost_hdf5_raise(h5, "finish", name);
     return ost_agree(h5->ctx, status);
+}
+
+OstStatus ost_hdf5_write_rows(OstHdf5 *h5, const char *name, hid_t type, int components, const OstRows *rows,
+                              const void *values)
+{
+    return ost_hdf5_write_step(h5, name, type, components, rows, 0, 1, values);
 }
 
 static OstStatus write_attribute(OstHdf5 *h5, const char *group, const char *name, hid_t file_type, hid_t memory_type,
@@ -78,7 +96,7 @@ static OstStatus write_attribute(OstHdf5 *h5, const char *group, const char *nam
 OstStatus ost_hdf5_write_integers(OstHdf5 *h5, const char *group, const char *name, int count, const int *values)
 {
     const hsize_t extent = (hsize_t)count;
-    const hid_t space = H5Screate_simple(1, &extent, NULL);
+    const hid_t space = count > 0 ? H5Screate_simple(1, &extent, NULL) : H5Screate(H5S_SCALAR);
     const OstStatus status = write_attribute(h5, group, name, H5T_STD_I64LE, H5T_NATIVE_INT, space, values);
     ost_hdf5_release(space);
     return status;
@@ -126,4 +144,23 @@ done:
     ost_hdf5_release(type);
     OST_FREE(text);
     return status;
+}
+
+OstStatus ost_hdf5_add_texts(OstContext *ctx, const char *path, const char *name, int count, const char *const *texts)
+{
+    const hsize_t extent = (hsize_t)count;
+    OstHdf5 h5;
+    OstStatus status = ost_hdf5_reopen(ctx, path, &h5);
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate_simple(1, &extent, NULL);
+    hid_t dataset = H5I_INVALID_HID;
+    if (status == OST_SUCCESS && H5Tset_size(type, H5T_VARIABLE) >= 0)
+        dataset = H5Dcreate2(h5.file, name, type, space, h5.links, H5P_DEFAULT, H5P_DEFAULT);
+    if (status == OST_SUCCESS &&
+        (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, (const void *)texts) < 0))
+        status = ost_hdf5_raise(&h5, "write", name);
+    ost_hdf5_release(dataset);
+    ost_hdf5_release(type);
+    ost_hdf5_release(space);
+    const OstStatus closed = ost_hdf5_close(&h5);
+    return status == OST_SUCCESS ? closed : status;
 }

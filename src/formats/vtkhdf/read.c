@@ -7,6 +7,7 @@
 #include "formats/vtkhdf/dry_run.h"
 #include "formats/vtkhdf/groups.h"
 #include "formats/vtkhdf/points.h"
+#include "formats/vtkhdf/steps.h"
 
 #include <string.h>
 
@@ -36,10 +37,7 @@ static OstStatus check_kind(Reader *reader)
     if (version[0] != 1 && version[0] != 2)
         return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: VTKHDF version %d.%d; expected 1 or 2", h5->path, version[0],
                          version[1]);
-    if (ost_hdf5_has(h5, "/VTKHDF/Steps"))
-        return OST_RAISE(h5->ctx, OST_INVALID_INPUT,
-                         "%s: holds a series of time steps; expected a single state (save one step alone)", h5->path);
-    return OST_SUCCESS;
+    return ost_steps_check(h5);
 }
 
 /* The first entry of each piece, from the pieces' counts; and one more, the total. */
@@ -297,6 +295,7 @@ static OstStatus dry_run(OstContext *ctx, const char *path, const char *name)
     Reader reader = {.h5.file = H5I_INVALID_HID};
     (void)name;
     OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
+    OST_THEN(ost_steps_try(&reader.h5, NULL, NULL));
     OST_THEN(check_kind(&reader));
     const int can_be_read = status == OST_SUCCESS;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
@@ -340,29 +339,51 @@ done:
 enum { LONGEST_NAME = 256 };
 
 /* Where a field may be; both names are asked for in a dry run. */
-static const char *const data_group[] = {"/VTKHDF/CellData/", "/VTKHDF/PointData/"};
+static const char *const data_group[] = {"CellData", "PointData"};
 
 static void name_in(int on_points, const char *field, char name[LONGEST_NAME])
 {
-    snprintf(name, LONGEST_NAME, "%s%s", data_group[on_points], field);
+    snprintf(name, LONGEST_NAME, "/VTKHDF/%s/%s", data_group[on_points], field);
 }
 
 static OstStatus try_field(OstContext *ctx, const char *path, const char *field)
 {
     OstHdf5 h5 = {.file = H5I_INVALID_HID};
-    char name[LONGEST_NAME];
+    char name[LONGEST_NAME], word[OST_LONGEST_FIELD], step[OST_LONGEST_FIELD];
     OstStatus status = ost_hdf5_open(ctx, path, &h5);
+    if (status == OST_SUCCESS)
+        ost_steps_split(&h5, field, word, step);
     for (int on_points = 0; on_points < 2; on_points++) {
-        name_in(on_points, field, name);
+        name_in(on_points, word, name);
         OST_THEN(ost_hdf5_try_rows(&h5, name, H5T_NATIVE_DOUBLE));
+        OST_THEN(ost_steps_try(&h5, data_group[on_points], word));
     }
     ost_hdf5_close(&h5);
     return status;
 }
 
+/* The field's name, and that of a step if there is one. */
+typedef struct Sought {
+    char field[OST_LONGEST_FIELD], step[OST_LONGEST_FIELD];
+} Sought;
+
+/* Its rows first .. first + n - 1 of the `count` that the field has in a step. */
+static OstStatus read_of_step(const OstHdf5 *h5, const Sought *sought, OstFileField *field, OstGlobal count,
+                              OstGlobal first, OstLocal n)
+{
+    OstGlobal rows = 0, begin = 0;
+    int components = 0;
+    char name[LONGEST_NAME];
+    name_in(field->on_nodes, sought->field, name);
+    OST_TRY(ost_hdf5_shape(h5, name, &rows, &components));
+    OST_TRY(ost_steps_find(h5, data_group[field->on_nodes], sought->field, sought->step, count, &rows, &begin));
+    OST_TRY(OST_NEW(h5->ctx, &field->values, (size_t)n * (size_t)field->width));
+    return ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, field->width, rows, begin + first, n, field->values);
+}
+
 /* The reader's tets again, of which the chunk has the nodes, with the file's points counted from the first that one of
  * them uses; of these points the field. */
-static OstStatus read_of_points(Reader *reader, const char *name, OstFileField *field)
+static OstStatus read_of_points(Reader *reader, const Sought *sought, OstFileField *field)
 {
     OstMeshChunk *tets = reader->chunk;
     OstGlobal first = INT64_MAX, last = -1;
@@ -379,16 +400,7 @@ static OstStatus read_of_points(Reader *reader, const char *name, OstFileField *
                          "%s: a rank's tets lie among more than 2^31 - 1 points; use more ranks", reader->h5.path);
     for (size_t i = 0; i < count; i++)
         tets->tet_nodes[i] -= first;
-    OST_TRY(OST_NEW(tets->ctx, &field->values, (size_t)(last + 1 - first) * (size_t)field->width));
-    return ost_hdf5_read_rows(&reader->h5, name, H5T_NATIVE_DOUBLE, field->width, reader->points.total, first,
-                              (OstLocal)(last + 1 - first), field->values);
-}
-
-static OstStatus read_of_tets(const OstHdf5 *h5, const char *name, const OstMeshChunk *chunk, OstFileField *field)
-{
-    OST_TRY(OST_NEW(chunk->ctx, &field->values, (size_t)chunk->tet_count * (size_t)field->width));
-    return ost_hdf5_read_rows(h5, name, H5T_NATIVE_DOUBLE, field->width, chunk->global_tets, chunk->first_tet,
-                              chunk->tet_count, field->values);
+    return read_of_step(&reader->h5, sought, field, reader->points.total, first, (OstLocal)(last + 1 - first));
 }
 
 static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, OstMeshChunk *chunk)
@@ -397,8 +409,10 @@ static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, O
     OstGlobal rows = 0;
     OstFileField field = {0};
     char name[LONGEST_NAME];
+    Sought sought;
+    ost_steps_split(h5, word, sought.field, sought.step);
     for (; !field.found && field.on_nodes < 2; field.on_nodes++) {
-        name_in(field.on_nodes, word, name);
+        name_in(field.on_nodes, sought.field, name);
         field.found = ost_hdf5_has(h5, name);
     }
     field.on_nodes--;
@@ -407,7 +421,9 @@ static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, O
                          h5->path, word);
     OST_TRY(ost_hdf5_shape(h5, name, &rows, &field.width));
     OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, word, field.width));
-    OstStatus status = field.on_nodes ? read_of_points(reader, name, &field) : read_of_tets(h5, name, chunk, &field);
+    OstStatus status = field.on_nodes
+                           ? read_of_points(reader, &sought, &field)
+                           : read_of_step(h5, &sought, &field, chunk->global_tets, chunk->first_tet, chunk->tet_count);
     OST_THEN(ost_tet_field_mean(reader->chunk, use, &field));
     OST_THEN(ost_tet_field_add(chunk, h5->path, word, field.width, field.values));
     OST_FREE(field.values);

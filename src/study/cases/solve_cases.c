@@ -21,6 +21,7 @@ typedef struct Run {
     const OstCase *c;
     const OstSolveCases *how;
     OstScene *scene;
+    OstStepsFile *steps;       /* NULL: a file for each */
     OstLoadCaseReport *report; /* of each */
     OstStatus failed;          /* how the first that failed did */
 } Run;
@@ -42,18 +43,22 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
                              OstLoadCaseReport *report)
 {
     OstContext *ctx = run->ctx;
-    char file[LONGEST_PATH];
+    char own[LONGEST_PATH];
+    const int number = (int)(report - run->report) + 1;
     OstWatchedValue *watched = NULL;
     const int is_answer = result->verdict.count == 0;
     const int writes = result->checks.finite && (is_answer || run->how->keeps);
-    ost_load_case_fields_name(run->how->output, report->name, sizeof file, file);
-    if (writes)
+    ost_load_case_fields_name(run->how->output, report->name, sizeof own, own);
+    const char *file = !writes ? NULL : run->steps ? run->how->output : own;
+    if (file && run->steps)
+        OST_TRY(ost_result_write_step(result, scene->c->output_fields, run->steps, number, report->name));
+    else if (file)
         OST_TRY(ost_result_write(result, scene->c->output_fields, file));
-    if (writes && scene->c->probe_count > 0)
-        OST_TRY(ost_probe_write(scene, result, file));
+    if (file && scene->c->probe_count > 0)
+        OST_TRY(ost_probe_write(scene, result, own));
     OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
     if (prints(run)) {
-        ost_summary_print(scene, result, writes ? file : NULL);
+        ost_summary_print(scene, result, file, own);
         if (ost_rank(ctx) == 0)
             ost_watch_print(watched, scene->c->watch_count);
         if (adaption)
@@ -61,7 +66,7 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
         if (ost_rank(ctx) == 0)
             puts("");
     }
-    return ost_agree(ctx, ost_load_case_note(scene, result, watched, writes ? file : NULL, report));
+    return ost_agree(ctx, ost_load_case_note(scene, result, watched, file, report));
 }
 
 /* What is wrong with one load case keeps no other from being solved; what is wrong with the machine does. */
@@ -137,8 +142,20 @@ static OstStatus solve_accurately(Run *run, int number)
     return status;
 }
 
+static OstStatus solve_into_one_file(Run *run)
+{
+    OST_TRY(ost_steps_file_create(run->ctx, run->how->output, run->c->load_case_count, &run->steps));
+    const OstStatus status = solve_together(run);
+    ost_ledger_enter(run->ctx, OST_LEDGER_OUTPUT);
+    const OstStatus finished = ost_steps_file_finish(&run->steps);
+    ost_ledger_leave(run->ctx);
+    return status == OST_SUCCESS ? finished : status;
+}
+
 static OstStatus solve_all(Run *run)
 {
+    if (ost_load_cases_in_one_file(run->c, run->how->output))
+        return solve_into_one_file(run);
     if (!run->c->asks_error)
         return solve_together(run);
     for (int k = 0; k < run->c->load_case_count; k++) {
@@ -153,7 +170,7 @@ static OstStatus tell(Run *run)
     const int count = run->c->load_case_count;
     const OstSolveCases *how = run->how;
     OstLedgerSummary ledger;
-    OST_TRY(ost_agree(run->ctx, ost_load_cases_write(run->ctx, count, run->report, how->output)));
+    OST_TRY(ost_agree(run->ctx, ost_load_cases_write(run->c, count, run->report, how->output)));
     OST_TRY(ost_ledger_summarise(run->ctx, &ledger));
     if (prints(run)) {
         ost_load_cases_print(run->scene, count, run->report, how->output);
