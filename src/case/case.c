@@ -148,12 +148,11 @@ static const double not_given = -1.0;
 
 /* What verify measures is the discretisation error, to many digits. The error of a quantity of interest is much smaller
  * than that in the norm of the energy, by which solves stop. */
-static void settle_fraction(OstCase *c)
+double ost_case_stop_fraction(const OstCase *c)
 {
-    const int stops =
-        !c->verify && !drives(c) && (c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY);
-    if (c->solver.algebraic_fraction == not_given)
-        c->solver.algebraic_fraction = stops ? 0.1 : 0.0;
+    const int many_digits = c->verify && !c->asks_error;
+    const int of_energy = c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY;
+    return many_digits || drives(c) || !of_energy ? 0.0 : 0.1;
 }
 
 /* Steps of a path follow each other; load cases do not. */
@@ -249,7 +248,8 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
                               "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "
                               "'of' out",
                               c->watches[c->interest - 1].name);
-    settle_fraction(c);
+    if (c->solver.algebraic_fraction == not_given)
+        c->solver.algebraic_fraction = ost_case_stop_fraction(c);
     OST_TRY(check_links(yaml, c));
     OST_TRY(check_distributing(yaml, c));
     return check_density(yaml, c);

@@ -291,6 +291,9 @@ OstStatus ost_case_pick(OstCase **c, const char *name);
 /* Local. The fields that are to be recovered: those of the output, and what quantities of interest are made of. */
 unsigned ost_case_recovers(const OstCase *c);
 
+/* Local. The algebraic_fraction of a case that gives none. */
+double ost_case_stop_fraction(const OstCase *c);
+
 /* Local. Puts the place in front of a failure from a deeper call, as "path:line:column: text"; passes success on. */
 OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
 

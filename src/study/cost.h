@@ -121,6 +121,10 @@ double ost_cost_claim(const OstCost *cost, const OstCostRun *run, int quantity);
 /* Local. The fastest run whose estimated error is at most `target`; -1: none. */
 int ost_cost_cheapest(const OstCost *cost, int quantity, double target);
 
+/* Local. The fastest combination of order, refinement and tolerance whose true error in the norm of the energy is
+ * within what an adaptive run was asked for; -1: none. */
+int ost_cost_by_hand(const OstCost *cost, const OstCostRun *asked);
+
 /* Local. The runs that no faster run beats, the fastest first; `runs` has room for OST_COST_MOST_RUNS. Returns how
  * many. */
 int ost_cost_frontier(const OstCost *cost, int quantity, int *runs);

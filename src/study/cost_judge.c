@@ -38,6 +38,21 @@ static int lower_tells_more(const OstCostReference *lower, const OstCostReferenc
            lower->uncertainty < higher->uncertainty;
 }
 
+/* Of the strain energy the run with the least estimated error may tell more than refinements do. */
+static void take_estimate(const OstCost *cost, int quantity, OstCostReference *reference)
+{
+    int best = -1;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        const int is_better = best < 0 || run->estimate < cost->run[best].estimate;
+        if (run->state == OST_COST_DONE && !run->other && !isnan(run->watched[quantity].error) && is_better)
+            best = i;
+    }
+    if (best >= 0)
+        ost_reference_improve(cost->run[best].watched[quantity].value, cost->run[best].watched[quantity].error, best,
+                              reference);
+}
+
 /* The case's expected value, if there is one; else what the runs tend to. */
 static void choose_reference(OstCost *cost, int quantity)
 {
@@ -58,16 +73,21 @@ static void choose_reference(OstCost *cost, int quantity)
     if (answers[1].count == 1 && answers[0].count > 0)
         ost_reference_compare(&found[1], value[0][answers[0].count - 1]);
     *reference = found[!lower_tells_more(&found[0], &found[1])];
+    if (watch && watch->kind == OST_WATCH_STRAIN_ENERGY)
+        take_estimate(cost, quantity, reference);
 }
 
 /* A run that is itself the reference has no known error. */
-static double error_of(const OstCostReference *reference, const OstCostRun *run, int quantity)
+static double error_of(const OstCost *cost, const OstCostRun *run, int quantity)
 {
+    const OstCostReference *reference = &cost->quantity[quantity].reference;
     const int is_reference =
         ost_cost_is_plain(run) && run->order == reference->order && run->refinement == reference->finest;
     if (run->state != OST_COST_DONE || reference->kind == OST_REFERENCE_NONE || reference->size <= 0.0)
         return NAN;
     if (reference->kind == OST_REFERENCE_FINEST && is_reference)
+        return NAN;
+    if (reference->kind == OST_REFERENCE_ESTIMATED && run == &cost->run[reference->run])
         return NAN;
     return fabs(run->watched[quantity].value - reference->value) / reference->size;
 }
@@ -106,7 +126,7 @@ void ost_cost_judge(OstCost *cost)
     for (int q = 0; q < cost->quantity_count; q++) {
         choose_reference(cost, q);
         for (int i = 0; i < cost->run_count; i++) {
-            cost->run[i].error[q] = error_of(&cost->quantity[q].reference, &cost->run[i], q);
+            cost->run[i].error[q] = error_of(cost, &cost->run[i], q);
             cost->run[i].least_error[q] = least_left(cost, &cost->run[i], q);
         }
     }
@@ -162,6 +182,18 @@ int ost_cost_cheapest(const OstCost *cost, int quantity, double target)
     for (int i = 0; i < cost->run_count; i++) {
         const double claim = ost_cost_claim(cost, &cost->run[i], quantity);
         if (!isnan(claim) && claim <= target && (cheapest < 0 || cost->run[i].seconds < cost->run[cheapest].seconds))
+            cheapest = i;
+    }
+    return cheapest;
+}
+
+int ost_cost_by_hand(const OstCost *cost, const OstCostRun *asked)
+{
+    int cheapest = -1;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        if (run->state == OST_COST_DONE && ost_cost_is_plain(run) && run->true_norm <= asked->accuracy &&
+            (cheapest < 0 || run->seconds < cost->run[cheapest].seconds))
             cheapest = i;
     }
     return cheapest;

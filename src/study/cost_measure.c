@@ -83,7 +83,6 @@ static OstStatus measure_adaptive(OstCost *cost, const OstCase *variant, OstCost
         note(&meter, run);
         status = evaluate(cost, ost_adaption_scene(adaption), ost_adaption_result(adaption), run);
         run->levels = adaption->count;
-        run->repeats = 1;
         if (adaption->end != OST_ADAPT_MET) {
             char words[OST_LONGEST_ADAPT_WORDS];
             ost_adaption_words(adaption, words);
@@ -97,12 +96,10 @@ static OstStatus measure_adaptive(OstCost *cost, const OstCase *variant, OstCost
 
 OstStatus ost_cost_measure(OstCost *cost, const OstCase *variant, OstCostRun *run)
 {
-    if (run->accuracy != 0.0)
-        return measure_adaptive(cost, variant, run);
     double spent = 0.0;
     do {
         OstCostRun again = *run;
-        OST_TRY(measure_once(cost, variant, &again));
+        OST_TRY(run->accuracy != 0.0 ? measure_adaptive(cost, variant, &again) : measure_once(cost, variant, &again));
         again.repeats = run->repeats + 1;
         spent += again.seconds;
         if (run->repeats == 0 || again.seconds < run->seconds)

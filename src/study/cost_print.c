@@ -132,6 +132,8 @@ static void print_reference(const OstCostQuantity *quantity)
         printf("none: no run has an answer");
     else if (reference->kind == OST_REFERENCE_FORMULA)
         printf("%s %.10g%s%s", reference->note, reference->value, source ? ", " : "", source ? source : "");
+    else if (reference->kind == OST_REFERENCE_ESTIMATED)
+        printf("%.10g: %s; good to %s", reference->value, reference->note, known);
     else
         printf("%.10g, order %d, up to refinement %d: %s; %s%s", reference->value, reference->order, reference->finest,
                reference->note, isinf(reference->uncertainty) ? "not to be trusted" : "good to ",
@@ -200,6 +202,39 @@ static void print_next(const OstCost *cost, int quantity)
     }
 }
 
+/* An accuracy asked for beside the settings that someone might have chosen. */
+static void print_request(const OstCost *cost, const OstCostRun *run)
+{
+    const int by_hand = ost_cost_by_hand(cost, run);
+    char found[CELL_SIZE];
+    percent(run->true_norm, found, sizeof found);
+    printf(" %4.3g %%  ", 100.0 * run->accuracy);
+    if (isnan(run->true_norm))
+        printf("%.2g %% off as it estimates; what is true is not known so well", 100.0 * run->estimate);
+    else
+        printf("%s off, %.2f of that", found, run->true_norm / run->accuracy);
+    if (by_hand >= 0)
+        printf("; %.2g times the seconds of order %d, refinement %d, tolerance %.0e\n",
+               run->seconds / cost->run[by_hand].seconds, cost->run[by_hand].order, cost->run[by_hand].refinement,
+               cost->run[by_hand].tolerance);
+    else
+        printf("; no setting above is known to be as good\n");
+}
+
+static void print_requests(const OstCost *cost)
+{
+    int count = 0;
+    for (int i = 0; i < cost->run_count; i++) {
+        const OstCostRun *run = &cost->run[i];
+        if (run->accuracy == 0.0 || run->state != OST_COST_DONE || run->reason[0])
+            continue;
+        if (count == 0)
+            printf("\nwhat was asked for, and the cheapest setting by hand that meets it\n");
+        printf("  %-14s", count++ == 0 ? "energy norm" : "");
+        print_request(cost, run);
+    }
+}
+
 void ost_cost_print(const OstCost *cost)
 {
     if (ost_rank(cost->ctx) != 0)
@@ -224,6 +259,7 @@ void ost_cost_print(const OstCost *cost)
             printf("  %-14s", t == 0 ? cost->quantity[q].name : "");
             print_cheapest_for(cost, q, ost_cost_target[t]);
         }
+    print_requests(cost);
     printf("\nthe next refinement would give\n");
     for (int q = 0; q < cost->quantity_count; q++)
         print_next(cost, q);

@@ -8,6 +8,9 @@
 static const double lowest_rate = 0.4;
 static const double rate_surplus = 0.5;
 
+/* An estimated error of the strain energy is 0.66 to 1.05 of the true one (docs/accuracy.md). */
+static const double estimate_doubt = 0.5;
+
 /* A value is negligible if it is smaller than this, relative to the scale of its kind. */
 static const double negligible = 1e-6;
 
@@ -137,7 +140,18 @@ void ost_reference_of_formula(double value, double scale, OstCostReference *refe
     snprintf(reference->note, sizeof reference->note, "the formula's value");
 }
 
-const char *const ost_reference_kind_word[] = {"none", "extrapolated", "finest", "settled", "formula"};
+void ost_reference_improve(double value, double error, int run, OstCostReference *reference)
+{
+    const double exact = value + error, doubt = estimate_doubt * fabs(error);
+    if (!(exact != 0.0 && doubt < reference->uncertainty * fabs(exact)))
+        return;
+    *reference = (OstCostReference){.run = run};
+    set_value(reference, OST_REFERENCE_ESTIMATED, exact, doubt, fabs(exact));
+    snprintf(reference->note, sizeof reference->note, "a run's value and its estimated error, %.2g %%",
+             in_percent(reference, fabs(error)));
+}
+
+const char *const ost_reference_kind_word[] = {"none", "extrapolated", "finest", "settled", "formula", "estimated"};
 
 void ost_reference_compare(OstCostReference *lone, double lower)
 {

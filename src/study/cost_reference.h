@@ -19,9 +19,10 @@ int ost_extrapolate(const double h[3], const double q[3], OstExtrapolation *foun
 typedef enum {
     OST_REFERENCE_NONE,
     OST_REFERENCE_EXTRAPOLATED,
-    OST_REFERENCE_FINEST,  /* the value of the finest mesh, whose own error is not known */
-    OST_REFERENCE_SETTLED, /* refinement changes the value by no more than the solver's tolerance */
-    OST_REFERENCE_FORMULA  /* the value that the case expects */
+    OST_REFERENCE_FINEST,   /* the value of the finest mesh, whose own error is not known */
+    OST_REFERENCE_SETTLED,  /* refinement changes the value by no more than the solver's tolerance */
+    OST_REFERENCE_FORMULA,  /* the value that the case expects */
+    OST_REFERENCE_ESTIMATED /* one run's value and what that run estimates to be missing */
 } OstReferenceKind;
 
 typedef struct OstCostReference {
@@ -32,6 +33,7 @@ typedef struct OstCostReference {
     double rate;        /* observed; 0: none */
     int order;          /* of the elements it comes from; 0: a formula */
     int finest;         /* their highest refinement */
+    int run;            /* ESTIMATED: its index */
     char note[OST_COST_NOTE_SIZE];
 } OstCostReference;
 
@@ -56,6 +58,10 @@ void ost_reference_of(const OstAnswers *answers, OstCostReference *reference);
 void ost_reference_of_formula(double value, double scale, OstCostReference *reference);
 
 extern const char *const ost_reference_kind_word[]; /* by OstReferenceKind */
+
+/* Local. The reference that one run makes, by its index, from its value and its estimated error; it replaces what is
+ * less certain. */
+void ost_reference_improve(double value, double error, int run, OstCostReference *reference);
 
 /* Local. Where only one refinement was run, its uncertainty is taken to be its difference from the best value of the
  * order below. */

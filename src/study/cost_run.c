@@ -123,6 +123,7 @@ static void vary(const OstCostRun *run, OstCase *variant)
     if (run->accuracy != 0.0) {
         variant->asks_error = 1;
         variant->relative_error = run->accuracy;
+        variant->solver.algebraic_fraction = ost_case_stop_fraction(variant);
         return;
     }
     variant->asks_error = 0;

@@ -115,10 +115,11 @@ static json_t *reference_json(const OstCostQuantity *quantity)
 {
     const OstCostReference *reference = &quantity->reference;
     const int is_formula = reference->kind == OST_REFERENCE_FORMULA;
+    const int is_ladder = !is_formula && reference->kind != OST_REFERENCE_ESTIMATED;
     return json_pack("{s:s, s:f, s:o, s:f, s:o, s:o, s:s, s:s?}", "kind", ost_reference_kind_word[reference->kind],
                      "value", reference->value, "uncertainty", ost_json_number(reference->uncertainty), "rate",
-                     reference->rate, "order", index_json(is_formula ? -1 : reference->order), "finest_refinement",
-                     index_json(is_formula ? -1 : reference->finest), "note", reference->note, "source",
+                     reference->rate, "order", index_json(is_ladder ? reference->order : -1), "finest_refinement",
+                     index_json(is_ladder ? reference->finest : -1), "note", reference->note, "source",
                      is_formula ? quantity->watch->source : NULL);
 }
 
@@ -204,6 +205,8 @@ static json_t *run_json(const OstCost *cost, const OstCostRun *run)
     json_object_set_new(item, "newton_iterations", json_integer(run->newton.iterations));
     json_object_set_new(item, "estimate", ost_json_number(run->estimate));
     json_object_set_new(item, "true_norm", ost_json_number(run->true_norm));
+    if (run->accuracy != 0.0)
+        json_object_set_new(item, "by_hand", index_json(ost_cost_by_hand(cost, run)));
     json_object_set_new(item, "answers", answers_json(cost, run));
     return item;
 }

@@ -275,6 +275,42 @@ static OstStatus pretend_a_crossing(OstCost *study, const OstCase *variant, OstC
     return status;
 }
 
+/* Adaptive runs choose how far they solve, whatever the case says: 12 s for as much as order 2 refined once has. */
+static OstStatus pretend_requests(OstCost *study, const OstCase *variant, OstCostRun *run)
+{
+    if (run->accuracy == 0.0)
+        return pretend(study, variant, run);
+    assert_int_equal(variant->asks_error, 1);
+    assert_close(variant->relative_error, run->accuracy, 0.0);
+    assert_close(variant->solver.algebraic_fraction, 0.1, 0.0);
+    run->order = 2;
+    run->seconds = 12.0;
+    run->watched[0] = (OstWatched){2.0 + 0.125, 2.0, .error = NAN};
+    return OST_SUCCESS;
+}
+
+static void a_request_is_measured_by_settings_that_meet_it(void **state)
+{
+    (void)state;
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.accuracy_count = 2;
+    variants.accuracy[0] = 0.3;
+    variants.accuracy[1] = 0.1;
+    make_study("accuracy: {relative_residual: 1e-10}\n", &variants);
+    cost->measure = pretend_requests;
+    assert_success(ost_cost_run(cost));
+    const OstCostRun *asked = &cost->run[cost->run_count - 2];
+    assert_close(asked->accuracy, 0.3, 0.0);
+    assert_close(asked->true_norm, 0.25, 1e-10);
+    /* energies 2 + 4^-refinement / order: the norm is off by 0.5 / sqrt(order) / 2^refinement times the root of 2 */
+    const OstCostRun *by_hand = &cost->run[ost_cost_by_hand(cost, asked)];
+    assert_int_equal(by_hand->order, 2);
+    assert_int_equal(by_hand->refinement, 1);
+    assert_close(by_hand->tolerance, 1e-2, 0.0);
+    assert_int_equal(ost_cost_by_hand(cost, asked + 1), -1);
+    drop_study();
+}
+
 static void near_by_accident_is_not_exact(void **state)
 {
     (void)state;
@@ -451,6 +487,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(errors_are_against_the_extrapolated_answer),
     cmocka_unit_test(errors_are_against_the_formula_where_there_is_one),
     cmocka_unit_test(a_lone_answer_of_order_two_is_measured_by_order_one),
+    cmocka_unit_test(a_request_is_measured_by_settings_that_meet_it),
     cmocka_unit_test(near_by_accident_is_not_exact),
     cmocka_unit_test(what_diverges_has_no_price),
     cmocka_unit_test(a_run_that_fails_is_listed_with_its_reason),

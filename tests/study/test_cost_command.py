@@ -104,6 +104,9 @@ class Cost(unittest.TestCase):
         for one in adaptive:
             self.assertLessEqual(one["estimate"], one["accuracy"])
             self.assertGreater(one["levels"], 1)
+            self.assertTrue(one["repeats"] > 1 or one["seconds"] > 0.4, one)  # as short runs by hand are
+            if one["by_hand"] is not None:
+                self.assertLessEqual(study["runs"][one["by_hand"]]["true_norm"], one["accuracy"])
         for order, ahead in zip((1, 2), study["quantities"][1]["next"]):
             fine, coarse = error[order, 2 if order == 1 else 1], error[order, 1 if order == 1 else 0]
             self.assertEqual(ahead["order"], order)

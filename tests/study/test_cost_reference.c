@@ -146,6 +146,22 @@ static void a_formula_is_exact(void **state)
     assert_close(found.size, 3.0, 0.0);
 }
 
+/* An error of 1 is 0.66 to 1.05 of the true one. */
+static void an_estimate_replaces_what_is_less_certain(void **state)
+{
+    (void)state;
+    OstCostReference found = {.kind = OST_REFERENCE_FINEST, .value = 98.0, .size = 98.0, .uncertainty = 0.004};
+    ost_reference_improve(99.0, 1.0, 3, &found);
+    assert_int_equal(found.kind, OST_REFERENCE_FINEST);
+    found.uncertainty = 0.006;
+    ost_reference_improve(99.0, 1.0, 3, &found);
+    assert_int_equal(found.kind, OST_REFERENCE_ESTIMATED);
+    assert_string_equal(ost_reference_kind_word[found.kind], "estimated");
+    assert_int_equal(found.run, 3);
+    assert_close(found.value, 100.0, 0.0);
+    assert_close(found.uncertainty, 0.005, 1e-15);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_power_law_is_found_exactly),
     cmocka_unit_test(steps_of_refinement_may_differ),
@@ -157,6 +173,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_answer_that_stays_is_the_reference),
     cmocka_unit_test(errors_of_nothing_are_shares_of_its_scale),
     cmocka_unit_test(a_formula_is_exact),
+    cmocka_unit_test(an_estimate_replaces_what_is_less_certain),
 };
 
 OST_TEST_MAIN(tests)
