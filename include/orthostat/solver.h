@@ -51,7 +51,8 @@ typedef struct OstSolverOptions {
     unsigned given;       /* OST_GIVEN_* */
     int precise;          /* 1: coarse levels in twice single precision; 2: the finest too. The solver sets it */
     int own_blocks;       /* are the finest aggregates blocks by which prolongators are smoothed? Multigrid sets it */
-    int columns;          /* are the finest aggregates the columns of a plate, if it has any? Multigrid sets it */
+    int columns;          /* 1: the finest aggregates are the columns of a plate, if it has any; 2: whose matrix is
+                           * factored. Multigrid sets it */
 } OstSolverOptions;
 
 /* What can be seen of a system before it is solved; 0 where it is not known. */

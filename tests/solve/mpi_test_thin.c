@@ -38,6 +38,7 @@ static void thin_bodies_take_few_iterations(void **state)
         {"beam, isotropic", BEAM OF("1", "0.3"), 1, 0, 45},
         {"beam, stiff along", BEAM OF("[1000, 1, 1]", "0.3"), 1, 0, 30},
         {"plate, isotropic", PLATE OF("1", "0.3"), 1, 0, 50},
+        {"plate, stiff across, nu 0.45", PLATE OF("[1, 1, 1000]", "0.45"), 1, 0, 60},
         {"plate of quadratic tets, isotropic", SHEET OF("1", "0.3"), 2, 0, 60},
         {"plate of quadratic tets, stiff along", SHEET OF("[1000, 1, 1]", "0.3"), 2, 0, 60},
         {"layers, stiff across, nu 0.4", LAYERS OF("[1, 1, 1000]", "0.4"), 2, 1, 45},

@@ -28,8 +28,8 @@ static const double weakest = 0.03, weak_jump = 10.0;
  * 12 nodes and blocks of 10. */
 static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 
-/* The columns of a plate are nodes of a flat mesh, whose factors are small: they are not coarsened further, up to so
- * many unknowns. */
+/* The columns of a plate of quadratic tets are nodes of a flat mesh, whose factors are small: they are not coarsened
+ * further, up to so many unknowns. */
 static const OstGlobal flat_unknowns = 250000;
 
 /* The levels under construction, from the finest down. */
@@ -100,7 +100,7 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
     OST_TRY(ost_sum_numbers(work->ctx, 1, unknowns));
-    work->levels->flat = work->by_columns && *unknowns <= flat_unknowns;
+    work->levels->flat = work->by_columns && work->options.columns == 2 && *unknowns <= flat_unknowns;
     if (work->levels->flat)
         work->options.most_levels = 2;
     return OST_SUCCESS;
@@ -214,9 +214,10 @@ done:
 static OstStatus find_columns(Coarsening *work)
 {
     OST_TRY(ost_columns_create(work->levels->graph[0], &work->columns));
-    work->options.columns = work->columns != NULL;
     if (work->columns)
         work->options.precise = 2;
+    else
+        work->options.columns = 0;
     return OST_SUCCESS;
 }
 
