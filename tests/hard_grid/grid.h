@@ -101,6 +101,7 @@ typedef struct HardRun {
     OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
     int iterated;            /* solved without a factorisation */
     int all;                 /* with a size: all points, and not the spread of six a shape and order */
+    int sample;              /* so many of each shape, drawn with a fixed seed; 0: all */
 } HardRun;
 
 typedef struct HardReport {

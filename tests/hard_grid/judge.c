@@ -14,9 +14,9 @@ static const double least_stated = 1.0 / 3.0, most_stated = 1e3, no_error = 1e-1
 /* Of residuals as they are stated and in 64 bits; below the second a difference is no matter. */
 static const double same_residual = 3.0, wanted_residual = 1e-8;
 
-/* Up to so many unknowns a body at size is factored, to judge its answer; or, up to the second, whether it is refused
- * rightly. */
-static const OstGlobal small_size = 10000, refused_size = 100000;
+/* A body at size is factored only where its residual does not tell: up to so many unknowns, to judge an answer that
+ * rounding limits; or, up to the second, whether it is refused rightly. */
+static const OstGlobal rounded_size = 10000, refused_size = 100000;
 
 const double hard_hopeless = 0.1;
 
@@ -161,6 +161,16 @@ static OstStatus compare(const OstScene *scene, const OstResult *result, HardRea
     return status;
 }
 
+static int needs_factors(const HardReading *reading)
+{
+    const OstGlobal size = reading->point.size;
+    if (size == 0)
+        return 1;
+    if (reading->status != OST_SUCCESS)
+        return size <= refused_size;
+    return size <= rounded_size && reading->outcome == HARD_SOLVED_TO_ROUNDING;
+}
+
 OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
 {
     const OstGlobal size = reading->point.size;
@@ -171,8 +181,7 @@ OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
         status = hard_find_residual(scene, result, &reading->truth);
     if (size > 0 && status == OST_SUCCESS)
         judge_residual(reading);
-    const OstGlobal factored = reading->status == OST_SUCCESS ? small_size : refused_size;
-    if (status == OST_SUCCESS && size <= factored && reading->outcome != HARD_FALSE)
+    if (status == OST_SUCCESS && needs_factors(reading))
         status = compare(scene, result, reading);
     ost_result_destroy(&result);
     return status;

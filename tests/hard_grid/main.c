@@ -29,10 +29,11 @@ static const struct argp_option options[] = {
     {"mixed", 'M', 0, 0, "Quadratic tets at nu = 1/2 by the mixed form, in place of the other points", 0},
     {"size", 'S', "N", 0,
      "Bodies of about N unknowns (1000 to 1e8), six of each shape and order, solved without a factorisation, judged by "
-     "their residual in 64 bits, and up to 10,000 unknowns by a direct solution",
+     "their residual in 64 bits",
      0},
     {"iterated", 'I', 0, 0, "Leave the solver no factorisation but that of the coarsest level", 0},
     {"all", 'a', 0, 0, "With --size: all points and not six of each shape and order", 0},
+    {"sample", 'N', "N", 0, "Of the points, N of each shape, the same in every run", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
     {0},
 };
@@ -79,6 +80,12 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         if (!*end && arguments->run.size >= 1000 && arguments->run.size <= 100000000)
             return 0;
         argp_error(state, "--size wants a number of unknowns, 1000 to 1e8, and got '%s'", value);
+        return EINVAL;
+    case 'N':
+        arguments->run.sample = (int)strtol(value, &end, 10);
+        if (!*end && arguments->run.sample >= 1 && arguments->run.sample <= 10000)
+            return 0;
+        argp_error(state, "--sample wants a number of bodies of each shape, 1 to 10,000, and got '%s'", value);
         return EINVAL;
     case 'j':
         if (arguments->report_count == MOST_REPORTS) {

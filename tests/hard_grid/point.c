@@ -139,6 +139,30 @@ static void add_all(PointList *list)
         }
 }
 
+static unsigned draw(unsigned *state)
+{
+    *state = *state * 1664525U + 1013904223U; /* Numerical Recipes' generator, its upper bits */
+    return *state >> 16;
+}
+
+/* Keeps `most` points of each shape, which come one after another, in their order (Knuth's algorithm S). */
+static void keep_sample(int most, int *count, HardPoint *point)
+{
+    unsigned state = 1;
+    int kept = 0;
+    for (int first = 0, end; first < *count; first = end) {
+        int wanted = most;
+        for (end = first; end < *count && point[end].shape == point[first].shape;)
+            end++;
+        for (int i = first; i < end; i++)
+            if ((int)(draw(&state) % (unsigned)(end - i)) < wanted) {
+                point[kept++] = point[i];
+                wanted--;
+            }
+    }
+    *count = kept;
+}
+
 OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint **points)
 {
     PointList list = {.wanted = run->wanted,
@@ -155,5 +179,7 @@ OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint
     list.point = *points;
     list.count = list.seen = 0;
     add_all(&list);
+    if (run->sample > 0)
+        keep_sample(run->sample, count, *points);
     return OST_SUCCESS;
 }
