@@ -53,7 +53,7 @@ large_rotation: off
 watch:
   tip: {displacement: {nearest: [4, 0, 0]}, component: z}
   held: {reaction: {boundary: xmin}, component: z}
-  whole: {reaction: {boundary: xmin}}
+  length: {reaction: {boundary: xmin}}
   work: strain_energy
 """
     finished, report, _ = solve(bent)
@@ -66,7 +66,7 @@ watch:
         check(f"+- {error:.2g} ({100 * error / value:.2g} %)" in printed[name], f"{name}: {printed[name]}")
     check(watched["held"]["error"] == 0 and "statics" in printed["held"], f"held: {watched['held']}, {printed['held']}")
     check(abs(watched["held"]["value"] + 1) < 1e-12, f"held: {watched['held']}")
-    check(abs(watched["whole"]["value"] - 1) < 1e-12 and "statics" in printed["whole"], f"whole: {watched['whole']}")
+    check(abs(watched["length"]["value"] - 1) < 1e-12 and "statics" in printed["length"], f"length: {watched['length']}")
     _, report, _ = solve(bent + "output: {fields: [stress]}\n")
     check(all(entry["error"] is None for entry in report["watched"].values()), f"not asked for: {report['watched']}")
 
