@@ -141,6 +141,7 @@ typedef struct OstWatchedValue {
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
     int placed;     /* is it a least or largest value, and `place` where it is? */
     double place[3];
+    const char *why; /* is the error not known although the estimate was asked for; NULL else */
 } OstWatchedValue;
 
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or

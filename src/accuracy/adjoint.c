@@ -10,15 +10,59 @@
 #include <math.h>
 #include <string.h>
 
+/* What is out of balance at u + length × moved. */
+static OstStatus out_of_balance(const OstProblem *problem, double t, const double *u, double length,
+                                const double *moved, double *at, double *load, double *force)
+{
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
+        at[i] = u[i] + length * moved[i];
+    OST_TRY(ost_problem_force(problem, t, at, force));
+    ost_problem_load(problem, t, at, load);
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        force[i] -= load[i];
+    return OST_SUCCESS;
+}
+
+/* Minus the force of a given motion where rotations are large, in steps.force: the stiffness at u changes within a
+ * tet's edges, and the difference over so small a part of the body's size is as good as its derivative. */
+static OstStatus move_large(const Search *search, double t, const double *u, const double *moved)
+{
+    static const double small = 1e-6;
+    const OstProblem *problem = search->estimate->problem;
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    double low[3], high[3], side[3], most = ost_search_largest(3 * (size_t)problem->mesh->node_count, moved);
+    double *at = NULL, *load = NULL, *behind = NULL;
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    OST_TRY(ost_mesh_bounds(problem->mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        side[i] = high[i] - low[i];
+    const double length = small * ost_norm3(side) / (most > 0.0 ? most : 1.0);
+    OstStatus status = OST_NEW(problem->ctx, &at, 3 * (size_t)problem->mesh->node_count);
+    OST_THEN(OST_NEW(problem->ctx, &load, owned));
+    OST_THEN(OST_NEW(problem->ctx, &behind, owned));
+    OST_THEN(out_of_balance(problem, t, u, -length, moved, at, load, behind));
+    OST_THEN(out_of_balance(problem, t, u, length, moved, at, load, search->steps.force));
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        search->steps.force[i] = (behind[i] - search->steps.force[i]) / (2.0 * length);
+    OST_FREE(at);
+    OST_FREE(load);
+    OST_FREE(behind);
+    return ost_agree(problem->ctx, status);
+}
+
 /* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. */
-static OstStatus adjoint_load(Search *search, const OstInterest *interest)
+static OstStatus adjoint_load(Search *search, const OstInterest *interest, double t, const double *u)
 {
     OstSteps *steps = &search->steps;
     const OstOperator *stiffness = &search->estimate->stiffness;
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
-    if (interest->load) {
+    if (!interest->moved) {
         memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
+    } else if (stiffness->turned_by) {
+        OST_TRY(move_large(search, t, u, interest->moved));
+        for (size_t i = 0; i < numbers && interest->load; i++)
+            steps->force[i] += interest->load[i];
     } else {
         memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
         ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
@@ -62,12 +106,12 @@ static OstStatus energy_of_given(const Search *search, const OstInterest *intere
 
 /* steps.u: the displacement z, to an error of that share in the norm of the energy, or 0: to the solver's residual.
  */
-static OstStatus solve_adjoint(Search *search, const OstInterest *interest, double share)
+static OstStatus solve_adjoint(Search *search, const OstInterest *interest, double t, const double *u, double share)
 {
     AdjointStop stop = {
         .stop = {.ask = ask, .data = &stop, .first = 1e-2, .relative = 1}, .search = search, .share = share};
     OstSolveReport report;
-    OST_TRY(adjoint_load(search, interest));
+    OST_TRY(adjoint_load(search, interest, t, u));
     OST_TRY(energy_of_given(search, interest, &stop.of_given));
     OstSteps *steps = &search->steps;
     ost_solver_aim(steps->solver, (OstSolverAim){.stop = share > 0.0 ? &stop.stop : NULL});
@@ -138,13 +182,13 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
     OST_TRY_DONE(ost_agree(
         problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
     search.of_adjoint = 1;
-    OST_TRY_DONE(solve_adjoint(&search, interest, 0.0));
+    OST_TRY_DONE(solve_adjoint(&search, interest, t, u, 0.0));
     OST_TRY_DONE(adjoint_residual(&search, interest));
     OST_TRY_DONE(ost_search_iterate(&search, 0.0, &square));
     if (search.steps.failed)
         goto done;
     OST_TRY_DONE(ost_search_displacement(&search));
-    OST_TRY_DONE(ost_search_share(&search, ost_search_true_square(&search, square), of_adjoint, NULL));
+    OST_TRY_DONE(ost_search_share(&search, ost_search_true_square(&search, square), of_adjoint));
     OST_TRY_DONE(work_on(&search, t, u, error));
     if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
         *error = -*error;
@@ -175,11 +219,12 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
     OST_FREE(*adjoint);
 }
 
-static OstStatus find_adjoint(Search *search, const OstInterest *interest, double share, OstAdjoint *adjoint)
+static OstStatus find_adjoint(Search *search, const OstInterest *interest, double t, const double *u, double share,
+                              OstAdjoint *adjoint)
 {
     double square;
     search->of_adjoint = 1;
-    OST_TRY(solve_adjoint(search, interest, share));
+    OST_TRY(solve_adjoint(search, interest, t, u, share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     OST_TRY(adjoint_residual(search, interest));
     OST_TRY(ost_search_iterate(search, 0.0, &square));
@@ -190,13 +235,13 @@ static OstStatus find_adjoint(Search *search, const OstInterest *interest, doubl
     return OST_SUCCESS;
 }
 
-OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const OstInterest *interest, double share,
-                             OstAdjoint **adjoint)
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                             const OstInterest *interest, double share, OstAdjoint **adjoint)
 {
     const OstProblem *problem = estimate->problem;
     Search search = {0};
     *adjoint = NULL;
-    OstStatus status = ost_search_move(estimate, NULL);
+    OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, solver, &search));
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
@@ -206,7 +251,7 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const Ost
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
         status = ost_agree(problem->ctx, status);
     }
-    OST_THEN(find_adjoint(&search, interest, share, *adjoint));
+    OST_THEN(find_adjoint(&search, interest, t, u, share, *adjoint));
     if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
     ost_steps_close(&search.steps);

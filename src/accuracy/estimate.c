@@ -5,6 +5,7 @@
 #include "accuracy/search.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/free_body.h"
@@ -268,14 +269,12 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     return OST_SUCCESS;
 }
 
-OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress)
+OstStatus ost_search_share(Search *search, double square, double *tet_error)
 {
     const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
     OST_TRY(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
-    ost_operator_energy(&search->estimate->stiffness, search->steps.u, search->steps.e.functions, tet_error, stress);
-    for (size_t i = 0; i < 6 * (size_t)problem->mesh->owned_tets && stress; i++)
-        stress[i] *= search->longer * search->steps.size;
+    ost_operator_energy(&search->estimate->stiffness, search->steps.u, search->steps.e.functions, tet_error);
     for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
         sum += tet_error[tet];
     OST_TRY(ost_sum(problem->ctx, 1, &sum));
@@ -292,7 +291,7 @@ static OstStatus hand_out(Search *search, double *surplus)
         OST_TRY(ost_free_body_centre(problem->mesh, search->steps.u));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
         surplus[i] = search->longer * search->steps.size * search->steps.u[i];
-    return OST_SUCCESS;
+    return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *surplus, surplus));
 }
 
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
@@ -314,10 +313,10 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
             status = ost_steps_settle(&search.steps);
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
-            OST_THEN(ost_search_share(&search, square, surplus->tet_error, surplus->stress));
-        if (status == OST_SUCCESS && surplus->tet_error && surplus->node_stress)
-            ost_operator_node_stress(&estimate->stiffness, search.steps.u, search.steps.e.functions,
-                                     search.longer * search.steps.size, surplus->node_stress);
+            OST_THEN(ost_search_share(&search, square, surplus->tet_error));
+        if (status == OST_SUCCESS && surplus->tet_error && (surplus->stress || surplus->node_stress))
+            ost_operator_add_stress(&estimate->stiffness, search.steps.u, search.steps.e.functions,
+                                    search.longer * search.steps.size, surplus->node_stress, surplus->stress);
         if (surplus->displacement)
             OST_THEN(hand_out(&search, surplus->displacement));
     }

@@ -31,9 +31,9 @@ OstStatus ost_estimate_remember(OstEstimate *estimate);
  * would add. */
 typedef struct OstSurplus {
     double *tet_error;    /* owned_tets: each tet's share of the squared error in the norm of the energy */
-    double *displacement; /* 3 × owned_nodes: e at the nodes */
-    double *stress;       /* 6 × owned_tets: the mean of its stress over the tet; of linear theory */
-    float *node_stress;   /* 6 numbers for each node of each tet, ghosts included: its stress there; likewise */
+    double *displacement; /* 3 × node_count: e at the nodes, ghosts included */
+    double *stress;       /* 6 × owned_tets: what it adds to the mean stress of the tet */
+    float *node_stress;   /* 6 numbers for each node of each tet, ghosts included: what it adds to the stress there */
 } OstSurplus;
 
 /* Collective. The discretisation error of u (3 × node_count, ghosts included) at t; `solver` is of the problem's
@@ -53,13 +53,14 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
 
-/* The adjoint problem of a reaction, solved once for all loads on the same supports, by linear theory. */
+/* The adjoint problem of a reaction, solved once for all loads on the same supports; where rotations are large, that of
+ * the stiffness at u. */
 typedef struct OstAdjoint OstAdjoint;
 
 /* Collective. *adjoint is NULL where none can be found. Its equations are solved to an error of this share of z in the
  * norm of the energy; 0: to the solver's residual. */
-OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, const OstInterest *interest, double share,
-                             OstAdjoint **adjoint);
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                             const OstInterest *interest, double share, OstAdjoint **adjoint);
 void ost_adjoint_destroy(OstAdjoint **adjoint);
 
 /* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem. */

@@ -44,16 +44,19 @@ static OstStatus of_displacement(const OstProblem *problem, const OstWatch *watc
     return ost_sum(problem->ctx, 1, &interest->value);
 }
 
-/* How a node's place is seen from the point that a moment is about. */
-static void find_arm(const OstProblem *problem, const OstWatch *watch, OstLocal node, double arm[3])
+/* How a node's place, which moves where rotations are large, is seen from the point that a moment is about. */
+static void find_arm(const OstProblem *problem, const OstWatch *watch, const double *u, OstLocal node, double arm[3])
 {
-    for (size_t i = 0; i < 3; i++)
-        arm[i] = problem->mesh->coordinates[3 * (size_t)node + i] - watch->about[i];
+    const int turns = !ost_problem_is_linear(problem);
+    for (size_t i = 0; i < 3; i++) {
+        const size_t n = 3 * (size_t)node + i;
+        arm[i] = problem->mesh->coordinates[n] + (turns ? u[n] : 0.0) - watch->about[i];
+    }
 }
 
 /* The whole reaction of the nodes, or its moment: the internal force there, less the load. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
-                               OstLocal count, const OstLocal *nodes, double sum[3])
+                               OstLocal count, const OstLocal *nodes, double *forces, double sum[3])
 {
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     double *force = NULL, *load = NULL;
@@ -67,10 +70,12 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
         double of_node[3], arm[3], moment[3];
         if (nodes[n] >= problem->mesh->owned_nodes)
             continue;
-        find_arm(problem, watch, nodes[n], arm);
+        find_arm(problem, watch, u, nodes[n], arm);
         for (size_t i = 0; i < 3; i++)
             of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
         ost_cross3(arm, of_node, moment);
+        if (forces)
+            memcpy(forces + 3 * (size_t)nodes[n], of_node, sizeof of_node);
         for (int i = 0; i < 3; i++)
             sum[i] += watch->of_moment ? moment[i] : of_node[i];
     }
@@ -86,17 +91,25 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     OstLocal *nodes = NULL, count = 0;
     double sum[3], direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
+    if (watch->of_moment && !ost_problem_is_linear(problem))
+        OST_TRY(
+            ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->load, 3 * (size_t)problem->mesh->owned_nodes)));
     OST_TRY(ost_select_nodes(problem->scene->c, problem->mesh, &watch->on, &count, &nodes));
-    const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, sum);
+    const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, interest->load, sum);
     take_direction(watch, sum, direction);
     memcpy(interest->direction, direction, sizeof direction);
     interest->value = ost_dot3(direction, sum);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
         double arm[3];
-        find_arm(problem, watch, nodes[n], arm);
+        find_arm(problem, watch, u, nodes[n], arm);
         memcpy(interest->moved + 3 * (size_t)nodes[n], direction, sizeof direction);
         if (watch->of_moment)
             ost_cross3(direction, arm, interest->moved + 3 * (size_t)nodes[n]);
+        if (interest->load && nodes[n] < problem->mesh->owned_nodes) { /* arms grow with the displacement */
+            double force[3];
+            memcpy(force, interest->load + 3 * (size_t)nodes[n], sizeof force);
+            ost_cross3(direction, force, interest->load + 3 * (size_t)nodes[n]);
+        }
     }
     OST_FREE(nodes);
     return status;

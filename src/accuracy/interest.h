@@ -6,7 +6,8 @@
 
 /* A quantity of interest as a linear function of the displacement about u: what its adjoint problem is made of. */
 typedef struct OstInterest {
-    double *load; /* of a displacement: 3 × owned_nodes, by how much it grows with each node's; or NULL */
+    double *load; /* 3 × owned_nodes: by how much a displacement grows with each node's; of a moment's arms, where
+                     rotations are large, by how much less it does; or NULL */
     double
         *moved; /* of a reaction: 3 × node_count, a displacement that is 1 along the reaction at its nodes; or NULL */
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */

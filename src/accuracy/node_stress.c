@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 #include "assembly/batch.h"
+#include "element/biot.h"
+#include "element/large_rotation.h"
 #include "element/shape_functions.h"
 #include "element/strain_batch.h"
 #include "element/tets.h"
@@ -14,23 +16,21 @@ static void find_place(int node, double at[4])
     at[node < 4 ? node : ost_tet10_ends[node][1]] += 0.5;
 }
 
-/* Adds the strain of the complement's functions at a node of the tets. */
-static void add_functions(const OstElement *element, const OstBatch *batch, int node, int functions, const OstSimd *w,
-                          OstSimd *strain)
+/* What a displacement adds to F at a node of the tets. */
+static void find_slope(const OstElement *element, const OstBatch *batch, int node, const OstSimd *u, int functions,
+                       const OstSimd *w, OstSimd slope[9])
 {
-    OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[3][3] = {{{0}}}, more[6];
+    OstSimd gradient[OST_MAX_FUNCTIONS][3];
     OstQuadraturePoint point = {.weight = 1.0};
     OstPoint of;
     find_place(node, point.at);
     element->evaluate(batch->x, &point, &of);
+    ost_displacement_gradient(element->nodes, &of, u, slope);
     ost_complement_gradients(element->nodes, point.at, &of, gradient);
     for (int k = 0; k < functions; k++)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
-                slope[i][j] += w[3 * k + i] * gradient[k][j];
-    ost_strain_of_slope(slope, more);
-    for (int p = 0; p < 6; p++)
-        strain[p] += more[p];
+                slope[3 * i + j] += w[3 * k + i] * gradient[k][j];
 }
 
 /* The complement has a tet's edges in the mesh's order of its nodes. */
@@ -69,36 +69,116 @@ static void take_stress(const OstElasticity *at_nodes, int nodes, const OstSimd 
     }
 }
 
-void ost_operator_node_stress(const OstOperator *operator, const double * u, const float *w, double factor,
-                              float *stress)
+/* Stresses at the nodes of displacements whose F - I is there. */
+static void find_small(const OstElasticity *at_nodes, int nodes, const OstSimd *slope, OstSimd *stress)
+{
+    OstSimd strain[6 * OST_MAX_TET_NODES];
+    for (int a = 0; a < nodes; a++)
+        for (int p = 0; p < 6; p++) {
+            const int i = p % 3, j = (i + 1) % 3;
+            const OstSimd *of = slope + 9 * a;
+            strain[6 * a + p] = p < 3 ? of[4 * i] : of[3 * i + j] + of[3 * j + i];
+        }
+    take_stress(at_nodes, nodes, strain, stress);
+}
+
+/* Cauchy's, of the consistent form: by how much it changes from `given`, in a frame that turns with the tet. */
+static void find_large(const OstElasticity *at_nodes, int nodes, const OstSimd *given, const OstSimd *slope,
+                       OstSimd *stress)
+{
+    OstSimd change[6 * OST_MAX_TET_NODES] = {{0}}, of_stretch[6 * OST_MAX_TET_NODES];
+    OstPolar polar[OST_MAX_TET_NODES];
+    for (int a = 0; a < nodes; a++) {
+        ost_polar(given + 9 * a, &polar[a]);
+        ost_biot_strain_change(&polar[a], slope + 9 * a, change + 6 * a);
+    }
+    take_stress(at_nodes, nodes, change, of_stretch);
+    for (int a = 0; a < nodes; a++) {
+        const OstSimd jacobian = polar[a].stretch[0] * polar[a].stretch[1] * polar[a].stretch[2];
+        OstSimd piola[9];
+        ost_biot_piola(&polar[a], of_stretch + 6 * a, piola);
+        ost_kirchhoff_of_piola(piola, given + 9 * a, stress + 6 * a);
+        ost_divide_by_volume(&jacobian, stress + 6 * a);
+    }
+}
+
+/* Batches of tets that follow each other. */
+typedef struct Visit {
+    const OstOperator *operator;
+    const OstElement *element;
+    const double *u;
+    const float *w;
+    double factor;
+    int functions;
+    OstBatch batch;
+    OstElasticity at_nodes;
+} Visit;
+
+static void find_added(Visit *visit, OstSimd *found)
+{
+    const int nodes = visit->element->nodes;
+    const double *base = visit->operator->turned_by;
+    OstSimd moved[3 * OST_MAX_TET_NODES], more[3 * OST_MAX_FUNCTIONS], slope[9 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(&visit->batch, nodes, visit->u, moved);
+    gather_functions(visit->operator->complement, &visit->batch, visit->w, more);
+    for (int a = 0; a < nodes; a++)
+        find_slope(visit->element, &visit->batch, a, moved, visit->functions, more, slope + 9 * a);
+    for (int n = 0; n < 9 * nodes; n++)
+        slope[n] *= visit->factor;
+    if (!base) {
+        find_small(&visit->at_nodes, nodes, slope, found);
+        return;
+    }
+    OstSimd given[9 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(&visit->batch, nodes, base, moved);
+    for (int a = 0; a < nodes; a++)
+        find_slope(visit->element, &visit->batch, a, moved, 0, more, given + 9 * a);
+    find_large(&visit->at_nodes, nodes, given, slope, found);
+}
+
+/* Of a polynomial's values at the nodes: of degree 1 by the vertices, of degree 2 by the middles of the edges too. */
+static void take_mean(int nodes, const OstSimd *found, int slot, double mean[6])
+{
+    for (int p = 0; p < 6; p++) {
+        mean[p] = 0.0;
+        for (int a = 0; a < nodes; a++)
+            mean[p] += (nodes == 4 ? 0.25 : a < 4 ? -0.05 : 0.2) * found[6 * a + p][slot];
+    }
+}
+
+void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
+                             float *at_nodes, double *mean)
 {
     const OstProblem *problem = operator->problem;
     const OstMesh *mesh = problem->mesh;
-    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    const int functions = ost_complement_per_tet(operator->complement);
-    const size_t width = 6 * (size_t)element->nodes;
-    OstBatch batch;
-    OstElasticity at_nodes;
-    ost_elasticity_clear(&batch.elasticity);
-    ost_elasticity_clear(&at_nodes);
-    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
-        OstSimd moved[3 * OST_MAX_TET_NODES], more[3 * OST_MAX_FUNCTIONS];
-        OstSimd strain[6 * OST_MAX_TET_NODES], found[6 * OST_MAX_TET_NODES];
+    Visit visit = {.operator= operator,
+                   .element = ost_element_of(mesh->nodes_per_tet),
+                   .u = u,
+                   .w = w,
+                   .factor = factor,
+                   .functions = ost_complement_per_tet(operator->complement)};
+    const int nodes = visit.element->nodes;
+    const size_t width = 6 * (size_t)nodes;
+    const OstLocal end = at_nodes ? mesh->tet_count : mesh->owned_tets;
+    ost_elasticity_clear(&visit.batch.elasticity);
+    ost_elasticity_clear(&visit.at_nodes);
+    for (OstLocal first = 0; first < end; first += OST_SIMD_WIDTH) {
+        OstSimd found[6 * OST_MAX_TET_NODES];
         OstLocal tets[OST_SIMD_WIDTH];
-        const int count = mesh->tet_count - first < OST_SIMD_WIDTH ? (int)(mesh->tet_count - first) : OST_SIMD_WIDTH;
+        const int count = end - first < OST_SIMD_WIDTH ? (int)(end - first) : OST_SIMD_WIDTH;
         for (int slot = 0; slot < count; slot++)
             tets[slot] = first + slot;
-        ost_batch_gather(&batch, element, mesh, problem->field, count, tets);
-        take_own_order(mesh, &batch);
-        ost_batch_gather_vectors(&batch, element->nodes, u, moved);
-        ost_elasticity_gather(&at_nodes, problem->field, batch.tet, element->points > 0 ? element->nodes : 0, batch.x);
-        gather_functions(operator->complement, &batch, w, more);
-        element->nodal_strain(batch.x, moved, strain);
-        for (int a = 0; a < element->nodes; a++)
-            add_functions(element, &batch, a, functions, more, strain + 6 * a);
-        take_stress(&at_nodes, element->nodes, strain, found);
-        for (int slot = 0; slot < count; slot++)
-            for (size_t n = 0; n < width; n++)
-                stress[width * (size_t)(first + slot) + n] = (float)(factor * found[n][slot]);
+        ost_batch_gather(&visit.batch, visit.element, mesh, problem->field, count, tets);
+        take_own_order(mesh, &visit.batch);
+        ost_elasticity_gather(&visit.at_nodes, problem->field, visit.batch.tet, visit.element->points > 0 ? nodes : 0,
+                              visit.batch.x);
+        find_added(&visit, found);
+        for (int slot = 0; slot < count; slot++) {
+            const size_t tet = (size_t)(first + slot);
+            for (size_t n = 0; n < width && at_nodes; n++)
+                at_nodes[width * tet + n] = (float)found[n][slot];
+            if (mean && first + slot < mesh->owned_tets)
+                take_mean(nodes, found, slot, mean + 6 * tet);
+        }
     }
 }

@@ -36,13 +36,13 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const flo
  * as N'N (accuracy/blocks.h). */
 OstStatus ost_operator_blocks(const OstOperator *operator, float * factor);
 
-/* Local. Of each owned tet, twice the strain energy of a displacement; and the mean of its stress (6 numbers, not over
- * the unit), or NULL. */
-void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy, double *stress);
+/* Local. Of each owned tet, twice the strain energy of a displacement. */
+void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy);
 
-/* Local. Of each tet, ghosts included, `factor` times the stress of a displacement at its nodes, 6 numbers each, not
- * over the unit; by linear theory. */
-void ost_operator_node_stress(const OstOperator *operator, const double * u, const float *w, double factor,
-                              float *stress);
+/* Local. What `factor` times a displacement adds to the stress, in a frame that turns with the tet where rotations are
+ * large. Of each tet, ghosts included, at its nodes, 6 numbers each, not over the unit; and the mean over each owned
+ * tet. Either may be NULL. */
+void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
+                             float *at_nodes, double *mean);
 
 #endif

@@ -389,28 +389,12 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const flo
         (void)ost_together(mesh->ctx, multiply, (void *)operator->complement, &product);
 }
 
-/* The mean stress of each tet, by the work of the nodal forces on linear displacements. */
-static void take_stress(const Cells *cells, const OstSimd *at_nodes, const double *coordinates, double *stress)
-{
-    for (int slot = 0; slot < cells->batch.count; slot++) {
-        double *of_tet = stress + 6 * (size_t)cells->batch.tet[slot];
-        const double volume = fabs(ost_tet_volume(coordinates, cells->batch.node[slot]));
-        for (int p = 0; p < 6; p++) {
-            const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-            of_tet[p] = 0.0;
-            for (int a = 0; a < cells->nodes; a++)
-                of_tet[p] += at_nodes[3 * a + i][slot] * (cells->batch.x[3 * a + j][slot] - cells->batch.x[j][slot]);
-            of_tet[p] /= volume;
-        }
-    }
-}
-
-void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy, double *stress)
+void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy)
 {
     const OstMesh *mesh = operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
-    if (operator->light && !operator->turned_by && !stress) {
+    if (operator->light && !operator->turned_by) {
         ost_light_tets_energy(operator->light, u, w, energy);
         return;
     }
@@ -422,8 +406,6 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
         ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
         gather_functions(&cells, w, more);
         find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
-        if (stress)
-            take_stress(&cells, at_nodes, mesh->coordinates, stress);
         for (int n = 0; n < 3 * cells.nodes; n++)
             sum += (moved[n] - moved[n % 3]) * at_nodes[n];
         for (int n = 0; n < 3 * cells.functions; n++)

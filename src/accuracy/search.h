@@ -55,8 +55,8 @@ double ost_search_true_square(const Search *search, double square);
 /* Collective. steps.u: e at the nodes. */
 OstStatus ost_search_displacement(Search *search);
 
-/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u; its mean stress, or NULL. */
-OstStatus ost_search_share(Search *search, double square, double *tet_error, double *stress);
+/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u. */
+OstStatus ost_search_share(Search *search, double square, double *tet_error);
 
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);

@@ -65,6 +65,10 @@ void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation f
                                      const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
                                      OstSimd *stress);
 
+/* The symmetric part of P F' (slope = F - I, row-major); a stress over det F. */
+void ost_kirchhoff_of_piola(const OstSimd piola[9], const OstSimd slope[9], OstSimd tau[6]);
+void ost_divide_by_volume(const OstSimd *jacobian, OstSimd stress[6]);
+
 /* The rotation R of each tet's mean F = R U, row-major. */
 void ost_large_rotation_mean_rotation(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
                                       const OstSimd *u, OstSimd rotation[9]);

@@ -72,6 +72,26 @@ static void classical_piola(const Tets *tets, const OstElasticity *elasticity, i
                    tets->rotation[n / 3 * 3 + 2] * *row[2][n % 3];
 }
 
+void ost_kirchhoff_of_piola(const OstSimd piola[9], const OstSimd slope[9], OstSimd tau[6])
+{
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3;
+        const int j = p < 3 ? p : (p + 1) % 3;
+        tau[p] = 0.5 * (piola[3 * i + j] + piola[3 * j + i]);
+        for (int k = 0; k < 3; k++)
+            tau[p] += 0.5 * (piola[3 * i + k] * slope[3 * j + k] + piola[3 * j + k] * slope[3 * i + k]);
+    }
+}
+
+void ost_divide_by_volume(const OstSimd *jacobian, OstSimd stress[6])
+{
+    OstSimd volume;
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        volume[slot] = copysign(fmax(fabs((*jacobian)[slot]), least_volume), (*jacobian)[slot]);
+    for (int p = 0; p < 6; p++)
+        stress[p] /= volume;
+}
+
 /* One point: the symmetric part of Kirchhoff's stress P F' (all of it, but for the classical form), and det F. */
 static void kirchhoff(const Tets *tets, const OstElasticity *elasticity, int place, const double at[4],
                       const OstPoint *point, OstSimd tau[6], OstSimd *jacobian)
@@ -84,23 +104,8 @@ static void kirchhoff(const Tets *tets, const OstElasticity *elasticity, int pla
         classical_piola(tets, elasticity, place, at, point, piola);
     else
         consistent_piola(tets, elasticity, place, at, &polar, piola);
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3;
-        const int j = p < 3 ? p : (p + 1) % 3;
-        tau[p] = 0.5 * (piola[3 * i + j] + piola[3 * j + i]);
-        for (int k = 0; k < 3; k++)
-            tau[p] += 0.5 * (piola[3 * i + k] * slope[3 * j + k] + piola[3 * j + k] * slope[3 * i + k]);
-    }
+    ost_kirchhoff_of_piola(piola, slope, tau);
     *jacobian = polar.stretch[0] * polar.stretch[1] * polar.stretch[2];
-}
-
-static void divide_by_volume(const OstSimd *jacobian, OstSimd stress[6])
-{
-    OstSimd volume;
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        volume[slot] = copysign(fmax(fabs((*jacobian)[slot]), least_volume), (*jacobian)[slot]);
-    for (int p = 0; p < 6; p++)
-        stress[p] /= volume;
 }
 
 void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
@@ -120,7 +125,7 @@ void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation fo
         for (int p = 0; p < 6; p++)
             stress[p] += point.volume / tets.means.volume * tau[p];
     }
-    divide_by_volume(&now, stress);
+    ost_divide_by_volume(&now, stress);
 }
 
 void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
@@ -137,6 +142,6 @@ void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation f
             node.at[ost_tet10_ends[a][end]] += 0.5;
         element->evaluate(x, &node, &point);
         kirchhoff(&tets, at_nodes, ost_elasticity_at(at_nodes, a), node.at, &point, stress, &jacobian);
-        divide_by_volume(&jacobian, stress);
+        ost_divide_by_volume(&jacobian, stress);
     }
 }

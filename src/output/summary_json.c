@@ -185,8 +185,9 @@ static json_t *watched_json(const OstWatchedValue *watched, int count)
     for (int w = 0; w < count; w++)
         json_object_set_new(
             values, watched[w].name,
-            json_pack("{s:o, s:o, s:o, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
-                      ost_json_number(watched[w].expected), "error", ost_json_number(watched[w].error), "corrected",
+            json_pack("{s:o, s:o, s:o, s:s?, s:o, s:o}", "value", ost_json_number(watched[w].value), "expected",
+                      ost_json_number(watched[w].expected), "error", ost_json_number(watched[w].error),
+                      "error_not_known", watched[w].why, "corrected",
                       ost_json_number(watched[w].by_adjoint ? watched[w].value + watched[w].error : NAN), "place",
                       watched[w].placed ? vector_json(watched[w].place) : json_null()));
     return values;

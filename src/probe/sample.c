@@ -10,6 +10,7 @@
 #include "recovery/recovery.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Numbers of a sample that the rank with the tet has, and all get by a sum. */
 enum { BETTER = 3 + OST_STRESS_MEASURES, WIDTH = BETTER + OST_STRESS_MEASURES };
@@ -19,7 +20,7 @@ static OstStatus sample(const OstResult *result, const OstLocated *located, doub
     const OstMesh *mesh = result->mesh;
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, located->tet);
     const float *surplus = result->node_stress_surplus;
-    double values[OST_MAX_TET_NODES], at_nodes[6 * OST_MAX_TET_NODES], stress[6] = {0.0}, better[6] = {0.0};
+    double values[OST_MAX_TET_NODES], at_nodes[6 * OST_MAX_TET_NODES], stress[6] = {0.0}, better[6] = {0.0}, turned[6];
     ost_shape_values(mesh->nodes_per_tet, located->at, values);
     ost_tet_nodal_stress(result, located->tet, at_nodes);
     for (int a = 0; a < mesh->nodes_per_tet; a++) {
@@ -33,9 +34,12 @@ static OstStatus sample(const OstResult *result, const OstLocated *located, doub
     }
     for (int p = 0; p < 6; p++)
         better[p] += stress[p];
+    memcpy(turned, better, sizeof turned);
+    ost_turn_with_error(result, located->tet, OST_STRESS_MEASURE_XX, 1, turned);
     for (int m = 0; m < OST_STRESS_MEASURES; m++) {
+        const double *with_error = m <= (int)OST_STRESS_MEASURE_ZX ? turned : better;
         OST_TRY(ost_stress_measure(result, located->tet, stress, (OstStressMeasure)m, &row[3 + m]));
-        OST_TRY(ost_stress_measure(result, located->tet, better, (OstStressMeasure)m, &row[BETTER + m]));
+        OST_TRY(ost_stress_measure(result, located->tet, with_error, (OstStressMeasure)m, &row[BETTER + m]));
     }
     return OST_SUCCESS;
 }
@@ -51,7 +55,7 @@ static OstStatus sample_own(const OstResult *result, OstLocal count, const OstLo
 OstStatus ost_sample_points(const OstResult *result, OstLocal count, const double *points, OstSample *samples)
 {
     OstContext *ctx = result->ctx;
-    const int knows_errors = result->node_stress_surplus && result->formulation == OST_FORMULATION_LINEAR;
+    const int knows_errors = result->node_stress_surplus != NULL;
     OstLocated *located = NULL;
     double *rows = NULL;
     OstStatus status = OST_NEW(ctx, &located, count);

@@ -136,6 +136,41 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
         stress[n] = all[n][0];
 }
 
+/* The rotation of a tet's mean F under the displacement, and under that with the estimated error. */
+static void find_rotations(const OstResult *result, OstLocal tet, double before[9], double after[9])
+{
+    const OstElement *element = ost_element_of(result->mesh->nodes_per_tet);
+    OstSimd u[3 * OST_MAX_TET_NODES], error[3 * OST_MAX_TET_NODES], of_u[9], of_both[9];
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
+    ost_batch_gather_vectors(&batch, element->nodes, result->displacement, u);
+    ost_batch_gather_vectors(&batch, element->nodes, result->surplus, error);
+    for (int n = 0; n < 3 * element->nodes; n++)
+        error[n] += u[n];
+    ost_large_rotation_mean_rotation(element, batch.x, &batch.elasticity, u, of_u);
+    ost_large_rotation_mean_rotation(element, batch.x, &batch.elasticity, error, of_both);
+    for (int n = 0; n < 9; n++) {
+        before[n] = of_u[n][0];
+        after[n] = of_both[n][0];
+    }
+}
+
+void ost_turn_with_error(const OstResult *result, OstLocal tet, OstStressMeasure measure, int count, double *stress)
+{
+    double before[9], after[9], turn[9] = {0.0};
+    if (result->formulation == OST_FORMULATION_LINEAR || !result->surplus || measure > OST_STRESS_MEASURE_ZX)
+        return;
+    find_rotations(result, tet, before, after);
+    for (int n = 0; n < 27; n++)
+        turn[n / 3] += after[3 * (n / 9) + n % 3] * before[3 * (n / 3 % 3) + n % 3];
+    for (int k = 0; k < count; k++) {
+        double given[6];
+        memcpy(given, stress + 6 * k, sizeof given);
+        ost_tensor_along(given, turn, stress + 6 * k);
+    }
+}
+
 static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
                       Sums *sums)
 {

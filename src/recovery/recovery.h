@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_RECOVERY_RECOVERY_H
 #define ORTHOSTAT_RECOVERY_RECOVERY_H
 
+#include "fields/stress_measure.h"
 #include "problem/result_data.h"
 
 /* Collective. Computes what the bits of `fields` (OstOutputFieldBit) ask for, or what those are made of: strain, stress
@@ -14,5 +15,9 @@ OstStatus ost_result_recover(OstResult *result, unsigned fields);
 
 /* Local. Stress at the nodes of one tet, as it is in that tet: 6 numbers a node, world axes. */
 void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress);
+
+/* Local. Turns stresses that the estimate has added to (`count`, 6 numbers each) as the error of the displacement turns
+ * the tet, for a measure along the world's axes; material axes turn with it. Nothing is done by linear theory. */
+void ost_turn_with_error(const OstResult *result, OstLocal tet, OstStressMeasure measure, int count, double *stress);
 
 #endif

@@ -68,7 +68,7 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
     if (!result->tet_error)
         status = OST_NEW(result->ctx, &result->tet_error, mesh->owned_tets);
     if (is_watched && !result->surplus)
-        OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->owned_nodes));
+        OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->node_count));
     if (watches_stress(problem, 1) && !result->stress_surplus)
         OST_THEN(OST_NEW(result->ctx, &result->stress_surplus, 6 * (size_t)mesh->owned_tets));
     if (watches_stress(problem, 0) && !result->node_stress_surplus)
@@ -118,17 +118,36 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
     return OST_SUCCESS;
 }
 
-/* Of watched reactions, one for each quantity; along a path they would take an adjoint problem a step. */
+/* Adjoint problems of large rotations need the stiffness at the answer, not that of the last correction. Where that is
+ * no good, their solves say so. */
+static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult *result)
+{
+    OstProblem *problem = analysis->problem;
+    OstLinear *linear = analysis->work;
+    const OstFormulation formulation = problem->formulation;
+    if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || ost_reactions_have_adjoint(problem)))
+        return OST_SUCCESS;
+    ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
+    OstStatus status = ost_problem_stiffness(problem, t, result->displacement, NULL);
+    OST_THEN(ost_solver_update(linear->stiffness.solver, OST_UPDATE_KEEP));
+    linear->stiffness.moved = 1;
+    ost_problem_take_formulation(problem, formulation);
+    return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT ? OST_SUCCESS : status;
+}
+
+/* Of watched reactions, one for each quantity; by linear theory load cases, and a path's steps, share adjoint problems.
+ */
 static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     const OstProblem *problem = analysis->problem;
     const OstLinear *linear = analysis->work;
-    if (!problem->scene || problem->scene->c->path_steps > 0)
+    if (!problem->scene)
         return OST_SUCCESS;
+    const int shares =
+        ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
     return ost_reactions_find(problem, estimate, linear->stiffness.solver, t, result->displacement,
-                              result->answer.relative, analysis->serves_several ? &analysis->reactions : NULL,
-                              result->reactions);
+                              result->answer.relative, shares ? &analysis->reactions : NULL, result->reactions);
 }
 
 static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
@@ -146,6 +165,8 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
             ost_estimate_find(estimate, linear->stiffness.solver, t, result->displacement, &result->answer, &surplus));
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
+    if (result->answer.known)
+        OST_TRY_DONE(move_stiffness(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))
         OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
     if (result->answer.known)

@@ -144,6 +144,50 @@ static double energy_error(const OstScene *scene, const OstResult *result)
     return is_moved ? -half : half;
 }
 
+static const char *why_no_energy(const OstScene *scene, const OstResult *result)
+{
+    if (result->formulation != OST_FORMULATION_LINEAR)
+        return "with large rotations it is not half the square of the error in the norm of the energy";
+    return ost_effect_on(&scene->plan.effects, OST_EFFECT_EIGENSTRAIN) ? "a part swells or contracts of itself"
+           : scene->c->spring_count > 0                                ? "springs have energy too"
+                                                                       : "both loads and prescribed displacements act";
+}
+
+static const char *why_no_reaction(const OstScene *scene, const OstResult *result)
+{
+    if (scene->c->free_body)
+        return "a free body has none";
+    if (scene->drive)
+        return "the force of a moved coupling is looked for too";
+    if (result->pressure)
+        return "the mixed form's adjoint problem is not solved";
+    return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
+                                                         : "its adjoint problem was not solved, or a pressure that "
+                                                           "follows makes it unsymmetric";
+}
+
+/* Why there is no error, in words. */
+static const char *find_why(const OstScene *scene, const OstResult *result, const OstWatch *watch)
+{
+    if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE))
+        return NULL; /* not asked for */
+    if (!result->answer.known)
+        return "that of the answer is not";
+    switch (watch->kind) {
+    case OST_WATCH_STRAIN_ENERGY:
+        return why_no_energy(scene, result);
+    case OST_WATCH_REACTION:
+        return why_no_reaction(scene, result);
+    case OST_WATCH_STRESS:
+        return result->pressure
+                   ? "the estimate of the mixed form has no error of the pressure"
+                   : "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
+    case OST_WATCH_DISPLACEMENT:
+        break;
+    }
+    return "it was not estimated";
+}
+
 static OstStatus evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     switch (watch->kind) {
@@ -168,6 +212,7 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
+    watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
     return OST_SUCCESS;
 }
 
@@ -240,7 +285,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
                                          watched.error,
                                          result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY,
                                          watched.placed,
-                                         {watched.place[0], watched.place[1], watched.place[2]}};
+                                         {watched.place[0], watched.place[1], watched.place[2]},
+                                         watched.why};
     }
     return OST_SUCCESS;
 }
@@ -256,6 +302,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
             printf(" +- %.2g", error);
         if (error > 0.0 && error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+        if (values[w].why)
+            printf(", error not known: %s", values[w].why);
         if (values[w].placed)
             printf(" at (%.6g, %.6g, %.6g)", values[w].place[0], values[w].place[1], values[w].place[2]);
         if (values[w].by_adjoint)

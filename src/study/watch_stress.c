@@ -34,7 +34,7 @@ static OstStatus value_of(const OstResult *result, const OstWatch *watch, OstLoc
     return ost_stress_measure(result, tet, result->stress + 6 * (size_t)tet, (OstStressMeasure)watch->component, value);
 }
 
-/* What the estimate adds to the value: of linear theory, and of measures that are linear, as the error's stress varies
+/* What the estimate adds to the value: of measures that are linear, as the error's stress varies
  * far more than its mean. */
 static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstLocal tet, double value, double *more)
 {
@@ -42,10 +42,11 @@ static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstL
     *more = NAN;
     const int is_linear =
         watch->component < (int)OST_STRESS_MEASURE_VON_MISES || watch->component == (int)OST_STRESS_MEASURE_PRESSURE;
-    if (!result->stress_surplus || result->formulation != OST_FORMULATION_LINEAR || !is_linear)
+    if (!result->stress_surplus || !is_linear)
         return OST_SUCCESS;
     for (size_t p = 0; p < 6; p++)
         stress[p] = result->stress[6 * (size_t)tet + p] + result->stress_surplus[6 * (size_t)tet + p];
+    ost_turn_with_error(result, tet, (OstStressMeasure)watch->component, 1, stress);
     OST_TRY(ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, more));
     *more -= value;
     return OST_SUCCESS;
@@ -106,7 +107,7 @@ static OstStatus share_place(const OstResult *result, Over *over)
 }
 
 /* Adds a tet's stress at its vertices, with what the estimate adds to it, times the volume; the volume comes last. */
-static void add_better(const OstResult *result, OstLocal tet, double *sums)
+static void add_better(const OstResult *result, OstLocal tet, OstStressMeasure measure, double *sums)
 {
     const OstMesh *mesh = result->mesh;
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
@@ -114,10 +115,13 @@ static void add_better(const OstResult *result, OstLocal tet, double *sums)
     const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes));
     double at_nodes[6 * OST_MAX_TET_NODES];
     ost_tet_nodal_stress(result, tet, at_nodes);
+    for (int n = 0; n < 24; n++)
+        at_nodes[n] += (double)surplus[n];
+    ost_turn_with_error(result, tet, measure, 4, at_nodes);
     for (size_t a = 0; a < 4; a++) {
         double *sum = sums + 7 * (size_t)nodes[a];
         for (size_t p = 0; p < 6 && nodes[a] < mesh->owned_nodes; p++)
-            sum[p] += volume * (at_nodes[6 * a + p] + (double)surplus[6 * a + p]);
+            sum[p] += volume * at_nodes[6 * a + p];
         if (nodes[a] < mesh->owned_nodes)
             sum[6] += volume;
     }
@@ -132,7 +136,7 @@ static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, 
     *least = INFINITY;
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         if (mesh->tet_region[tet] == region)
-            add_better(result, tet, sums);
+            add_better(result, tet, (OstStressMeasure)watch->component, sums);
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         for (int a = 0; a < 4 && mesh->tet_region[tet] == region && status == OST_SUCCESS; a++) {
             const OstLocal node = ost_mesh_nodes_of(mesh, tet)[a];
@@ -154,7 +158,7 @@ static OstStatus find_beyond(const OstResult *result, const OstWatch *watch, dou
 {
     double least;
     *error = NAN;
-    if (!result->node_stress_surplus || result->formulation != OST_FORMULATION_LINEAR)
+    if (!result->node_stress_surplus)
         return OST_SUCCESS;
     OST_TRY(ost_agree(result->ctx, least_of_means(result, watch, sign, over->region, &least)));
     OST_TRY(ost_min(result->ctx, 1, &least));

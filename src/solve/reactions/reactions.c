@@ -29,15 +29,22 @@ static int any(const OstCase *c)
     return some;
 }
 
-/* Is the reaction the internal force at nodes that are held one by one? */
-static int is_plain(const OstProblem *problem)
+/* Is a reaction the work of what is out of balance on some motion? Not the force of a coupling that is moved. */
+static int is_work(const OstProblem *problem)
 {
-    return !problem->free_body && !problem->supports->links && !problem->scene->drive && ost_problem_is_linear(problem);
+    return !problem->free_body && !problem->scene->drive;
 }
 
 int ost_reactions_allow_stop(const OstProblem *problem)
 {
-    return !problem->scene || !any(problem->scene->c) || (is_plain(problem) && !problem->pressures);
+    return !problem->scene || !any(problem->scene->c) ||
+           (is_work(problem) && !problem->supports->links && ost_problem_is_linear(problem) && !problem->pressures);
+}
+
+int ost_reactions_have_adjoint(const OstProblem *problem)
+{
+    return problem->scene && any(problem->scene->c) && is_work(problem) && !problem->pressures &&
+           (ost_problem_is_linear(problem) || problem->conservative);
 }
 
 /* One watched reaction of an answer. */
@@ -111,12 +118,15 @@ static OstStatus work_of(const Search *search, const double *motion, double *wor
 }
 
 /* Statics alone gives the reaction where the supports allow what the rigid motion is beside the given one: the length
- * of a vector from its three parts. */
+ * of a vector from its three parts. Where rotations are large, the displacement is in the arms of moments, and in
+ * pressure that follows. */
 static OstStatus find_by_statics(const Search *whole, double t, const double *u, OstWatchedReaction *found)
 {
     const int is_length = whole->watch->component == OST_WATCH_LENGTH;
     double before[3] = {0.0}, exact[3] = {0.0};
-    int yes = 1;
+    const int depends_on_u =
+        !ost_problem_is_linear(whole->problem) && (whole->watch->of_moment || whole->problem->follower);
+    int yes = !whole->problem->supports->links && !depends_on_u;
     for (int axis = 0; axis < 3 && yes; axis++) {
         OstWatch part = *whole->watch;
         Search search = {whole->problem, &part, {0}, whole->rigid, whole->imbalance};
@@ -162,8 +172,10 @@ static OstStatus find_by_adjoint(Search *search, OstEstimate *estimate, OstSolve
     OstAdjoint *adjoint = NULL;
     OST_TRY(look_up(search, kept, &adjoint));
     const int is_new = !adjoint;
-    OstStatus status = is_new ? ost_adjoint_create(estimate, solver, &search->interest, share, &adjoint) : OST_SUCCESS;
-    if (status == OST_NOT_CONVERGED || (status == OST_SUCCESS && !adjoint))
+    OstStatus status =
+        is_new ? ost_adjoint_create(estimate, solver, t, u, &search->interest, share, &adjoint) : OST_SUCCESS;
+    const int is_no_use = status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT; /* an indefinite stiffness */
+    if (is_no_use || (status == OST_SUCCESS && !adjoint))
         return OST_SUCCESS;
     OST_THEN(work_of(search, ost_adjoint_displacement(adjoint), &found->missing));
     OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, &found->error));
@@ -184,7 +196,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
     const OstCase *c = problem->scene->c;
     const double share = fmin(fmax(share_of_error * relative, least_share), most_share);
     double *imbalance = NULL, *rigid = NULL;
-    if (!any(c) || !is_plain(problem))
+    if (!any(c) || !is_work(problem))
         return OST_SUCCESS;
     OstStatus status = ost_agree(problem->ctx, OST_NEW(problem->ctx, &rigid, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(find_imbalance(problem, t, u, &imbalance));
@@ -193,7 +205,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
         if (search.watch->kind != OST_WATCH_REACTION)
             continue;
         status = find_by_statics(&search, t, u, &found[w]);
-        if (status != OST_SUCCESS || found[w].known || problem->pressures)
+        if (status != OST_SUCCESS || found[w].known || !ost_reactions_have_adjoint(problem))
             continue;
         status = ost_interest_create(problem, search.watch, t, u, &search.interest);
         OST_THEN(find_by_adjoint(&search, estimate, solver, t, u, share, kept, &found[w]));

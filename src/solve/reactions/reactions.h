@@ -5,7 +5,7 @@
 #include "accuracy/estimate.h"
 #include "algebra/solver.h"
 
-/* Watched reactions of linear answers whose equations are solved to the error of the mesh alone. A reaction is R = a(u,
+/* Watched reactions of answers, whose equations may be solved to the error of the mesh alone. A reaction is R = a(u,
  * w) - l(w) for any displacement w that is 1 along it at its nodes and 0 at other supports. Summed over the nodes, w
  * ends within a layer of tets, and what u leaves out of balance beside them counts in full. With z, the w that has the
  * least energy (the adjoint problem's), it counts times the error of z alone, and the error that the mesh makes is the
@@ -23,6 +23,10 @@ void ost_reactions_clear(OstReactions *kept);
 /* Local. May the solve stop early, although the case watches reactions? Not where nodes follow others or the pressure
  * is an unknown. */
 int ost_reactions_allow_stop(const OstProblem *problem);
+
+/* Local. May a watched reaction have an adjoint problem? Not with the pressure as an unknown, nor where the stiffness
+ * has an unsymmetric part. */
+int ost_reactions_have_adjoint(const OstProblem *problem);
 
 /* Collective. What is to be added to each watched reaction, and its error: found (one for each quantity watched) is
  * filled for those that are known. `relative`: the error of u in the norm of the energy. What is found for this load is

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors of watched quantities where rotations are large, along a path and where nodes follow others, against finer meshes; and why
+there is none, in words."""
+from program import check, fewer, new_folder, solve
+
+folder = new_folder()
+MESH = """mesh: {block: {size: [10, 1, 1], divisions: [DIVISIONS]}}
+element: {order: ORDER}
+accuracy: {relative_residual: 1e-9}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+"""
+HELD = "{on: {boundary: xmin}, displacement: [0, 0, 0]}"
+REACTIONS = """  pull: {reaction: {boundary: xmin}, component: x}
+  shear: {reaction: {boundary: xmax}, component: z}
+  moment: {reaction: {boundary: xmin}, about: [0, 0.5, 0.5], component: y}
+"""
+# One end moved far; one that slides, so that the arms of its moment grow; a dead load that bends.
+MOVED = MESH + f"""large_rotation: on
+constraints: [{HELD}, {{on: {{boundary: xmax}}, displacement: [-0.2, 0, 2]}}]
+watch:
+{REACTIONS}  whole: {{reaction: {{boundary: xmin}}}}
+  inside: {{stress: {{at: [2.1, 0.65, 0.83]}}, component: xx}}
+"""
+SLID = MESH + f"""large_rotation: on
+constraints: [{HELD}, {{on: {{boundary: xmax}}, displacement: [free, free, 0]}}]
+loads: [{{body_force: [0, 0, 2]}}]
+watch:
+  far: {{reaction: {{boundary: xmax}}, about: [10, 0.5, 0.5], component: y}}
+  moment: {{reaction: {{boundary: xmin}}, about: [0, 0.5, 0.5], component: y}}
+  along: {{reaction: {{boundary: xmin}}, component: x}}
+"""
+BENT = MESH + f"""large_rotation: on
+constraints: [{HELD}]
+loads: [{{on: {{boundary: xmax}}, total_force: [0, 0, 1]}}]
+watch:
+  tip: {{displacement: {{nearest: [10, 0.5, 0.5]}}, component: z}}
+  b: {{stress: {{at: [6.1, 0.45, 0.83]}}, component: xx}}
+  c: {{stress: {{at: [6.1, 0.45, 0.23]}}, component: xx}}
+  d: {{stress: {{at: [2.1, 0.65, 0.23]}}, component: von_mises}}
+"""
+RIGID = MESH + f"""large_rotation: off
+constraints: [{HELD}, {{on: {{boundary: xmax}}, rigid: {{at: [10, 0.5, 0.5], displacement: [0.1, free, 0.2], rotation: [0, 0.05, free]}}}}]
+watch:
+{REACTIONS}"""
+CELL = """mesh: {block: {size: [1, 1, 1], divisions: [DIVISIONS]}}
+element: {order: ORDER}
+materials:
+  - {region: all, youngs_modulus: [1000, 50, 50], poissons_ratio: 0.3, axes: {cylindrical: {origin: [-1, 0.4, 0], axis: [0, 0, 1],
+     order: [tangential, radial, axial]}}}
+large_rotation: off
+constraints: [{periodic: [[xmin, xmax], [ymin, ymax], [zmin, zmax]], strain: {xx: 0.01, xy: 0.01}}, {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}]
+watch:
+  across: {reaction: {boundary: ymax}, component: y}
+  sheared: {reaction: {boundary: ymax}, component: x}
+"""
+
+
+def watched(case, order, divisions, ranks=1, text=""):
+    done, report, _ = solve(case.replace("ORDER", str(order)).replace("DIVISIONS", divisions) + text, ranks=ranks, folder=folder)
+    check(done.exit_code == 0, done.errors)
+    return report["watched"], done
+
+
+def ratios_hold(name, case, fine, coarse, skip=()):
+    exact, _ = watched(case, 2, fine)
+    for order, divisions in coarse:
+        first = None
+        for ranks in fewer((1, 2)) if order == 2 else (1,):
+            found, _ = watched(case, order, divisions, ranks)
+            first = first or found
+            for key, value in found.items():
+                missing = exact[key]["value"] - value["value"]
+                check(key in skip or 0.5 < value["error"] / missing < 2, f"{name}, {key}, order {order}: {value}, missing {missing}")
+                check(abs(value["error"] - first[key]["error"]) <= 0.1 * abs(first[key]["error"]) + 1e-12,
+                      f"{name}, {key}: {value} on {ranks} ranks, {first[key]} on one")
+    return exact
+
+
+BEAMS = (1, "20, 4, 4"), (2, "10, 2, 2")
+ratios_hold("a moved end", MOVED, "20, 4, 4", BEAMS)
+ratios_hold("an end that slides", SLID, "20, 4, 4", BEAMS, skip=("along",))
+ratios_hold("bent", BENT, "20, 4, 4", BEAMS)
+ratios_hold("a rigid face", RIGID, "20, 4, 4", BEAMS)
+ratios_hold("a cell", CELL, "8, 8, 8", ((1, "6, 6, 6"), (2, "3, 3, 3")))
+
+# Statics gives a force, whatever the rotations.
+found, done = watched(SLID, 1, "10, 2, 2")
+check(found["along"]["error"] == 0 and "statics" in done.output, f"along: {found['along']}")
+
+# The end of a path has the errors of that load alone, linear or not.
+for case in MOVED, MOVED.replace("large_rotation: on", "large_rotation: off"):
+    alone, _ = watched(case, 2, "10, 2, 2")
+    last, _ = watched(case, 2, "10, 2, 2", text="path: {steps: 2}\n")
+    for key, value in alone.items():
+        check(abs(last[key]["error"] - value["error"]) < 0.05 * abs(value["error"]), f"path, {key}: {last[key]}, alone {value}")
+
+# What is not known is said, with the reason.
+SILENT = {
+    "mixed": (MOVED.replace("0.3}]", "0.499}]").replace("on\n", "off\n"), "pull", "mixed form's adjoint problem"),
+    "stress": (MOVED.replace("0.3}]", "0.499}]").replace("on\n", "off\n"), "inside", "no error of the pressure"),
+    "energy": (BENT + "  work: strain_energy\n", "work", "large rotations"),
+    "mean": (BENT + "  mean: {stress: {region: all}, component: von_mises, take: mean}\n", "mean", "not linear"),
+    "coupling": (MESH + f"""constraints: [{HELD}]
+loads: [{{on: {{boundary: xmax}}, distributing: {{at: [10, 0.5, 0.5], displacement: [0.01, free, free]}}}}]
+watch: {{pull: {{reaction: {{boundary: xmin}}, component: x}}}}
+""", "pull", "moved coupling"),
+}
+for name, (case, key, words) in SILENT.items():
+    found, done = watched(case, 2, "6, 1, 1")
+    line = next(line for line in done.output.splitlines() if line.startswith(key))
+    check(found[key]["error"] is None and words in found[key]["error_not_known"], f"{name}: {found[key]}")
+    check(f"error not known: {found[key]['error_not_known']}" in line, f"{name}: {line}")
+found, done = watched(BENT, 2, "6, 1, 1", text="output: {fields: [stress]}\n")
+check(all(value["error"] is None and value["error_not_known"] is None for value in found.values()), f"not asked for: {found}")
+check("not known" not in done.output, done.output)
