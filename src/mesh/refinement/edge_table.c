@@ -21,12 +21,6 @@ static void sort_ends(const OstMesh *mesh, OstLocal a, OstLocal b, OstLocal *low
     *high = ascending ? b : a;
 }
 
-static void edge_ends(const OstMesh *mesh, OstLocal tet, int edge, OstLocal *low, OstLocal *high)
-{
-    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-    sort_ends(mesh, nodes[ost_tet_edge[edge][0]], nodes[ost_tet_edge[edge][1]], low, high);
-}
-
 /* The place of the first of some ascending numbers that is not below one. (bsearch and qsort call a function for each
  * comparison, which took most of the time here.) */
 static OstLocal place_of(OstLocal number, const OstLocal *ascending, OstLocal count)
@@ -41,74 +35,6 @@ static OstLocal place_of(OstLocal number, const OstLocal *ascending, OstLocal co
     return first;
 }
 
-/* Lists the high ends of the edges of each low end, once for every tet with the edge. */
-static OstStatus list_high_ends(const OstMesh *mesh, OstGlobal *start, OstLocal **high_end)
-{
-    OstGlobal *next = start + 1; /* offset by one: filling the lists moves each start to its place */
-    OstLocal low = 0;
-    OstLocal high = 0;
-    for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        for (int e = 0; e < 6; e++) {
-            edge_ends(mesh, t, e, &low, &high);
-            next[low + 1]++;
-        }
-    }
-    for (OstLocal n = 0; n < mesh->node_count; n++)
-        next[n + 1] += next[n];
-    OST_TRY(OST_NEW(mesh->ctx, high_end, next[mesh->node_count]));
-    for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        for (int e = 0; e < 6; e++) {
-            edge_ends(mesh, t, e, &low, &high);
-            (*high_end)[next[low]++] = high;
-        }
-    }
-    return OST_SUCCESS;
-}
-
-/* Adds a number to ascending ones, after which there is room, unless it is there; returns how many there are then. */
-static OstLocal insert(OstLocal number, OstLocal *ascending, OstLocal count)
-{
-    const OstLocal place = place_of(number, ascending, count);
-    if (place < count && ascending[place] == number)
-        return count;
-    memmove(ascending + place + 1, ascending + place, (size_t)(count - place) * sizeof *ascending);
-    ascending[place] = number;
-    return count + 1;
-}
-
-/* Sorts each node's high ends and removes repetitions, in place. */
-static OstStatus remove_repetitions(const OstMesh *mesh, const OstGlobal *start, OstLocal *high_end, EdgeTable *table)
-{
-    OstGlobal kept = 0;
-    for (OstLocal n = 0; n < mesh->node_count; n++) {
-        OstLocal count = 0;
-        for (OstGlobal i = start[n]; i < start[n + 1]; i++)
-            count = insert(high_end[i], high_end + kept, count);
-        kept += count;
-        if (kept > INT32_MAX)
-            return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
-                             "a rank would hold more than the %d mid-edge nodes it can number; use more ranks",
-                             INT32_MAX);
-        table->start[n + 1] = (OstLocal)kept;
-    }
-    table->count = (OstLocal)kept;
-    return OST_SUCCESS;
-}
-
-static OstStatus file_edges(const OstMesh *mesh, EdgeTable *table)
-{
-    OstGlobal *start = NULL;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(OST_NEW(mesh->ctx, &start, (size_t)mesh->node_count + 2));
-    OST_TRY_DONE(OST_NEW(mesh->ctx, &table->start, (size_t)mesh->node_count + 1));
-    OST_TRY_DONE(list_high_ends(mesh, start, &table->high));
-    OST_TRY_DONE(remove_repetitions(mesh, start, table->high, table));
-    OST_TRY_DONE(OST_RESIZE(mesh->ctx, &table->high, table->count));
-done:
-    OST_FREE(start);
-    return status;
-}
-
 OstLocal ost_edge_find(const EdgeTable *table, const OstMesh *mesh, OstLocal a, OstLocal b)
 {
     OstLocal low = 0;
@@ -119,19 +45,112 @@ OstLocal ost_edge_find(const EdgeTable *table, const OstMesh *mesh, OstLocal a, 
     return place < count && table->high[first + place] == high ? first + place : -1;
 }
 
-OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)
+/* --- a table --- */
+
+/* An edge of a tet, listed at its low end. */
+typedef struct Side {
+    OstLocal high;
+    uint32_t place; /* in EdgeTable.of_tet */
+} Side;
+
+static void side_of(const OstMesh *mesh, OstLocal tet, int edge, OstLocal *low, Side *side)
 {
-    OST_TRY(file_edges(mesh, table));
-    OST_TRY(OST_NEW(mesh->ctx, &table->low, table->count));
-    OST_TRY(OST_NEW(mesh->ctx, &table->of_tet, 6 * (size_t)mesh->tet_count));
-    for (OstLocal n = 0; n < mesh->node_count; n++)
-        for (OstLocal e = table->start[n]; e < table->start[n + 1]; e++)
-            table->low[e] = n;
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    sort_ends(mesh, nodes[ost_tet_edge[edge][0]], nodes[ost_tet_edge[edge][1]], low, &side->high);
+    side->place = 6 * (uint32_t)tet + (uint32_t)edge;
+}
+
+/* Lists the sides of each low end: those of n start at start[n]. */
+static OstStatus list_sides(const OstMesh *mesh, OstGlobal *start, Side **side)
+{
+    OstGlobal *next = start + 1; /* offset by one: filling the lists moves each start to its place */
+    OstLocal low = 0;
+    Side one;
+    if ((uint32_t)mesh->tet_count > UINT32_MAX / 6)
+        return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
+                         "a rank would number the edges of %d tets, more than %u; use more ranks", mesh->tet_count,
+                         UINT32_MAX / 6);
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
-        for (int e = 0; e < 6; e++)
-            table->of_tet[6 * (size_t)t + (size_t)e] =
-                ost_edge_find(table, mesh, nodes[ost_tet_edge[e][0]], nodes[ost_tet_edge[e][1]]);
+        for (int e = 0; e < 6; e++) {
+            side_of(mesh, t, e, &low, &one);
+            next[low + 1]++;
+        }
+    }
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        next[n + 1] += next[n];
+    OST_TRY(OST_NEW(mesh->ctx, side, next[mesh->node_count]));
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        for (int e = 0; e < 6; e++) {
+            side_of(mesh, t, e, &low, &one);
+            (*side)[next[low]++] = one;
+        }
     }
     return OST_SUCCESS;
+}
+
+/* Adds a number to ascending ones, after which there is room. */
+static void insert(OstLocal number, OstLocal *ascending, OstLocal count)
+{
+    OstLocal place = count;
+    for (; place > 0 && ascending[place - 1] > number; place--)
+        ascending[place] = ascending[place - 1];
+    ascending[place] = number;
+}
+
+/* Makes room for more edges. */
+static OstStatus make_room(const OstMesh *mesh, OstGlobal edges, OstGlobal *room, EdgeTable *table)
+{
+    if (edges > INT32_MAX)
+        return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
+                         "a rank would hold more than the %d mid-edge nodes it can number; use more ranks", INT32_MAX);
+    if (edges <= *room)
+        return OST_SUCCESS;
+    *room = edges + edges / 2;
+    OST_TRY(OST_RESIZE(mesh->ctx, &table->low, *room));
+    return OST_RESIZE(mesh->ctx, &table->high, *room);
+}
+
+/* Numbers the edges, those of one low end after those of the one before. edge_to: node_count zeros. */
+static OstStatus number_sides(const OstMesh *mesh, const OstGlobal *start, const Side *side, OstLocal *edge_to,
+                              EdgeTable *table)
+{
+    OstGlobal room = 0;
+    OST_TRY(make_room(mesh, mesh->tet_count + (OstGlobal)mesh->node_count, &room, table));
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        const OstLocal first = table->count;
+        OST_TRY(make_room(mesh, first + start[n + 1] - start[n], &room, table));
+        for (OstGlobal i = start[n]; i < start[n + 1]; i++) {
+            OstLocal *edge = &edge_to[side[i].high]; /* plus 1; not above `first`: of another low end */
+            if (*edge <= first) {
+                *edge = first + 1;
+                insert(side[i].high, table->high + first, table->count++ - first);
+            }
+        }
+        for (OstLocal e = first; e < table->count; e++) {
+            table->low[e] = n;
+            edge_to[table->high[e]] = e + 1;
+        }
+        for (OstGlobal i = start[n]; i < start[n + 1]; i++)
+            table->of_tet[side[i].place] = edge_to[side[i].high] - 1;
+        table->start[n + 1] = table->count;
+    }
+    OST_TRY(OST_RESIZE(mesh->ctx, &table->low, table->count));
+    return OST_RESIZE(mesh->ctx, &table->high, table->count);
+}
+
+OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)
+{
+    OstGlobal *start = NULL;
+    Side *side = NULL;
+    OstLocal *edge_to = NULL;
+    OstStatus status = OST_NEW(mesh->ctx, &start, (size_t)mesh->node_count + 2);
+    OST_THEN(OST_NEW(mesh->ctx, &edge_to, mesh->node_count));
+    OST_THEN(OST_NEW(mesh->ctx, &table->start, (size_t)mesh->node_count + 1));
+    OST_THEN(OST_NEW(mesh->ctx, &table->of_tet, 6 * (size_t)mesh->tet_count));
+    OST_THEN(list_sides(mesh, start, &side));
+    OST_THEN(number_sides(mesh, start, side, edge_to, table));
+    OST_FREE(start);
+    OST_FREE(edge_to);
+    OST_FREE(side);
+    return status;
 }
