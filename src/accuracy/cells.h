@@ -76,10 +76,10 @@ static inline void gather(const OstOperator *operator, OstLocal first, OstLocal 
     cells->straight = cells->nodes == 4 || ost_straight_all(batch->x);
     if (cells->turned_by)
         ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
-    if (field->region_formula && cells->points > 0)
+    if (field->region_formula && cells->points > 0 && !(batch->elasticity.about_line && field->region_count == 1))
         find_places(cells, places);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
-    if (batch->elasticity.about_line)
+    if (batch->elasticity.about_line && batch->elasticity.points == 1)
         ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
 }
 

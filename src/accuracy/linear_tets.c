@@ -12,19 +12,20 @@ enum { VERTICES = 4, EDGES = 6 };
  * is with A g in place of the gradient g. */
 typedef struct Linear {
     OstSimd gradient[VERTICES][3];
-    OstSimd along[VERTICES][3]; /* A g; or g where C is given as it is */
+    OstSimd along[VERTICES][3]; /* A g; or g where C is given as it is, or A differs within the tet */
     OstSimd volume;
 } Linear;
 
 static inline void open(const OstSimd *x, const OstElasticity *elasticity, Linear *tet)
 {
+    const int by_one_stretch = elasticity->by_stretch && elasticity->points == 1;
     const OstSimd *a = elasticity->stretch_tensor;
     OstPoint point;
     ost_element_of(VERTICES)->evaluate(x, &ost_tet_degree1.point[0], &point);
     memcpy(tet->gradient, point.gradient, sizeof tet->gradient);
     memcpy(tet->along, point.gradient, sizeof tet->along);
     tet->volume = point.volume;
-    for (int v = 0; v < VERTICES && elasticity->by_stretch; v++) {
+    for (int v = 0; v < VERTICES && by_one_stretch; v++) {
         const OstSimd *g = tet->gradient[v];
         tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
         tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
@@ -40,31 +41,36 @@ static inline void add_slope(const OstSimd v[3], const OstSimd g[3], OstSimd slo
             slope[3 * i + j] += v[i] * g[j];
 }
 
-/* Less that of the eigenstrain. */
-static inline void find_stress(const OstElasticity *elasticity, int at, const OstSimd slope[9], OstSimd stress[6])
+/* Of D A, with the stretch tensor. */
+static inline void find_stretch_stress(const OstSimd *a, double shear, const OstSimd slope[9], OstSimd stress[6])
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    const OstSimd *a = elasticity->stretch_tensor;
-    if (!elasticity->by_stretch) {
-        OstSimd strain[6];
-        for (int i = 0; i < 3; i++) {
-            const int next = (i + 1) % 3;
-            strain[i] = slope[4 * i];
-            strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
-        }
-        ost_elastic_strain(elasticity, at, strain, strain);
-        ost_simd_stress(elasticity->c[at], strain, stress);
-        return;
-    }
     OstSimd half[9];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             half[3 * i + j] = a[place[i][0]] * slope[j] + a[place[i][1]] * slope[3 + j] + a[place[i][2]] * slope[6 + j];
-    const OstSimd bulk = (1.0 - 2.0 * elasticity->shear) * (slope[0] + slope[4] + slope[8]);
+    const OstSimd bulk = (1.0 - 2.0 * shear) * (slope[0] + slope[4] + slope[8]);
     for (int p = 0; p < 6; p++) {
         const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        stress[p] = bulk * a[p] + elasticity->shear * (half[3 * i + j] + half[3 * j + i]);
+        stress[p] = bulk * a[p] + shear * (half[3 * i + j] + half[3 * j + i]);
     }
+}
+
+/* Less that of the eigenstrain. */
+static inline void find_stress(const OstElasticity *elasticity, int at, const OstSimd slope[9], OstSimd stress[6])
+{
+    OstSimd strain[6];
+    if (elasticity->by_stretch) {
+        find_stretch_stress(elasticity->stretch_tensor, elasticity->shear, slope, stress);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        const int next = (i + 1) % 3;
+        strain[i] = slope[4 * i];
+        strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
+    }
+    ost_elastic_strain(elasticity, at, strain, strain);
+    ost_simd_stress(elasticity->c[at], strain, stress);
 }
 
 /* The slope of u, which is uniform. */
@@ -100,14 +106,47 @@ static inline void forces_of_uniform(const Linear *tet, const OstElasticity *ela
             at_functions[3 * e + i] = at_nodes[3 * ost_tet_edge[e][0] + i] + at_nodes[3 * ost_tet_edge[e][1] + i];
 }
 
+/* The stress of A about a line at a place, by its fourfold; `slope` is D. */
+static inline void find_stress_about_line(const OstElasticity *elasticity, const OstSimd fourfold[3],
+                                          const OstSimd slope[9], OstSimd stress[6])
+{
+    OstSimd a[6], along[9];
+    ost_stretch_at(elasticity, fourfold, a);
+    for (int i = 0; i < 3; i++) {
+        const OstSimd *d = slope + 3 * i;
+        along[3 * i] = d[0] * a[0] + d[1] * a[3] + d[2] * a[5];
+        along[3 * i + 1] = d[0] * a[3] + d[1] * a[1] + d[2] * a[4];
+        along[3 * i + 2] = d[0] * a[5] + d[1] * a[4] + d[2] * a[2];
+    }
+    find_stretch_stress(a, elasticity->shear, along, stress);
+}
+
+/* At a point of the rule; x: the corners. */
+static inline void find_stress_at(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, int q,
+                                  const OstSimd slope[9], OstSimd stress[6])
+{
+    OstSimd fourfold[3];
+    if (!elasticity->about_line) {
+        find_stress(elasticity, q, slope, stress);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        fourfold[i] = 4.0 * rule->point[q].at[0] * x[i];
+        for (int v = 1; v < VERTICES; v++)
+            fourfold[i] += 4.0 * rule->point[q].at[v] * x[3 * v + i];
+    }
+    find_stress_about_line(elasticity, fourfold, slope, stress);
+}
+
 /* The stress times each coordinate is all that the functions need of it. */
-static inline void forces_of_varying(const Linear *tet, const OstElasticity *elasticity, const OstQuadrature *rule,
-                                     const OstSimd slope[9], OstSimd *at_nodes, OstSimd *at_functions)
+static inline void forces_of_varying(const OstSimd *x, const Linear *tet, const OstElasticity *elasticity,
+                                     const OstQuadrature *rule, const OstSimd slope[9], OstSimd *at_nodes,
+                                     OstSimd *at_functions)
 {
     OstSimd moment[VERTICES][6] = {{{0}}}, sum[6];
     for (int q = 0; q < rule->count; q++) {
         OstSimd stress[6];
-        find_stress(elasticity, q, slope, stress);
+        find_stress_at(x, elasticity, rule, q, slope, stress);
         for (int v = 0; v < VERTICES; v++)
             for (int p = 0; p < 6; p++)
                 moment[v][p] += rule->point[q].weight * rule->point[q].at[v] * tet->volume * stress[p];
@@ -138,7 +177,21 @@ OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *el
     if (elasticity->points == 1)
         forces_of_uniform(&tet, elasticity, slope, at_nodes, at_functions);
     else
-        forces_of_varying(&tet, elasticity, rule, slope, at_nodes, at_functions);
+        forces_of_varying(x, &tet, elasticity, rule, slope, at_nodes, at_functions);
+}
+
+OST_KERNEL void ost_linear_tets_own_forces(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
+                                           OstSimd *at_nodes)
+{
+    const OstSimd fourfold[3] = {x[0] + x[3] + x[6] + x[9], x[1] + x[4] + x[7] + x[10], x[2] + x[5] + x[8] + x[11]};
+    OstSimd slope[9], stress[6];
+    Linear tet;
+    open(x, elasticity, &tet);
+    find_slope(&tet, u, slope);
+    find_stress_about_line(elasticity, fourfold, slope, stress);
+    for (int p = 0; p < 6; p++)
+        stress[p] *= tet.volume;
+    find_own_forces(&tet, stress, at_nodes);
 }
 
 /* --- the functions' own blocks --- */

@@ -223,6 +223,14 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
     add_to_nodes(&batch, cells->nodes, mesh->owned_nodes, at_nodes, force);
 }
 
+/* The same where A differs about a line: without C. */
+static void add_own_about_line(const OstOperator *operator, const Cells * cells, const OstSimd *moved, double *force)
+{
+    OstSimd at_nodes[NUMBERS];
+    ost_linear_tets_own_forces(cells->batch.x, &cells->batch.elasticity, moved, at_nodes);
+    add_to_nodes(&cells->batch, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
+}
+
 /* What the forces of a state are wanted for. */
 typedef struct Sum {
     const OstOperator *operator;
@@ -248,7 +256,9 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
         at_nodes[n] = -at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing)
+    if (sum->missing && cells->batch.elasticity.about_line)
+        add_own_about_line(sum->operator, cells, moved, sum->force);
+    else if (sum->missing)
         add_own(sum->operator, cells, element, sum->u, sum->force);
 }
 
@@ -261,6 +271,8 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
+    cells.batch.elasticity.line_suffices = cells.nodes == 4 && one->formulation == OST_FORMULATION_LINEAR &&
+                                           !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
         for (int k = 0; k < count; k++)
@@ -316,7 +328,8 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
                .force = missing,
                .of_functions = of_functions};
     sum_forces(&sum);
-    const int tells = is_linear && !problem->pressures && !problem->supports->spring && sum.eigen_share == 0.0;
+    const int tells = is_linear && !problem->pressures && !problem->supports->spring &&
+                      (sum.eigen_share == 0.0 || !ost_field_is_eigenstrained(problem->field));
     *energy = tells ? 0.5 * sum.work : NAN;
     if (is_linear)
         return OST_SUCCESS;

@@ -283,12 +283,13 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
     elasticity->mixed = split && ost_field_is_mixed(field);
     elasticity->looseness = (OstSimd){0} + (elasticity->mixed ? field->mixed.looseness[region] : 0.0);
     examine_region(elasticity, field, region);
-    elasticity->by_stretch = elasticity->stretch_suffices && elasticity->stretched;
-    elasticity->about_line =
-        elasticity->by_stretch && elasticity->cylindrical && field->region_varies[region] && !field->tet_scale;
+    const int by_line = elasticity->line_suffices && !split;
+    elasticity->about_line = (elasticity->stretch_suffices || by_line) && elasticity->cylindrical &&
+                             field->region_varies[region] && !field->tet_scale;
+    elasticity->by_stretch = elasticity->about_line || (elasticity->stretch_suffices && elasticity->stretched);
     elasticity->region = elasticity->about_line || !field->region_varies[region] ? region : -1;
     if (elasticity->about_line)
-        elasticity->points = 1;
+        elasticity->points = points > 0 ? points : 1;
     else if (field->region_varies[region])
         gather_varying(elasticity, field, region, tets, points, places);
     else

@@ -28,6 +28,7 @@ typedef struct OstElasticity {
     int32_t region;   /* the present values are valid for every tet of this region; -1: for this batch alone */
 
     int stretch_suffices;      /* set by the caller if A may stand for c and m (linear tets only) */
+    int line_suffices;         /* likewise, if cylindrical axes may be known by their line alone where C varies */
     int by_stretch;            /* does A stand for C, and c is not set? */
     int about_line;            /* if so: is A not set either, but computed by ost_stretch_about_line? */
     OstSimd stretch_tensor[6]; /* A_11 A_22 A_33 A_12 A_23 A_31 */
@@ -59,6 +60,7 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->varying = 0;
     elasticity->mixed = 0;
     elasticity->stretch_suffices = 0;
+    elasticity->line_suffices = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
     elasticity->examined = -1;
@@ -77,22 +79,30 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
 void ost_eigenstrain_gather(OstElasticity *elasticity, const OstMaterialField *field,
                             const OstLocal tets[OST_SIMD_WIDTH], const OstSimd *places);
 
-/* A at the centroids of tets with these corners, for cylindrical axes. */
-static inline void ost_stretch_about_line(const OstElasticity *elasticity, const OstSimd x[12], OstSimd tensor[6])
+/* A at places, of which these are the fourfold, for cylindrical axes. */
+static inline void ost_stretch_at(const OstElasticity *elasticity, const OstSimd fourfold[3], OstSimd tensor[6])
 {
+    static const double tiny = 1e-200; /* on the line itself any direction will do */
     const OstSimd *axis = elasticity->axis;
     OstSimd d[3]; /* four times the offset from the axis: its length does not matter */
     for (int i = 0; i < 3; i++)
-        d[i] = x[i] + x[3 + i] + x[6 + i] + x[9 + i] - elasticity->origin[i];
+        d[i] = fourfold[i] - elasticity->origin[i];
     const OstSimd height = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
     for (int i = 0; i < 3; i++)
         d[i] -= height * axis[i];
-    const OstSimd share = elasticity->radial / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const OstSimd share = elasticity->radial / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + tiny);
     for (int i = 0; i < 3; i++) {
         const OstSimd part = share * d[i];
         tensor[i] = elasticity->about_axis[i] + part * d[i];
         tensor[3 + i] = elasticity->about_axis[3 + i] + part * d[(i + 1) % 3];
     }
+}
+
+/* A at the centroids of tets with these corners, likewise. */
+static inline void ost_stretch_about_line(const OstElasticity *elasticity, const OstSimd x[12], OstSimd tensor[6])
+{
+    const OstSimd fourfold[3] = {x[0] + x[3] + x[6] + x[9], x[1] + x[4] + x[7] + x[10], x[2] + x[5] + x[8] + x[11]};
+    ost_stretch_at(elasticity, fourfold, tensor);
 }
 
 /* Index of a point's C. */
