@@ -92,18 +92,20 @@ static OstStatus multiply(OstSteps *steps)
     return ost_steps_take_rows(steps, steps->q.rows);
 }
 
-/* z = B r on the rows. */
+/* z = B r on the rows. Half a cycle does for linear tets: |e| of small tubes is less by 1 to 2 %, and the effectivity
+ * of `verify` the same within 0.01. On quadratic ones the error of a displacement would be too small. */
 static OstStatus take_cycle(OstSteps *steps, int *found)
 {
-    OST_TRY(ost_solver_precondition(steps->solver, steps->r.rows, steps->z, found));
+    const int half = steps->stiffness->complement->mesh->nodes_per_tet == 4;
+    OST_TRY(ost_solver_precondition(steps->solver, half, steps->r.rows, steps->z, found));
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;
 }
 
-/* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle
- * takes as long as several products with A. On quadratic tets, where that is most of the time, the first two steps are
- * without. */
+/* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle, or
+ * half of one, takes longer than a product with A. On quadratic tets, where that is most of the time, the first two
+ * steps are without. */
 static OstStatus precondition(OstSteps *steps)
 {
     int found = 1;

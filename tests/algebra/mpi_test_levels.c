@@ -233,6 +233,10 @@ static void the_cycle_is_symmetric_and_positive(void **state)
     const double xx = global_dot(owned(a), x, mx), yy = global_dot(owned(a), y, my);
     assert_true(xx > 0.0 && yy > 0.0);
     assert_close(global_dot(owned(a), x, my), global_dot(owned(a), y, mx), 1e-5 * sqrt(xx * yy));
+    assert_success(ost_cycle_apply_half(cycle, x, mx));
+    const double of_half = global_dot(owned(a), x, mx) / xx;
+    print_message("half a cycle: %.3f of the whole one's product\n", of_half);
+    assert_true(of_half > 0.0);
     OST_FREE(x);
     OST_FREE(y);
     OST_FREE(mx);

@@ -73,7 +73,7 @@ static void every_level_between_is_visited_twice_with_fixed_weights(void **state
     for (int l = LEVELS - 2; l > 0; l--)
         b = b + 2.25 * b * (1.0 - scalar[l].a * b);
     for (int time = 0; time < 2; time++) {
-        assert_success(ost_ml_cycle_apply(cycle, r, z));
+        assert_success(ost_ml_cycle_apply(cycle, 0, r, z));
         assert_close(z[0], b * r[0], 1e-14);
     }
     assert_int_equal(scalar[0].visits, 2 * 2);     /* before and after */
@@ -83,6 +83,22 @@ static void every_level_between_is_visited_twice_with_fixed_weights(void **state
     assert_null(cycle);
 }
 
+static void half_a_cycle_smooths_the_finest_level_once(void **state)
+{
+    (void)state;
+    Scalar scalar[LEVELS] = {{.a = 2.0}, {.a = 1.1}, {.a = 0.9}, {.a = 1.25, .is_last = 1}};
+    OstMlCycle *cycle = new_cycle(scalar);
+    double r[LEVELS] = {-2.0, 1.0, 3.5, 0.5}, whole[LEVELS], half[LEVELS];
+    assert_success(ost_ml_cycle_apply(cycle, 0, r, whole));
+    assert_success(ost_ml_cycle_apply(cycle, 1, r, half));
+    assert_close(half[0], whole[0], 1e-14);
+    assert_int_equal(scalar[0].visits, 2 + 1);
+    assert_int_equal(scalar[1].visits, 2 * (2 + 2));
+    assert_success(ost_ml_cycle_apply(cycle, 0, r, whole));
+    assert_int_equal(scalar[0].visits, 2 + 1 + 2);
+    ost_ml_cycle_destroy(&cycle);
+}
+
 static void a_failure_inside_comes_back(void **state)
 {
     (void)state;
@@ -90,7 +106,7 @@ static void a_failure_inside_comes_back(void **state)
         {.a = 2.0}, {.a = 1.1}, {.a = 0.9, .failure = OST_LIBRARY_FAILED}, {.a = 1.0, .is_last = 1}};
     OstMlCycle *cycle = new_cycle(scalar);
     double r[LEVELS] = {1.0, 1.0, 1.0, 1.0}, z[LEVELS];
-    assert_int_equal(ost_ml_cycle_apply(cycle, r, z), OST_LIBRARY_FAILED);
+    assert_int_equal(ost_ml_cycle_apply(cycle, 0, r, z), OST_LIBRARY_FAILED);
     ost_ml_cycle_destroy(&cycle);
 }
 
@@ -109,6 +125,7 @@ static void a_level_that_is_no_smaller_is_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_level_between_is_visited_twice_with_fixed_weights),
+    cmocka_unit_test(half_a_cycle_smooths_the_finest_level_once),
     cmocka_unit_test(a_failure_inside_comes_back),
     cmocka_unit_test(a_level_that_is_no_smaller_is_refused),
 };

@@ -5,10 +5,11 @@
 #include "algebra/matrix/scaling.h"
 
 /* Collective: z = M^-1 r, M symmetric positive definite, on scaled vectors of 3 × rows numbers. `apply` must not write
- * r. `factors`: M is A up to rounding. */
+ * r. `half` is cheaper and may be unsymmetric, where there is such a one; r'z > 0. `factors`: M is A up to rounding. */
 typedef struct OstPreconditioner {
     void *data;
     OstStatus (*apply)(void *data, const double *r, double *z);
+    OstStatus (*half)(void *data, const double *r, double *z); /* or NULL */
     int factors;
 } OstPreconditioner;
 

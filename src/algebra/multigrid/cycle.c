@@ -202,16 +202,14 @@ typedef struct Request {
     double *z;
 } Request;
 
-static OstStatus apply_one(OstCycle *cycle, const Request *request)
+static OstStatus apply_one(OstCycle *cycle, int half, const Request *request)
 {
-    return cycle->ml ? ost_ml_cycle_apply(cycle->ml, request->r, request->z)
+    return cycle->ml ? ost_ml_cycle_apply(cycle->ml, half, request->r, request->z)
                      : smooth(&cycle->level[0], request->r, request->z, 1);
 }
 
-/* OstServe. */
-static OstStatus apply_all(void *common, int count, void *const *request)
+static OstStatus apply_all(OstCycle *cycle, int half, int count, void *const *request)
 {
-    OstCycle *cycle = common;
     const double *r[OST_MOST_TOGETHER];
     double *z[OST_MOST_TOGETHER];
     for (int k = 0; k < count; k++) {
@@ -221,16 +219,35 @@ static OstStatus apply_all(void *common, int count, void *const *request)
     const int fit = ost_cycle_columns_fit(cycle);
     for (int k = 0, next = 1; k < count; k += next) {
         next = fit ? ost_columns_next(count - k) : 1;
-        OST_TRY(next > 1 ? ost_cycle_columns_apply(cycle, next, r + k, z + k) : apply_one(cycle, request[k]));
+        OST_TRY(next > 1 ? ost_cycle_columns_apply(cycle, half, next, r + k, z + k)
+                         : apply_one(cycle, half, request[k]));
     }
     return OST_SUCCESS;
+}
+
+/* OstServe, both. */
+static OstStatus apply_whole(void *cycle, int count, void *const *request)
+{
+    return apply_all(cycle, 0, count, request);
+}
+
+static OstStatus apply_half(void *cycle, int count, void *const *request)
+{
+    return apply_all(cycle, 1, count, request);
 }
 
 OstStatus ost_cycle_apply(void *data, const double *r, double *z)
 {
     OstCycle *cycle = data;
     Request request = {r, z};
-    return ost_together(cycle->level[0].matrix->ctx, apply_all, cycle, &request);
+    return ost_together(cycle->level[0].matrix->ctx, apply_whole, cycle, &request);
+}
+
+OstStatus ost_cycle_apply_half(void *data, const double *r, double *z)
+{
+    OstCycle *cycle = data;
+    Request request = {r, z};
+    return ost_together(cycle->level[0].matrix->ctx, apply_half, cycle, &request);
 }
 
 void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)

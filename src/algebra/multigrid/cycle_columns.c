@@ -211,14 +211,14 @@ static OstStatus create(OstContext *ctx, const OstCycle *cycle, OstCycleColumns 
     return status;
 }
 
-OstStatus ost_cycle_columns_apply(OstCycle *cycle, int count, const double *const *r, double *const *z)
+OstStatus ost_cycle_columns_apply(OstCycle *cycle, int half, int count, const double *const *r, double *const *z)
 {
     OstContext *ctx = cycle->level[0].matrix->ctx;
     const size_t n = ost_level_unknowns(cycle->level[0].matrix);
     if (!cycle->columns)
         OST_TRY(create(ctx, cycle, &cycle->columns));
     ost_columns_pack(n, count, r, cycle->columns->r);
-    OST_TRY(ost_ml_cycle_apply(cycle->columns->ml, cycle->columns->r, cycle->columns->z));
+    OST_TRY(ost_ml_cycle_apply(cycle->columns->ml, half, cycle->columns->r, cycle->columns->z));
     ost_columns_unpack(n, count, cycle->columns->z, z);
     return OST_SUCCESS;
 }

@@ -11,9 +11,9 @@
 /* Local. Can this cycle be? Not of one level, nor where levels need more than single precision. */
 int ost_cycle_columns_fit(const OstCycle *cycle);
 
-/* Collective. z[k] = the cycle on r[k], for up to OST_COLUMNS vectors of the rows. The first call allocates; raises
- * OST_OUT_OF_MEMORY. */
-OstStatus ost_cycle_columns_apply(OstCycle *cycle, int count, const double *const *r, double *const *z);
+/* Collective. z[k] = the cycle on r[k], or half of it, for up to OST_COLUMNS vectors of the rows. The first call
+ * allocates; raises OST_OUT_OF_MEMORY. */
+OstStatus ost_cycle_columns_apply(OstCycle *cycle, int half, int count, const double *const *r, double *const *z);
 
 void ost_cycle_columns_destroy(OstCycleColumns **columns);
 

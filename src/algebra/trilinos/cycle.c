@@ -23,6 +23,7 @@ struct OstMlCycle {
     ML *ml;
     int levels;
     Level *level;
+    int half;         /* is the finest level left at zero before the others? */
     OstStatus status; /* the first failure inside a callback: ML cannot pass it on */
 };
 
@@ -38,6 +39,10 @@ static int multiply(ML_Operator *operator, int in_length, double *x, int out_len
     Level *level = ML_Get_MyMatvecData(operator);
     (void)in_length;
     (void)out_length;
+    if (level->cycle->half && level == level->cycle->level) { /* x is zero */
+        memset(y, 0, (size_t)level->operators.unknowns * sizeof *y);
+        return 0;
+    }
     return note(level->cycle, level->operators.multiply(level->operators.data, x, y));
 }
 
@@ -65,6 +70,8 @@ static int smooth_before(ML_Smoother *smoother, int in_length, double *x, int ou
     (void)in_length;
     (void)out_length;
     level->second = level->first && !from_zero;
+    if (level->cycle->half && level == level->cycle->level)
+        return 0;
     if (level->second)
         memcpy(level->first, x, (size_t)level->operators.unknowns * sizeof *x);
     return note(level->cycle, level->operators.smooth(level->operators.data, b, x, from_zero));
@@ -174,9 +181,10 @@ void ost_ml_cycle_destroy(OstMlCycle **cycle)
     OST_FREE(*cycle);
 }
 
-OstStatus ost_ml_cycle_apply(OstMlCycle *cycle, const double *r, double *z)
+OstStatus ost_ml_cycle_apply(OstMlCycle *cycle, int half, const double *r, double *z)
 {
     ML *ml = cycle->ml;
+    cycle->half = half;
     memset(z, 0, (size_t)cycle->level[0].operators.unknowns * sizeof *z);
     ML_Cycle_MG(&ml->SingleLevel[0], z, (double *)r, ML_ZERO, ml->comm, ML_NO_RES_NORM, ml);
     return cycle->status;
