@@ -92,11 +92,13 @@ static double error_of(const OstCost *cost, const OstCostRun *run, int quantity)
     return fabs(run->watched[quantity].value - reference->value) / reference->size;
 }
 
-/* The error that the change from the previous refinement leaves, at the best possible rate of convergence. */
+/* The error that the change from the previous refinement leaves, at the best possible rate of convergence; of an
+ * adaptive run, that which it estimates. */
 static double least_left(const OstCost *cost, const OstCostRun *run, int quantity)
 {
     const OstCostReference *reference = &cost->quantity[quantity].reference;
-    double left = 0.0;
+    const double estimated = run->watched[quantity].error;
+    double left = run->accuracy != 0.0 && !isnan(estimated) ? fabs(estimated) : 0.0;
     for (const OstCostRun *coarse = cost->run; coarse < run; coarse++) {
         if (!ost_cost_is_plain(run) || !ost_cost_is_plain(coarse) || coarse->state != OST_COST_DONE ||
             coarse->order != run->order || coarse->tolerance != run->tolerance || coarse->refinement >= run->refinement)

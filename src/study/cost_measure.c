@@ -27,6 +27,8 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     run->newton = result->newton;
     run->order = scene->mesh->nodes_per_tet == 10 ? 2 : 1;
     run->estimate = result->answer.known ? result->answer.relative : NAN;
+    const double displacement_error =
+        result->answer.known ? result->answer.displacement * result->largest_displacement : NAN;
     for (int w = 0; w < cost->c->watch_count && !cost->placed; w++)
         OST_TRY(ost_watch_place(scene->mesh, &cost->watch[w]));
     cost->placed = 1;
@@ -35,8 +37,9 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
         if (watch)
             OST_TRY(ost_watch_evaluate(scene, result, watch, &run->watched[q]));
         else
-            run->watched[q] = (OstWatched){
-                .value = result->largest_displacement, .scale = result->largest_displacement, .error = NAN};
+            run->watched[q] = (OstWatched){.value = result->largest_displacement,
+                                           .scale = result->largest_displacement,
+                                           .error = displacement_error};
     }
     return OST_SUCCESS;
 }
