@@ -112,6 +112,24 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
     tear_down(&s);
 }
 
+/* Coarse nodes of a solid body have so many neighbours that aggregates of 8 would make a nearly full matrix; those of a
+ * wall of one aggregate do not. A number that is given is kept. */
+static void aggregates_of_a_coarse_level_grow_with_its_rows(void **state)
+{
+    (void)state;
+    const ElasticBlock solid = {.bricks = {15, 15, 15}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
+    const ElasticBlock wall = {.bricks = {40, 40, 1}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
+    for (int k = 0; k < 2 && ost_size(ctx) == 1; k++) {
+        Setup s;
+        set_up(k == 0 ? &solid : &wall, &s);
+        const double nodes = (double)s.levels.matrix[1]->rows / (double)s.levels.matrix[2]->rows;
+        const double row = (double)s.levels.matrix[1]->nonzeros / (36.0 * s.levels.matrix[1]->rows);
+        printf("rows of %.3g blocks: aggregates of %.3g nodes\n", row, nodes);
+        assert_true(k == 0 ? nodes > 10.0 : nodes < 10.0);
+        tear_down(&s);
+    }
+}
+
 static void few_nodes_go_to_fewer_ranks(void **state)
 {
     (void)state;
@@ -265,6 +283,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(aggregates_of_a_coarse_level_grow_with_its_rows),
     cmocka_unit_test(coarse_matrices_are_the_galerkin_products),
     cmocka_unit_test(few_nodes_go_to_fewer_ranks),
     cmocka_unit_test(gathered_levels_are_galerkin_products_too),

@@ -28,6 +28,12 @@ static const double weakest = 0.03, weak_jump = 10.0;
  * 12 nodes and blocks of 10. */
 static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 
+/* A coarse level's aggregates have at least this share of the blocks in its rows, up to so many nodes. Where aggregates
+ * of the option's 8 nodes have 60 neighbours, as in a solid body, the next level is nearly full: with a third of 60 the
+ * iterations are the same and its product and prolongator a quarter of the work. Along a wall of one aggregate there
+ * are 12 to 20 neighbours, and larger aggregates would cost iterations. */
+static const double row_share = 1.0 / 3.0, most_coarse_nodes = 27.0;
+
 /* The columns of a plate of quadratic tets are nodes of a flat mesh, whose factors are small: they are not coarsened
  * further, up to so many unknowns. */
 static const OstGlobal flat_unknowns = 250000;
@@ -79,18 +85,31 @@ static void part_weak(const OstDoubleMatrix *matrix, OstMetricGraph *graph)
         }
 }
 
+/* Nodes of an aggregate of level l, which is the coarsest so far. */
+static OstStatus choose_target(const Coarsening *work, int l, double *target)
+{
+    const OstSolverOptions *options = &work->options;
+    const OstLevelMatrix *matrix = work->levels->matrix[l];
+    const OstGlobal square = matrix->size * matrix->size;
+    OstGlobal entries[2] = {matrix->nonzeros, square * matrix->rows};
+    *target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes;
+    if (l == 0 || options->given & OST_GIVEN_COARSE_AGGREGATE || ost_metric_graph_is_uneven(work->levels->graph[l]))
+        return OST_SUCCESS;
+    OST_TRY(ost_sum_numbers(work->ctx, 2, entries));
+    *target = fmax(*target, fmin(row_share * (double)entries[0] / (double)entries[1], most_coarse_nodes));
+    return OST_SUCCESS;
+}
+
 /* Aggregates the coarsest level so far; also the graph of the next level and its unknowns over all ranks. */
 static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlobal *unknowns)
 {
     const int l = work->levels->count - 1;
-    const OstSolverOptions *options = &work->options;
     OstMetricGraph *graph = work->levels->graph[l];
     if (l > 0 && ost_metric_graph_is_uneven(graph))
         part_weak(work->levels->coarsest, graph);
     /* Two nodes of 3 unknowns cannot represent the six rigid modes; a coarse node has all six. */
-    const OstAggregateShape shape = {.target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes,
-                                     .minimum = l == 0 ? 3 : 1,
-                                     .recentrings = 2};
+    OstAggregateShape shape = {.minimum = l == 0 ? 3 : 1, .recentrings = 2};
+    OST_TRY(choose_target(work, l, &shape.target));
     *aggregates = work->columns;
     work->columns = NULL;
     work->by_columns = *aggregates != NULL;
