@@ -99,26 +99,30 @@ static OstStatus apply_one(const OstBlockMatrix *matrix, const Product *product)
     return OST_SUCCESS;
 }
 
-/* As multiply_rows and multiply_folded; y is 0. */
-OST_KERNEL static void multiply_columns(const OstBlockMatrix *matrix, const OstColumns *restrict x,
-                                        OstColumns *restrict y)
+/* As multiply_rows and multiply_folded, by halves of x and y; y is 0. */
+OST_KERNEL static void multiply_columns(const OstBlockMatrix *matrix, const OstHalfColumns *restrict x,
+                                        OstHalfColumns *restrict y)
 {
     for (OstLocal i = 0; i < matrix->rows; i++) {
-        const OstColumns *own = x + 3 * (size_t)i;
+        const OstHalfColumns *own = x + 6 * (size_t)i;
         const OstLocal first = matrix->upper ? matrix->diagonal[i] : matrix->row_start[i];
         const double *a = matrix->value + 9 * (size_t)(matrix->upper ? matrix->upper[i] : first);
-        OstColumns sum[3] = {{0}};
+        OstHalfColumns sum[6] = {{0}};
         for (OstLocal k = first; k < matrix->row_start[i + 1]; k++, a += 9) {
             const OstLocal j = matrix->column[k];
-            const OstColumns *b = x + 3 * (size_t)j;
-            OstColumns *there = y + 3 * (size_t)j;
-            for (int r = 0; r < 3; r++)
-                sum[r] += a[3 * r] * b[0] + a[3 * r + 1] * b[1] + a[3 * r + 2] * b[2];
-            for (int c = 0; c < 3 && matrix->upper && j != i && j < matrix->rows; c++)
-                there[c] += a[c] * own[0] + a[3 + c] * own[1] + a[6 + c] * own[2];
+            const OstHalfColumns *b = x + 6 * (size_t)j;
+            OstHalfColumns *there = y + 6 * (size_t)j;
+            for (int h = 0; h < 2; h++)
+                for (int r = 0; r < 3; r++)
+                    sum[2 * r + h] += a[3 * r] * b[h] + a[3 * r + 1] * b[2 + h] + a[3 * r + 2] * b[4 + h];
+            if (!matrix->upper || j == i || j >= matrix->rows)
+                continue;
+            for (int h = 0; h < 2; h++)
+                for (int c = 0; c < 3; c++)
+                    there[2 * c + h] += a[c] * own[h] + a[3 + c] * own[2 + h] + a[6 + c] * own[4 + h];
         }
-        for (int r = 0; r < 3; r++)
-            y[3 * (size_t)i + (size_t)r] += sum[r];
+        for (int r = 0; r < 6; r++)
+            y[6 * (size_t)i + (size_t)r] += sum[r];
     }
     ost_ledger_multiplied(matrix->ctx, 9.0 * matrix->row_start[matrix->rows]);
 }
@@ -132,7 +136,7 @@ static OstStatus apply_columns(const OstBlockMatrix *matrix, int count, const do
     ost_columns_pack(n, count, x, columns);
     const OstStatus status = ost_halo_import(matrix->halo, 3 * sizeof(OstColumns), columns);
     if (status == OST_SUCCESS) {
-        multiply_columns(matrix, (const OstColumns *)columns, (OstColumns *)products);
+        multiply_columns(matrix, (const OstHalfColumns *)columns, (OstHalfColumns *)products);
         ost_columns_unpack(n, count, products, y);
     }
     OST_FREE(columns);

@@ -9,6 +9,10 @@
 enum { OST_COLUMNS = 8 };
 typedef double OstColumns __attribute__((vector_size(64), aligned(8), may_alias));
 
+/* Half of them. Sums of OstColumns are made by halves: without registers of 512 bits GCC 12 keeps a vector of eight
+ * doubles in memory, and moves it number by number. */
+typedef double OstHalfColumns __attribute__((vector_size(32), aligned(8), may_alias));
+
 /* In single precision, as multigrid's levels have them; a register of AVX. */
 typedef float OstLightColumns __attribute__((vector_size(32), aligned(4), may_alias));
 
