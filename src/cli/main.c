@@ -190,6 +190,20 @@ static int is_launched(void)
     return 0;
 }
 
+/* One process talks to nobody, and ranks on one machine talk through its memory. Open MPI is told so, unless its user
+ * has chosen otherwise: it looks at every network at its start, which takes longer than a small solve. */
+static void leave_networks_alone(void)
+{
+    const char *ranks = getenv("OMPI_COMM_WORLD_SIZE"), *here = getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    const int is_alone = !is_launched();
+    if (!is_alone && !(ranks && here && strcmp(ranks, here) == 0))
+        return;
+    if (is_alone)
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0); /* no daemon beside it: it never starts others */
+    setenv("OMPI_MCA_pml", "ob1", 0);
+    setenv("OMPI_MCA_btl", is_alone ? "self" : "self,vader", 0);
+}
+
 static int count_cores(void)
 {
     cpu_set_t mine;
@@ -258,6 +272,7 @@ int main(int argc, char **argv)
 {
     settle_environment(argv);
     launch_scale(argc, argv);
+    leave_networks_alone();
     const OstLogLevel level = take_level(&argc, &argv);
     const int answered = answer_at_once(argc, argv);
     if (answered >= 0)

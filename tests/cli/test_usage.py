@@ -29,6 +29,16 @@ def a_full_standard_output_is_no_success(folder):
               f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
+def one_process_looks_at_no_network(folder):
+    """Open MPI names the interfaces it finds, where it looks for any; a user's own choice of transports stands."""
+    for chosen, looks in (None, False), ("self,tcp", True):
+        environment = {name: value for name, value in os.environ.items() if name not in ("OMPI_MCA_btl", "OMPI_MCA_pml")}
+        environment |= {"OMPI_MCA_btl_base_verbose": "20"} | ({"OMPI_MCA_btl": chosen} if chosen else {})
+        process = subprocess.run([PROGRAM, "check", "bar.yaml"], cwd=folder, stdin=subprocess.DEVNULL, env=environment,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=240)
+        check(process.returncode == 0 and ("btl: tcp: " in process.stderr) == looks, f"{chosen}: {process.stderr}")
+
+
 def a_case_comes_from_standard_input(folder):
     process = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=folder, input=CASE, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, text=True, timeout=240)
@@ -153,6 +163,7 @@ def main():
     a_full_standard_output_is_no_success(folder)
     impossible_sizes_are_told_by_their_limit(folder)
     a_case_comes_from_standard_input(folder)
+    one_process_looks_at_no_network(folder)
 
 
 main()
