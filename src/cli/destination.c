@@ -138,7 +138,7 @@ static OstStatus check_file(const OstCase *c, const char *path, char **target)
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' would be written over %s; name another file", path, input);
     if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
         return OST_RAISE(c->ctx, OST_INVALID_USAGE, "'%s' is there already and is not a regular file; name another%s",
-                         path, S_ISDIR(there.st_mode) ? ", or one in it" : "");
+                         path, S_ISDIR(there.st_mode) ? ", or one in it" : ", or '-' for a text on standard output");
     OST_TRY(ost_follow_links(c->ctx, path, target));
     OST_TRY(check_length(c->ctx, *target));
     return check_folder(c->ctx, *target);

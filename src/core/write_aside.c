@@ -83,12 +83,10 @@ static OstStatus create(OstContext *ctx, OstAside *aside)
 OstStatus ost_aside_open(OstContext *ctx, const char *path, OstAside *aside)
 {
     struct stat there;
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode)) /* before links are read: /dev/stdout leads to none */
+        return raise_unwritten(ctx, path, "it exists and is not a regular file ('-' stands for standard output)");
     OST_TRY(ost_follow_links(ctx, path, &aside->path));
-    OstStatus status = OST_SUCCESS;
-    if (stat(aside->path, &there) == 0 && !S_ISREG(there.st_mode))
-        status = raise_unwritten(ctx, path, "it exists and is not a regular file");
-    else
-        status = create(ctx, aside);
+    const OstStatus status = create(ctx, aside);
     if (status != OST_SUCCESS)
         OST_FREE(aside->path);
     return status;

@@ -131,6 +131,13 @@ static void what_is_no_file_is_left_alone(void **state)
     (void)state;
     assert_failure(ost_write_aside(ctx, folder, write_words, "x"), OST_FILE_FAILED, "not a regular file");
     assert_failure(ost_write_aside(ctx, "/dev/null", write_words, "x"), OST_FILE_FAILED, "not a regular file");
+    int ends[2]; /* a link whose target can be opened, but has no name */
+    char path[32];
+    assert_int_equal(pipe(ends), 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", ends[1]);
+    assert_failure(ost_write_aside(ctx, path, write_words, "x"), OST_FILE_FAILED, "'-' stands for standard output");
+    close(ends[0]);
+    close(ends[1]);
     assert_failure(ost_write_aside(ctx, in_folder("none/file"), write_words, "x"), OST_FILE_FAILED, "No such file");
     assert_int_equal(files_in_folder(), 0);
 }
