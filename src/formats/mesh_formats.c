@@ -28,11 +28,24 @@ const OstMeshFormat ost_mesh_formats[] = {
 const int ost_mesh_format_count = sizeof ost_mesh_formats / sizeof *ost_mesh_formats;
 
 /* The way from other formats to one that is read. */
-typedef enum { BY_MESHIO, BY_GMSH, MESH_SOLID, MESH_SURFACE, BY_PARAVIEW, BY_EXPORT, IS_CASE } Way;
+typedef enum {
+    BY_MESHIO,
+    BY_MESHIO_HDF5,
+    BY_MESHIO_NETCDF,
+    MESH_SOLID,
+    MESH_SURFACE,
+    BY_PARAVIEW,
+    BY_EXPORT,
+    IS_CASE
+} Way;
+
+/* Debian's python3-meshio has no command of its own. */
+#define MESHIO(FROM, TO) "python3 -c \"import meshio; meshio.read('" FROM "').write('" TO ".vtu')\""
 
 static const char *const way_words[] = {
-    [BY_MESHIO] = "convert it: meshio convert %s %.*s.vtu (Debian: python3-meshio; or pip install meshio)",
-    [BY_GMSH] = "convert it: gmsh -save %s -format msh41 -o %.*s.msh",
+    [BY_MESHIO] = "convert it: " MESHIO("%s", "%.*s") " (Debian: python3-meshio)",
+    [BY_MESHIO_HDF5] = "convert it: " MESHIO("%s", "%.*s") " (Debian: python3-meshio, python3-h5py)",
+    [BY_MESHIO_NETCDF] = "convert it: " MESHIO("%s", "%.*s") " (Debian: python3-meshio, python3-netcdf4)",
     [MESH_SOLID] = "mesh it: gmsh -3 %s -o %.*s.msh",
     [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
     [BY_PARAVIEW] = "open %s in ParaView, and save it as %.*s.vtu (File, Save Data)",
@@ -46,14 +59,15 @@ static const struct {
 } others[] = {
     {".yaml", "YAML", IS_CASE},
     {".yml", "YAML", IS_CASE},
-    {".exo", "Exodus", BY_MESHIO},
-    {".ex2", "Exodus", BY_MESHIO},
-    {".e", "Exodus", BY_MESHIO},
-    {".xdmf", "XDMF", BY_MESHIO},
-    {".xmf", "XDMF", BY_MESHIO},
+    {".exo", "Exodus", BY_MESHIO_NETCDF},
+    {".ex2", "Exodus", BY_MESHIO_NETCDF},
+    {".e", "Exodus", BY_MESHIO_NETCDF},
+    {".g", "Exodus", BY_MESHIO_NETCDF},
+    {".xdmf", "XDMF", BY_MESHIO_HDF5},
+    {".xmf", "XDMF", BY_MESHIO_HDF5},
     {".xml", "DOLFIN", BY_MESHIO},
     {".su2", "SU2", BY_MESHIO},
-    {".h5m", "MOAB", BY_MESHIO},
+    {".h5m", "MOAB", BY_MESHIO_HDF5},
     {".vol", "Netgen", BY_MESHIO},
     {".vol.gz", "Netgen", BY_MESHIO},
     {".avs", "AVS", BY_MESHIO},
@@ -64,9 +78,9 @@ static const struct {
     {".mdpa", "Kratos", BY_MESHIO},
     {".dat", "Tecplot or Nastran (then rename it .bdf)", BY_MESHIO},
     {".tec", "Tecplot", BY_MESHIO},
-    {".med", "MED (Salome, Code_Aster)", BY_GMSH},
-    {".cgns", "CGNS", BY_GMSH},
-    {".p3d", "Plot3D", BY_GMSH},
+    {".med", "MED (Salome, Code_Aster)", BY_MESHIO_HDF5},
+    {".cgns", "CGNS", BY_PARAVIEW},
+    {".p3d", "Plot3D", BY_PARAVIEW},
     {".geo", "Gmsh's model", MESH_SOLID},
     {".geo_unrolled", "Gmsh's model", MESH_SOLID},
     {".step", "STEP", MESH_SOLID},
@@ -103,13 +117,13 @@ static int has_ending(const char *path, const char *ending)
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-/* The name without its folders, as a shell takes it: blanks follow a backslash. */
-static void name_of(const char *path, char *name, size_t size)
+/* The name without its folders; as a shell takes it outside of quotes, blanks follow a backslash. */
+static void name_of(const char *path, int quoted, char *name, size_t size)
 {
     const char *from = strrchr(path, '/');
     size_t length = 0;
     for (from = from ? from + 1 : path; *from && length + 2 < size; from++) {
-        if (*from == ' ')
+        if (*from == ' ' && !quoted)
             name[length++] = '\\';
         name[length++] = *from;
     }
@@ -119,20 +133,21 @@ static void name_of(const char *path, char *name, size_t size)
 void ost_mesh_format_advice(const char *path, char *text, size_t size)
 {
     char name[LONGEST_NAME];
-    name_of(path, name, sizeof name);
-    const char *dot = strrchr(name, '.');
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
         if (has_ending(path, others[o].ending)) {
             const int used = snprintf(text, size, "files of %s are not read; ", others[o].what);
+            name_of(path, others[o].way <= BY_MESHIO_NETCDF, name, sizeof name);
             const int stem = (int)(strlen(name) - strlen(others[o].ending));
             if (used > 0 && (size_t)used < size)
                 snprintf(text + used, size - (size_t)used, way_words[others[o].way], name, stem, name);
             return;
         }
+    name_of(path, 1, name, sizeof name);
+    const char *dot = strrchr(name, '.');
     int used = snprintf(text, size, "the ending '%s' is not that of a mesh file; read are", dot ? dot : "");
     for (int f = 0; f < ost_mesh_format_count && used > 0 && (size_t)used < size; f++)
         used += snprintf(text + used, size - (size_t)used, "%s %s", f > 0 ? "," : "", ost_mesh_formats[f].ending);
     if (used > 0 && (size_t)used < size)
-        snprintf(text + used, size - (size_t)used, "; others: meshio convert %s NEW.vtu, or gmsh -save %s -o NEW.msh",
+        snprintf(text + used, size - (size_t)used, "; others: " MESHIO("%s", "NEW") ", or gmsh -save '%s' -o NEW.msh",
                  name, name);
 }

@@ -174,6 +174,9 @@ static void mistakes_are_named_with_file_and_line(void **state)
         {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n",
          "element 7 uses node 2, which the file does not"},
         {"a.inp", "*ELEMENT\n1, 2\n", "*ELEMENT without TYPE"},
+        {"a.inp", "8 6 0 0 0\n1 0 0 0\n", "holds no nodes as its ending would have them"},
+        {"a.msh", "8 6 0\n0 0 0\n", "savemesh"},
+        {"a.msh", "(0 \"grid written by GAMBIT\")\n", "meshio.ansys.read"},
         {"a.inp", "*NSET, NSET=A\nB\n", "'B' found, expected a number or the name of a set before"},
         {"a.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: cannot be read"},
         {"a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "a.mesh:2: dimension 2 found, expected 3"},
@@ -189,8 +192,10 @@ static void mistakes_are_named_with_file_and_line(void **state)
         {"a.bdf", "CTETRA,1,1,1,2,3,4,5,6\n,7\n", "element 1 has 3 of 6 mid-edge nodes"},
         {"a.unv", "    -1\n  2411\n 1 1 1 1\n 0.D0 0.D0 zero\n    -1\n", "a.unv:4: 'zero' found"},
         {"a.stl", "solid\n", "tetgen -pq"},
-        {"a.med", "", "gmsh -save"},
-        {"a.xdmf", "", "meshio convert"},
+        {"a.med", "", "python3-h5py"},
+        {"a.exo", "", "python3-netcdf4"},
+        {"a.cgns", "", "ParaView"},
+        {"a.xdmf", "", "a.xdmf').write('"},
         {"a.qqq", "", "the ending '.qqq' is not that of a mesh file"},
     };
     (void)state;

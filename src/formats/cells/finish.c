@@ -11,14 +11,21 @@ static OstStatus check_kinds(const OstCells *cells)
 {
     const OstLocal linear = cells->list[OST_CELL_TET4].count, quadratic = cells->list[OST_CELL_TET10].count;
     if (cells->solids > 0)
-        return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                         "%s: holds %" PRId64 " solid elements that are no tets of 4 or of 10 nodes, the first of them "
-                         "%s; split or remesh the body with tets",
-                         cells->path, cells->solids, cells->solid);
+        return OST_RAISE(
+            cells->ctx, OST_INVALID_INPUT,
+            "%s: holds %" PRId64 " solid elements that are no tets of 4 or of 10 nodes, the first of them "
+            "%s; remesh the body with tets, or split them (in ParaView: Tetrahedralize, then File, Save Data as .vtu)",
+            cells->path, cells->solids, cells->solid);
     if (linear > 0 && quadratic > 0)
         return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
                          "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
                          cells->path);
+    if (cells->chunk->node_count == 0)
+        return OST_RAISE(
+            cells->ctx, OST_INVALID_INPUT,
+            "%s: holds no nodes as its ending would have them; is it of another program, or a list of what "
+            "to do with a mesh in another file?",
+            cells->path);
     if (linear + quadratic == 0)
         return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
                          "%s: holds no tets (%" PRId64 " triangles, %" PRId64 " nodes); mesh the volume with tets, as "

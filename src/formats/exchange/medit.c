@@ -147,7 +147,9 @@ static OstStatus check_dimension(Medit *medit)
     int dimension = 0;
     skip_comments(&medit->cursor);
     OST_TRY(ost_msh_int(&medit->cursor, "the dimension", &dimension));
-    return dimension == 3 ? OST_SUCCESS : OST_RAISE_MSH(&medit->cursor, "dimension %d found, expected 3", dimension);
+    return dimension == 3
+               ? OST_SUCCESS
+               : OST_RAISE_MSH(&medit->cursor, "dimension %d found, expected 3: a mesh of a volume", dimension);
 }
 
 /* --- words --- */

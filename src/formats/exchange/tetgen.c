@@ -80,7 +80,8 @@ static OstStatus read_points(TetGen *tetgen)
     OstGlobal counts[4], label = 0, mark = 0;
     OST_TRY(read_counts(tetgen, "the number of points", counts));
     if (counts[1] != 3)
-        return OST_RAISE_LINE(&tetgen->lines, "points of %" PRId64 " dimensions, expected 3", counts[1]);
+        return OST_RAISE_LINE(&tetgen->lines, "points of %" PRId64 " dimensions, expected 3: a mesh of a volume",
+                              counts[1]);
     OST_TRY(ost_cells_set(&tetgen->cells, OST_SET_OF_NODES, "marked", &tetgen->node_marks));
     for (OstGlobal i = 0; i < counts[0]; i++) {
         double x[3];

@@ -21,7 +21,7 @@ static OstStatus check_volume_elements(const OstMsh *msh)
         if (msh->read[type] > 0 && ost_msh_types[type].dimension == 3 && type != OST_MSH_TET4 && type != OST_MSH_TET10)
             return OST_RAISE(ctx, OST_INVALID_INPUT,
                              "%s: holds %" PRId64 " elements of Gmsh's type '%s %d', expected tets of 4 or of 10 nodes "
-                             "only; split or remesh the body with tets",
+                             "only; remesh the body (gmsh -3 MODEL.geo -order 2 -o NEW.msh, without Recombine)",
                              msh->cursor.path, msh->read[type], ost_msh_types[type].shape, ost_msh_types[type].nodes);
     if (msh->read[OST_MSH_TET4] > 0 && msh->read[OST_MSH_TET10] > 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,

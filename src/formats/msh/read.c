@@ -4,6 +4,7 @@
 #include "formats/msh/msh.h"
 #include "formats/serial/formats.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,10 @@ OstStatus ost_msh_format(OstMsh *msh)
                              "FILE.msh -format msh41 -o NEW.msh",
                              number);
     if (binary != 0 && size != 8)
-        return OST_RAISE_MSH(cursor, "numbers of %d bytes found, expected 8", size);
+        return OST_RAISE_MSH(
+            cursor,
+            "numbers of %d bytes found, expected 8; write the file as text, or with Gmsh on a machine of 64 bits",
+            size);
     cursor->binary = binary != 0;
     if (!binary)
         return OST_SUCCESS;
@@ -189,6 +193,16 @@ static OstStatus read_format_or_section(OstMsh *msh, const char *name)
     return read_section(msh, name);
 }
 
+/* Other programs' files of the same ending, by their first letter. */
+static const char *way_of_another(char first)
+{
+    if (first == '(')
+        return "; is it of Fluent? python3 -c \"import meshio; meshio.ansys.read('FILE').write('NEW.vtu')\" converts "
+               "it";
+    return isdigit((unsigned char)first) ? "; is it of FreeFEM? savemesh(Th, \"NEW.mesh\") writes a mesh that is read"
+                                         : "";
+}
+
 static OstStatus read_sections(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
@@ -196,8 +210,8 @@ static OstStatus read_sections(OstMsh *msh)
     while (cursor->next < cursor->end) {
         const OstMshText line = ost_msh_rest_of_line(cursor);
         if (line.length > 0 && line.start[0] != '$' && msh->version == 0)
-            return OST_RAISE_MSH(cursor, "'%.*s' found, expected $MeshFormat: not a Gmsh mesh", shown(line),
-                                 line.start);
+            return OST_RAISE_MSH(cursor, "'%.*s' found, expected $MeshFormat: not a Gmsh mesh%s", shown(line),
+                                 line.start, way_of_another(line.start[0]));
         if (line.length == 0 || line.start[0] != '$')
             continue;
         ost_msh_section_name(line, name);

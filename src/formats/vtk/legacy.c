@@ -355,7 +355,8 @@ static OstStatus read_keyword(Legacy *legacy, const char *word)
         next_word(legacy->cursor, name);
         return strcasecmp(name, "UNSTRUCTURED_GRID") == 0
                    ? OST_SUCCESS
-                   : OST_RAISE_MSH(legacy->cursor, "a data set of the kind '%s', expected UNSTRUCTURED_GRID", name);
+                   : OST_RAISE_MSH(legacy->cursor,
+                                   "a data set of the kind '%s', expected UNSTRUCTURED_GRID, a mesh of tets", name);
     }
     if (strcasecmp(word, "POINTS") == 0)
         return read_points(legacy);

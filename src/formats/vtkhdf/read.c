@@ -28,7 +28,10 @@ static OstStatus check_kind(Reader *reader)
     char type[64] = "";
     int version[2] = {0, 0};
     if (!ost_hdf5_has(h5, "/VTKHDF"))
-        return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: an HDF5 file, but it has no group VTKHDF", h5->path);
+        return OST_RAISE(
+            h5->ctx, OST_INVALID_INPUT,
+            "%s: an HDF5 file, but it has no group VTKHDF; if it is of MED (Salome), name it .med, and of Exodus .e",
+            h5->path);
     OST_TRY(ost_hdf5_read_text(h5, "/VTKHDF", "Type", type, sizeof type));
     if (strcmp(type, "UnstructuredGrid") != 0)
         return OST_RAISE(h5->ctx, OST_INVALID_INPUT, "%s: holds VTKHDF of type '%s'; expected UnstructuredGrid",

@@ -44,7 +44,9 @@ static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volu
     return OST_RAISE(
         mesh->ctx, OST_INVALID_INPUT,
         "tet %lld is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
-        "rounding of coordinates takes); mend the mesh (%lld of its tets are inverted or flat)",
+        "rounding of coordinates takes); mend the mesh: %lld of its tets are inverted or flat, and 'orthostat mesh "
+        "FILE NEW --orient' turns the "
+        "inverted ones",
         (long long)label, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
 }
 
