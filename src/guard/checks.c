@@ -311,8 +311,9 @@ static void describe_error(double error, char left[48])
 /* Does the residual that the user asked for explain the error? */
 static int is_as_asked(const OstSolveReport *report, const OstErrors *errors)
 {
-    return errors->known && !report->rounding_limited && report->error_estimate > 0.5 * errors->displacement &&
-           report->rounding_error < 0.5 * report->error_estimate;
+    return errors->asked ||
+           (errors->known && !report->rounding_limited && report->error_estimate > 0.5 * errors->displacement &&
+            report->rounding_error < 0.5 * report->error_estimate);
 }
 
 static void object_to_displacement(OstResult *result, const OstErrors *errors, const char *worst)
@@ -354,7 +355,8 @@ static int loses_the_forces(const OstResult *result, const OstErrors *errors, co
     return error > fmax(ost_least_digit, chosen);
 }
 
-static void object_to_forces(OstResult *result, const Body *body, const double *sums, const char *worst)
+static void object_to_forces(OstResult *result, const Body *body, const OstErrors *errors, const double *sums,
+                             const char *worst)
 {
     const OstChecks *checks = &result->checks;
     const double *mean = body->mean;
@@ -362,7 +364,8 @@ static void object_to_forces(OstResult *result, const Body *body, const double *
     const double smallest = 1e-3 * ost_norm3(mean);
     char left[48];
     char remedy[280];
-    snprintf(remedy, sizeof remedy, "%s", ost_rounding_remedy);
+    snprintf(remedy, sizeof remedy, "%s",
+             is_as_asked(&result->solve, errors) ? "ask for a smaller relative residual" : ost_rounding_remedy);
     if (ratio_to_deformation(sums) > moves_as_a_whole)
         snprintf(
             remedy, sizeof remedy,
@@ -413,7 +416,7 @@ static OstStatus judge_errors(OstResult *result, const Body *body, const OstErro
     if (displacement_lost)
         object_to_displacement(result, errors, worst);
     if (forces_lost)
-        object_to_forces(result, body, sums, worst);
+        object_to_forces(result, body, errors, sums, worst);
     return OST_SUCCESS;
 }
 

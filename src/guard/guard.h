@@ -47,6 +47,7 @@ typedef struct OstErrors {
     double stress;       /* means of the tets, six components */
     int corrected;       /* was the answer corrected until they were these? Then the residual says nothing beside them:
                             in stiff directions it is what the rounding of the displacement makes of it */
+    int asked;           /* is the residual asked for their reason, not rounding? */
 } OstErrors;
 
 /* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). */

@@ -213,10 +213,27 @@ static int warn_of_coarse_mesh(const OstResult *result, char text[OST_LONGEST_WA
     return 1;
 }
 
+/* So is one of the equations, where they were solved to a large residual that was asked for. */
+static int warn_of_large_residual(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstSolveReport *report = &result->solve;
+    const double residual = 1e-4, error = fmax(result->checks.displacement_error, result->checks.force_error);
+    char off[24];
+    if (!(error > coarse && report->relative_residual > residual) || report->stopped || report->rounding_limited)
+        return 0;
+    snprintf(
+        text, OST_LONGEST_WARNING,
+        "the residual asked for leaves displacement or stresses about %s off, beside the error of the mesh; ask for "
+        "a smaller accuracy: {relative_residual: ...}",
+        percent(error, off));
+    return 1;
+}
+
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
-    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted, warn_of_jump,
-                                                                  warn_of_stability, warn_of_coarse_mesh};
+    int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {warn_of_linear_theory, warn_of_inverted,
+                                                                  warn_of_jump,          warn_of_stability,
+                                                                  warn_of_coarse_mesh,   warn_of_large_residual};
     text[0] = '\0';
     return warn[number](result, text);
 }

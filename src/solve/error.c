@@ -36,6 +36,10 @@ enum { MOST_CORRECTIONS = 40, FEW = 3 };
 /* Rounding is the reason for a residual this many times that of the solve. */
 static const double unasked = 2.0;
 
+/* Rounding leaves far less than this residual: an error with it is the one asked for, and need not be known to more
+ * than a factor of about two, for which one application of the preconditioner will do up to the second condition. */
+static const double large_residual = 1e-4, good_condition = 5.0;
+
 typedef struct Search {
     const OstProblem *problem;
     OstSolver *solver;
@@ -85,6 +89,10 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
     OST_TRY(ost_guard_errors(problem, search->solved->displacement, search->error, errors));
     state(search, errors);
+    ost_log(
+        problem->ctx, OST_LOG_VERBOSE,
+        "solver: to %g, the error of the equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",
+        missing, errors->displacement, errors->reaction, errors->stress);
     return OST_SUCCESS;
 }
 
@@ -235,6 +243,32 @@ done:
     return status;
 }
 
+/* Of an error that the residual asked for explains. */
+static OstStatus measure_asked(Search *search, OstErrors *errors)
+{
+    const double condition = search->solved->report->condition_estimate;
+    OST_TRY(measure(search, 1.0, errors));
+    if (errors->known && largest(errors) > small_error && condition > good_condition)
+        OST_TRY(measure(search, 0.1, errors));
+    return OST_SUCCESS;
+}
+
+/* Of one that rounding may have a part in. */
+static OstStatus measure_all(Search *search, int is_rounding, OstErrors *errors)
+{
+    OST_TRY(measure(search, 1.0, errors));
+    if (largest(errors) > small_error || search->solved->report->condition_estimate > worst_condition)
+        OST_TRY(measure(search, 0.1, errors));
+    if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
+        OST_TRY(correct(search, errors));
+    for (double missing = 1e-3; missing > 1e-8 && errors->known && seem_lost(errors); missing *= 1e-2)
+        OST_TRY(measure(search, missing, errors));
+    if (errors->known &&
+        seem_lost(errors)) /* so rounding of the stiffness counts, which this displacement does not see */
+        errors->displacement *= lost_caution;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
                           OstErrors *errors)
 {
@@ -249,18 +283,13 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));
     OST_TRY_DONE(blame_rounding(&search, &is_rounding));
-    OST_TRY_DONE(measure(&search, 1.0, errors));
+    const int is_asked = !is_rounding && solved->report->relative_residual > large_residual;
+    OST_TRY_DONE(once       ? measure(&search, 1.0, errors)
+                 : is_asked ? measure_asked(&search, errors)
+                            : measure_all(&search, is_rounding, errors));
     if (once)
         goto done;
-    if (largest(errors) > small_error || solved->report->condition_estimate > worst_condition)
-        OST_TRY_DONE(measure(&search, 0.1, errors));
-    if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
-        OST_TRY_DONE(correct(&search, errors));
-    for (double missing = 1e-3; missing > 1e-8 && errors->known && seem_lost(errors); missing *= 1e-2)
-        OST_TRY_DONE(measure(&search, missing, errors));
-    if (errors->known &&
-        seem_lost(errors)) /* so rounding of the stiffness counts, which this displacement does not see */
-        errors->displacement *= lost_caution;
+    errors->asked = is_asked;
     if (!errors->corrected) {
         errors->reaction *= forces_caution;
         errors->stress *= forces_caution;

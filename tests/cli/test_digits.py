@@ -91,7 +91,39 @@ def bent_by_little():
         check(difference <= report["answer_error"]["displacement"], f"{method}, stopped: differs by {difference:.1e}")
 
 
+LOOSE = """
+mesh:
+  tube: {axis: y, length: 4, radii: [0.9, 1.5], divisions: {around: 16, radial: 2, axial: 8}}
+element: {order: 2}
+materials:
+  - region: all
+    youngs_modulus: [1e5, 1e8, 3e6]
+    poissons_ratio: 0.4
+    axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 1, 0], order: [axial, radial, tangential]}}
+constraints:
+  - {on: {boundary: bottom}, displacement: [0, 0, 0]}
+  - {on: {boundary: top}, displacement: [0, 0.3, 0]}
+output: {fields: [displacement]}
+accuracy: {relative_residual: RESIDUAL}
+solver: {method: metric}
+large_rotation: off
+"""
+
+
+def a_large_residual_is_not_rounding():
+    finished, _, path = solve(LOOSE.replace("RESIDUAL", "1e-9"))
+    check(finished.exit_code == 0 and "the residual asked for leaves" not in finished.output, finished.errors + finished.output)
+    right = read_points(path)
+    for residual in ("1e-1", "1e-2"):
+        finished, report, path = solve(LOOSE.replace("RESIDUAL", residual))
+        check(finished.exit_code == 0, f"{residual}: {finished.errors}")
+        check("WARNING          the residual asked for leaves" in finished.output, f"{residual}: {finished.output}")
+        difference, stated = relative_difference(read_points(path), right), report["checks"]["displacement_error"]
+        check(stated / 4 < difference < 3.0 * stated, f"{residual}: off by {difference:.1e}, {stated:.1e} stated")
+
+
 def main():
+    a_large_residual_is_not_rounding()
     next_to_incompressible()
     bent_by_little()
     for moduli, poisson, order in HARD:

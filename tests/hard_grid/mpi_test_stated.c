@@ -15,6 +15,7 @@ typedef struct Body {
     double length;   /* along x; 0: the shape's */
     double contrast; /* of the inclusions; 0: the shape's */
     OstMethod method;
+    double residual; /* asked for; 0: the grid's */
 } Body;
 
 static OstScene *make_scene(const Body *body, HardCase *hard)
@@ -31,6 +32,8 @@ static OstScene *make_scene(const Body *body, HardCase *hard)
         assert_success(ost_material_create(ctx, "inclusion", &constants, 0.0, &hard->material[1].material));
     }
     hard->c.solver.method = body->method;
+    if (body->residual > 0.0)
+        hard->c.solver.relative_residual = body->residual;
     assert_success(hard_make_chunk(&point, &hard->c, &chunk));
     assert_success(ost_scene_create_on(&hard->c, &chunk, &scene));
     return scene;
@@ -40,15 +43,15 @@ static void what_is_accepted_is_stated_rightly(void **state)
 {
     (void)state;
     const Body bodies[] = {
-        {"beam", 2, {40, 1, 1}, 400.0, 0.0, OST_METHOD_DIRECT},
-        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_DIRECT},
-        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_TWO_LEVEL},
-        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_DIRECT},
-        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC},
-        {"stiff", 2, {4, 4, 4}, 0.0, 1e5, OST_METHOD_METRIC},
-        {"soft", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC},
-        {"slivers", 1, {4, 4, 4}, 0.0, 0.0, OST_METHOD_DIRECT},
-        {"checker", 1, {6, 5, 5}, 0.0, 0.0, OST_METHOD_STRONG},
+        {"beam", 2, {40, 1, 1}, 400.0, 0.0, OST_METHOD_DIRECT, 0.0},
+        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_DIRECT, 0.0},
+        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_TWO_LEVEL, 0.0},
+        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_DIRECT, 0.0},
+        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC, 0.0},
+        {"stiff", 2, {4, 4, 4}, 0.0, 1e5, OST_METHOD_METRIC, 0.0},
+        {"soft", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC, 0.0},
+        {"slivers", 1, {4, 4, 4}, 0.0, 0.0, OST_METHOD_DIRECT, 0.0},
+        {"checker", 1, {6, 5, 5}, 0.0, 0.0, OST_METHOD_STRONG, 0.0},
     };
     for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
         HardCase hard;
@@ -68,11 +71,37 @@ static void what_is_accepted_is_stated_rightly(void **state)
     }
 }
 
+/* What a residual of a hundredth or of a thousandth leaves, where moduli differ. */
+static void what_a_large_residual_leaves_is_stated(void **state)
+{
+    (void)state;
+    const Body bodies[] = {
+        {"beam", 2, {40, 1, 1}, 100.0, 0.0, OST_METHOD_METRIC, 1e-2},
+        {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_TWO_LEVEL, 1e-3},
+        {"stiff", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC, 1e-2},
+        {"stiff", 2, {4, 4, 4}, 0.0, 1e5, OST_METHOD_METRIC, 1e-2},
+        {"stiff", 2, {4, 4, 4}, 0.0, 1e5, OST_METHOD_METRIC, 1e-3},
+        {"soft", 1, {6, 6, 4}, 0.0, 0.0, OST_METHOD_METRIC, 1e-2},
+        {"checker", 1, {6, 5, 5}, 0.0, 0.0, OST_METHOD_STRONG, 1e-2},
+    };
+    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
+        HardCase hard;
+        HardReading reading = {.point = {0}};
+        OstScene *scene = make_scene(&bodies[b], &hard);
+        assert_success(hard_solve_scene(scene, &reading));
+        ost_scene_destroy(&scene);
+        if (reading.status != OST_SUCCESS || !hard_states_its_error(&reading))
+            fail_msg("body %zu: %s: displacement %.1e, stated %.1e", b, reading.reason, reading.truth.off.displacement,
+                     reading.stated_error);
+        assert_true(reading.truth.off.known);
+    }
+}
+
 /* Rounding of the assembled stiffness took a quarter of this beam's displacement. */
 static void a_slender_beam_keeps_its_digits(void **state)
 {
     (void)state;
-    const Body body = {"beam", 2, {200, 1, 1}, 4000.0, 0.0, OST_METHOD_DIRECT};
+    const Body body = {"beam", 2, {200, 1, 1}, 4000.0, 0.0, OST_METHOD_DIRECT, 0.0};
     HardCase hard;
     HardReading reading = {.point = {0}};
     OstScene *scene = make_scene(&body, &hard);
@@ -86,7 +115,7 @@ static void a_slender_beam_keeps_its_digits(void **state)
 static void what_holds_no_digit_is_refused_for_rounding(void **state)
 {
     (void)state;
-    const Body body = {"stiff", 1, {6, 6, 4}, 0.0, 1e17, OST_METHOD_DIRECT};
+    const Body body = {"stiff", 1, {6, 6, 4}, 0.0, 1e17, OST_METHOD_DIRECT, 0.0};
     HardCase hard;
     OstScene *scene = make_scene(&body, &hard);
     OstResult *result = NULL;
@@ -114,9 +143,8 @@ static void what_forces_hold_more_of_is_stated(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_forces_hold_more_of_is_stated),
-    cmocka_unit_test(what_is_accepted_is_stated_rightly),
-    cmocka_unit_test(a_slender_beam_keeps_its_digits),
+    cmocka_unit_test(what_forces_hold_more_of_is_stated),          cmocka_unit_test(what_is_accepted_is_stated_rightly),
+    cmocka_unit_test(what_a_large_residual_leaves_is_stated),      cmocka_unit_test(a_slender_beam_keeps_its_digits),
     cmocka_unit_test(what_holds_no_digit_is_refused_for_rounding),
 };
 
