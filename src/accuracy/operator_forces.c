@@ -292,7 +292,7 @@ static void sum_forces(Sum *sum)
     if (!sum->missing || ost_field_is_eigenstrained(sum->operator->problem->field))
         (void)sum_states(NULL, 1, &alone);
     else
-        (void)ost_together(mesh->ctx, sum_states, (void *)complement, sum);
+        (void)ost_together(mesh->ctx, sum_states, OST_MOST_TOGETHER, (void *)complement, sum);
 }
 
 OstStatus ost_operator_unit(const OstProblem *problem, double *unit)
@@ -399,7 +399,7 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const flo
     if (operator->turned_by)
         (void)multiply(NULL, 1, &alone);
     else
-        (void)ost_together(mesh->ctx, multiply, (void *)operator->complement, &product);
+        (void)ost_together(mesh->ctx, multiply, OST_MOST_TOGETHER, (void *)operator->complement, &product);
 }
 
 void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy)

@@ -107,5 +107,5 @@ void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstF
     if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */
         (void)visit_all((void *)field, 1, &alone);
     else
-        (void)ost_together(mesh->ctx, visit_all, (void *)field, &request);
+        (void)ost_together(mesh->ctx, visit_all, OST_MOST_TOGETHER, (void *)field, &request);
 }

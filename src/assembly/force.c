@@ -91,7 +91,7 @@ OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *fie
         memset(magnitude, 0, bytes);
     if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */
         return add_all((void *)field, 1, &alone);
-    return ost_together(mesh->ctx, add_all, (void *)field, &request);
+    return ost_together(mesh->ctx, add_all, OST_MOST_TOGETHER, (void *)field, &request);
 }
 
 /* Is a displacement other than 0 prescribed at the node? */

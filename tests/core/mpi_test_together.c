@@ -10,6 +10,7 @@ enum { TASKS = 5 };
 
 typedef struct Sums {
     int services, most;
+    int at_once; /* so many may be served */
     OstStatus fails;
 } Sums;
 
@@ -41,7 +42,7 @@ static void ask(void *data, int number)
     for (int k = 0; k <= number && all->status[number] == OST_SUCCESS; k++) {
         double value = number + k;
         ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
-        all->status[number] = ost_together(ctx, square, all->sums, &value);
+        all->status[number] = ost_together(ctx, square, all->sums->at_once, all->sums, &value);
         ost_ledger_leave(ctx);
         all->found[number] += value;
     }
@@ -49,10 +50,20 @@ static void ask(void *data, int number)
         assert_non_null(strstr(ost_error_text(ctx), "the service says no"));
 }
 
+static void ask_five_times(void *data, int number)
+{
+    Data *all = data;
+    for (int k = 0; k < TASKS && all->status[number] == OST_SUCCESS; k++) {
+        double value = number;
+        all->status[number] = ost_together(ctx, square, all->sums->at_once, all->sums, &value);
+        all->found[number] += value;
+    }
+}
+
 static void requests_of_one_kind_are_served_at_once(void **state)
 {
     (void)state;
-    Sums sums = {0};
+    Sums sums = {.at_once = TASKS};
     Data data = {.sums = &sums};
     assert_success(ost_together_run(ctx, TASKS, ask, &data));
     assert_false(ost_together_any(ctx));
@@ -67,10 +78,25 @@ static void requests_of_one_kind_are_served_at_once(void **state)
     }
 }
 
+/* 25 requests by threes: two that are left over do not go by themselves, but with the first that comes back. */
+static void what_a_full_service_leaves_waits_for_more(void **state)
+{
+    (void)state;
+    Sums sums = {.at_once = 3};
+    Data data = {.sums = &sums};
+    assert_success(ost_together_run(ctx, TASKS, ask_five_times, &data));
+    assert_int_equal(sums.most, 3);
+    assert_int_equal(sums.services, (TASKS * TASKS + 2) / 3);
+    for (int n = 0; n < TASKS; n++) {
+        assert_success(data.status[n]);
+        assert_close(data.found[n], TASKS * n * n * ost_size(ctx), 1e-12);
+    }
+}
+
 static void a_failure_reaches_all_that_were_served(void **state)
 {
     (void)state;
-    Sums sums = {.fails = OST_NOT_CONVERGED};
+    Sums sums = {.at_once = TASKS, .fails = OST_NOT_CONVERGED};
     Data data = {.sums = &sums};
     assert_success(ost_together_run(ctx, TASKS, ask, &data));
     for (int n = 0; n < TASKS; n++)
@@ -82,13 +108,14 @@ static void outside_of_tasks_a_request_is_served_alone(void **state)
     (void)state;
     Sums sums = {0};
     double value = 3.0;
-    assert_success(ost_together(ctx, square, &sums, &value));
+    assert_success(ost_together(ctx, square, TASKS, &sums, &value));
     assert_close(value, 9.0 * ost_size(ctx), 1e-12);
     assert_int_equal(sums.most, 1);
 }
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(requests_of_one_kind_are_served_at_once),
+    cmocka_unit_test(what_a_full_service_leaves_waits_for_more),
     cmocka_unit_test(a_failure_reaches_all_that_were_served),
     cmocka_unit_test(outside_of_tasks_a_request_is_served_alone),
 };

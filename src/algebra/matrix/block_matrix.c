@@ -162,7 +162,7 @@ static OstStatus apply_all(void *common, int count, void *const *request)
 OstStatus ost_block_matrix_apply(const OstBlockMatrix *matrix, double *x, double *y)
 {
     Product product = {x, y};
-    return ost_together(matrix->ctx, apply_all, (void *)matrix, &product);
+    return ost_together(matrix->ctx, apply_all, OST_COLUMNS, (void *)matrix, &product);
 }
 
 /* The unevaluated sum of two numbers. */

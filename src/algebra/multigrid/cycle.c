@@ -240,14 +240,14 @@ OstStatus ost_cycle_apply(void *data, const double *r, double *z)
 {
     OstCycle *cycle = data;
     Request request = {r, z};
-    return ost_together(cycle->level[0].matrix->ctx, apply_whole, cycle, &request);
+    return ost_together(cycle->level[0].matrix->ctx, apply_whole, OST_COLUMNS, cycle, &request);
 }
 
 OstStatus ost_cycle_apply_half(void *data, const double *r, double *z)
 {
     OstCycle *cycle = data;
     Request request = {r, z};
-    return ost_together(cycle->level[0].matrix->ctx, apply_half, cycle, &request);
+    return ost_together(cycle->level[0].matrix->ctx, apply_half, OST_COLUMNS, cycle, &request);
 }
 
 void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)

@@ -25,7 +25,9 @@ typedef struct Task {
     char *stack; /* from a guard page on, so that an overflow ends the program */
     int is_over;
     OstServe *serve; /* what it waits for; NULL: nothing */
+    int most;        /* of such requests that are served at once */
     void *common, *request;
+    long turn;        /* requests are numbered as they come */
     OstStatus status; /* of what it waited for */
     double since;     /* when it began to wait */
     Place place;
@@ -36,6 +38,7 @@ struct OstTogether {
     ucontext_t outside;
     Place place; /* of what runs the tasks */
     int count;
+    long requests; /* so far */
     Task *task, *running;
     void (*function)(void *data, int number);
     void *data;
@@ -115,7 +118,8 @@ static int is_alike(const Task *a, const Task *b)
     return a->serve && a->serve == b->serve && a->common == b->common;
 }
 
-/* One of those that wait for what most wait for; NULL: none waits. */
+/* One of those that wait for what most wait for; NULL: none waits. So the few that a full service leaves over wait on,
+ * as the others will come back for the same. */
 static const Task *choose(const struct OstTogether *together)
 {
     const Task *chosen = NULL;
@@ -131,18 +135,32 @@ static const Task *choose(const struct OstTogether *together)
     return chosen;
 }
 
-/* Serves all that wait for the same. The work is booked where the first of them is. */
+/* Those that wait for the same, the first come first; as many as are served at once. */
+static int line_up(struct OstTogether *together, const Task *chosen, Task *of[OST_MOST_TOGETHER])
+{
+    int count = 0;
+    for (int k = 0; k < together->count; k++) {
+        Task *task = &together->task[k];
+        int place = count;
+        if (!is_alike(task, chosen))
+            continue;
+        for (; place > 0 && of[place - 1]->turn > task->turn; place--)
+            of[place] = of[place - 1];
+        of[place] = task;
+        count++;
+    }
+    return count < chosen->most ? count : chosen->most;
+}
+
+/* The work is booked where the first of those served is. */
 static void serve(struct OstTogether *together, const Task *chosen)
 {
     OstContext *ctx = together->ctx;
     void *request[OST_MOST_TOGETHER];
     Task *of[OST_MOST_TOGETHER];
-    int count = 0;
-    for (int k = 0; k < together->count; k++)
-        if (is_alike(&together->task[k], chosen)) {
-            of[count] = &together->task[k];
-            request[count++] = together->task[k].request;
-        }
+    const int count = line_up(together, chosen, of);
+    for (int k = 0; k < count; k++)
+        request[k] = of[k]->request;
     const double start = ost_seconds();
     move(ctx, &together->place, &of[0]->place);
     const OstStatus status = chosen->serve(chosen->common, count, request);
@@ -186,13 +204,15 @@ OstStatus ost_together_run(OstContext *ctx, int count, void (*task)(void *data, 
     return status;
 }
 
-OstStatus ost_together(OstContext *ctx, OstServe *served_by, void *common, void *request)
+OstStatus ost_together(OstContext *ctx, OstServe *served_by, int most, void *common, void *request)
 {
     struct OstTogether *together = ctx->together;
     if (!together)
         return served_by(common, 1, &request);
     Task *task = together->running;
     task->serve = served_by;
+    task->most = most;
+    task->turn = together->requests++;
     task->common = common;
     task->request = request;
     swapcontext(&task->context, &together->outside);

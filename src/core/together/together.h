@@ -19,8 +19,8 @@ enum { OST_MOST_TOGETHER = 16 };
 OstStatus ost_together_run(OstContext *ctx, int count, void (*task)(void *data, int number), void *data);
 
 /* Inside a task: returns when the request has been served. Elsewhere it is served at once, alone. To be called by all
- * ranks alike, also where what is served is local. */
-OstStatus ost_together(OstContext *ctx, OstServe *serve, void *common, void *request);
+ * ranks alike, also where what is served is local. `most`: so many are served at once; more would be no cheaper. */
+OstStatus ost_together(OstContext *ctx, OstServe *serve, int most, void *common, void *request);
 
 /* Local. Is a task running? */
 int ost_together_any(const OstContext *ctx);
