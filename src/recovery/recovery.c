@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
+#include "core/together/together.h"
 #include "element/large_rotation.h"
 #include "element/strain_batch.h"
 #include "element/tets.h"
@@ -65,12 +66,17 @@ static OstStatus recover_means(OstResult *result, unsigned fields)
     return OST_SUCCESS;
 }
 
-/* Sums over the tets around each owned node. */
-typedef struct Sums {
-    int32_t *region; /* the lowest of the tets around the node */
-    double *volume;  /* of that region's tets */
-    double *stress;  /* times volume, 6 × node_count */
-} Sums;
+/* Of each owned node: the lowest region of the tets around it, and the volume of that region's tets. */
+typedef struct Around {
+    int32_t *region;
+    double *volume;
+} Around;
+
+/* A result whose stress at the nodes is wanted. */
+typedef struct Request {
+    const OstResult *result;
+    double *stress; /* 6 × node_count */
+} Request;
 
 static const OstLocal *nodes_of(const OstMesh *mesh, OstLocal tet)
 {
@@ -89,22 +95,28 @@ static void find_regions(const OstMesh *mesh, int32_t *region)
         }
 }
 
+static void gather_at_nodes(const OstResult *result, const OstElement *element, const OstBatch *batch,
+                            OstElasticity *at_nodes)
+{
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
+}
+
 /* Stress at the nodes of a batch's tets, 6 numbers a node. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
-                            OstElasticity *at_nodes, OstSimd *stress)
+                            const OstElasticity *at_nodes, OstSimd *stress)
 {
     OstSimd u[3 * OST_MAX_TET_NODES];
     OstSimd strain[6 * OST_MAX_TET_NODES];
     OstMeans means;
     ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
-    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
     if (result->formulation != OST_FORMULATION_LINEAR) {
         ost_large_rotation_nodal_stress(element, result->formulation, batch->x, &batch->elasticity, at_nodes, u,
                                         stress);
         return;
     }
     element->nodal_strain(batch->x, u, strain);
-    element->means(batch->x, &batch->elasticity, u, &means);
+    if (at_nodes->by_mean)
+        element->means(batch->x, &batch->elasticity, u, &means);
     for (int a = 0; a < element->nodes; a++) {
         const int at = ost_elasticity_at(at_nodes, a);
         OstSimd elastic[6];
@@ -131,6 +143,7 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
     ost_elasticity_clear(&at_nodes);
     batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
     ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
+    gather_at_nodes(result, element, &batch, &at_nodes);
     stress_of_batch(result, element, &batch, &at_nodes, all);
     for (int n = 0; n < 6 * element->nodes; n++)
         stress[n] = all[n][0];
@@ -171,44 +184,76 @@ void ost_turn_with_error(const OstResult *result, OstLocal tet, OstStressMeasure
     }
 }
 
-static void add_batch(const OstMesh *mesh, const OstElement *element, const OstBatch *batch, const OstSimd *stress,
-                      Sums *sums)
+/* Adds the volumes of a batch's tets to the nodes around, and finds each tet's shares: 0 at nodes that belong to
+ * another region, or to another rank. */
+static void add_volumes(const OstMesh *mesh, int nodes, const OstBatch *batch, const Around *around,
+                        double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES])
 {
     for (int slot = 0; slot < batch->count; slot++) {
         const OstLocal tet = batch->tet[slot];
         const double volume = fabs(ost_tet_volume(mesh->coordinates, nodes_of(mesh, tet)));
-        for (int a = 0; a < element->nodes; a++) {
+        for (int a = 0; a < nodes; a++) {
             const OstLocal node = batch->node[slot][a];
-            if (node >= mesh->owned_nodes || mesh->tet_region[tet] != sums->region[node])
-                continue;
-            sums->volume[node] += volume;
-            for (int p = 0; p < 6; p++)
-                sums->stress[6 * (size_t)node + (size_t)p] += volume * stress[6 * a + p][slot];
+            const int counts = node < mesh->owned_nodes && mesh->tet_region[tet] == around->region[node];
+            share[slot][a] = counts ? volume : 0.0;
+            if (counts)
+                around->volume[node] += volume;
         }
     }
 }
 
-static void average(const OstResult *result, Sums *sums)
+static void add_batch(int nodes, const OstBatch *batch, const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES],
+                      const OstSimd *stress, double *sum)
 {
-    const OstMesh *mesh = result->mesh;
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int a = 0; a < nodes; a++)
+            for (int p = 0; p < 6 && share[slot][a] > 0.0; p++) /* nodes elsewhere have no place in the sum */
+                sum[6 * (size_t)batch->node[slot][a] + (size_t)p] += share[slot][a] * stress[6 * a + p][slot];
+}
+
+static void average(int count, void *const *request, const Around *around)
+{
+    const OstResult *first_result = ((const Request *)request[0])->result;
+    const OstMesh *mesh = first_result->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstBatch batch;
     OstElasticity at_nodes;
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_nodes);
-    batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
-    find_regions(mesh, sums->region);
+    batch.elasticity.eigen_share = at_nodes.eigen_share = first_result->t;
+    find_regions(mesh, around->region);
     for (OstLocal first = 0; first < mesh->tet_count; first += batch.count) {
-        OstSimd stress[6 * OST_MAX_TET_NODES];
-        ost_batch_gather_from(&batch, element, mesh, result->field, first, mesh->tet_count);
-        if (result->formulation != OST_FORMULATION_LINEAR)
-            ost_batch_keep_alike(&batch, element, mesh, result->field);
-        stress_of_batch(result, element, &batch, &at_nodes, stress);
-        add_batch(mesh, element, &batch, stress, sums);
+        double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES];
+        ost_batch_gather_from(&batch, element, mesh, first_result->field, first, mesh->tet_count);
+        if (first_result->formulation != OST_FORMULATION_LINEAR)
+            ost_batch_keep_alike(&batch, element, mesh, first_result->field);
+        gather_at_nodes(first_result, element, &batch, &at_nodes);
+        add_volumes(mesh, element->nodes, &batch, around, share);
+        for (int k = 0; k < count; k++) {
+            const Request *one = request[k];
+            OstSimd stress[6 * OST_MAX_TET_NODES];
+            stress_of_batch(one->result, element, &batch, &at_nodes, stress);
+            add_batch(element->nodes, &batch, share, stress, one->stress);
+        }
     }
-    for (OstLocal node = 0; node < mesh->owned_nodes; node++)
-        for (size_t p = 0; p < 6; p++)
-            sums->stress[6 * (size_t)node + p] /= sums->volume[node];
+    for (int k = 0; k < count; k++)
+        for (size_t n = 0; n < 6 * (size_t)mesh->owned_nodes; n++)
+            ((const Request *)request[k])->stress[n] /= around->volume[n / 6];
+}
+
+/* OstServe: of one field. */
+static OstStatus average_all(void *field, int count, void *const *request)
+{
+    const OstMesh *mesh = ((const Request *)request[0])->result->mesh;
+    Around around = {0};
+    (void)field;
+    OstStatus status = OST_NEW(mesh->ctx, &around.volume, mesh->owned_nodes);
+    OST_THEN(OST_NEW(mesh->ctx, &around.region, mesh->owned_nodes));
+    if (status == OST_SUCCESS)
+        average(count, request, &around);
+    OST_FREE(around.volume);
+    OST_FREE(around.region);
+    return status;
 }
 
 /* Collective. Makes result->node_stress, ghosts included (see recovery.h). */
@@ -216,19 +261,17 @@ static OstStatus recover_node_stress(OstResult *result)
 {
     OstContext *ctx = result->ctx;
     const OstMesh *mesh = result->mesh;
-    Sums sums = {0};
-    OstStatus status = OST_NEW(ctx, &sums.stress, 6 * (size_t)mesh->node_count);
-    OST_THEN(OST_NEW(ctx, &sums.volume, mesh->owned_nodes));
-    OST_THEN(OST_NEW(ctx, &sums.region, mesh->owned_nodes));
-    if (status == OST_SUCCESS)
-        average(result, &sums);
+    const int is_own = result->formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(result->field);
+    Request request = {.result = result};
+    void *const alone = &request;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &request.stress, 6 * (size_t)mesh->node_count)));
+    OstStatus status = is_own ? average_all(NULL, 1, &alone)
+                              : ost_together(ctx, average_all, OST_MOST_TOGETHER, (void *)result->field, &request);
     status = ost_agree(ctx, status);
-    OST_THEN(ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), sums.stress)));
-    OST_FREE(sums.volume);
-    OST_FREE(sums.region);
+    OST_THEN(ost_agree(ctx, ost_halo_import(mesh->halo, 6 * sizeof(double), request.stress)));
     if (status != OST_SUCCESS)
-        OST_FREE(sums.stress);
-    result->node_stress = sums.stress;
+        OST_FREE(request.stress);
+    result->node_stress = request.stress;
     return status;
 }
 
