@@ -77,6 +77,23 @@ for name, text, tets, regions in (
     held = json.loads(done.output)
     check((held["tets"], [r["name"] for r in held["regions"]]) == (tets, regions), f"{name}: {held}")
 
+# Nodes in coordinate systems, each of another: at (10, 0, 0), and one along each axis from there.
+SYSTEMS = """CORD2C,2,1,,,,,,1.
+,1.
+GRID,1,2,0.,0.,0.
+GRID,2,2,1.,90.,0.
+GRID,3,1,1.,0.,0.
+GRID,4,3,11.,90.,0.
+CORD2R,1,,10.,,,11.,,
+,10.,1.
+CORD2S,3,,,,,,,1.
+,1.
+CTETRA,1,7,1,2,3,4
+"""
+done = run("mesh", write("systems.bdf", SYSTEMS), "--json", "-", folder=folder)
+held = json.loads(done.output)
+check(np.allclose([*held["low"], *held["high"], held["volume"]], [10, 0, 0, 11, 1, 1, 1 / 6], atol=1e-12), f"{held}")
+
 # A surface that no tet has: the message speaks of it, and not of where the body lies.
 STRAY = """$MeshFormat
 2.2 0 8

@@ -165,7 +165,7 @@ static void tets_that_fold_are_made_straight_if_asked(void **state)
     OstMesh *mesh = NULL;
     int warnings = 0;
     assert_failure(ost_mesh_distribute(ctx, &cube, &mesh), OST_INVALID_INPUT,
-                   "such tets; give them straight edges (element: {straighten: true}), or refine");
+                   "such tets; give them straight edges (element: {straighten: true} in a case");
     cube = bent_cube();
     cube->straighten = 1;
     const OstLogLevel level = ost_log_level(ctx);

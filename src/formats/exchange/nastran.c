@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/cells/cells.h"
 #include "formats/exchange/exchange.h"
+#include "formats/exchange/nastran_systems.h"
 #include "formats/exchange/numbers.h"
 #include "formats/msh/cursor.h"
 
@@ -19,6 +20,11 @@
 
 enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 10 };
 
+typedef struct Placed {
+    OstGlobal label, system;
+    double x[3];
+} Placed;
+
 typedef struct Nastran {
     OstMshCursor cursor;
     OstCells cells;
@@ -26,6 +32,9 @@ typedef struct Nastran {
     int fields, room;
     char (*field)[FIELD];
     const char *line; /* where the card begins */
+    OstNastranSystems systems;
+    OstLocal placed, placed_room; /* nodes that wait for their coordinate system, which may stand behind them */
+    Placed *place;
 } Nastran;
 
 /* --- cards --- */
@@ -51,10 +60,10 @@ static OstStatus add_field(Nastran *nastran, const char *text, size_t length)
     return OST_SUCCESS;
 }
 
-/* Fields between commas; a last one that only names the continuation is the ninth. */
+/* Fields between commas; a last one that only names the continuation is the ninth, and those left out are blank. */
 static OstStatus free_fields(Nastran *nastran, const char *text, const char *end)
 {
-    for (int f = 0; f < 8 && text < end; f++) {
+    for (int f = 0; f < 8; f++) {
         const char *comma = memchr(text, ',', (size_t)(end - text));
         const char *stop = comma ? comma : end;
         OST_TRY(add_field(nastran, text, (size_t)(stop - text)));
@@ -116,6 +125,29 @@ static OstStatus take_integer(Nastran *nastran, const char *what, int number, Os
 
 /* --- what is read of them --- */
 
+static OstStatus take_reals(Nastran *nastran, const char *what, int first, int count, double *values)
+{
+    for (int i = 0; i < count; i++) {
+        const char *text = field_of(nastran, first + i);
+        nastran->cursor.place = nastran->line;
+        if (text[0] && !ost_fortran_real(text, strlen(text), &values[i]))
+            return OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", first + i + 1, nastran->name,
+                                 text, what);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus read_system(Nastran *nastran)
+{
+    OstNastranSystem *system = NULL;
+    OST_TRY(ost_nastran_system_add(&nastran->cursor, &nastran->systems, &system));
+    system->kind = nastran->name[5];
+    OST_TRY(take_integer(nastran, "the number of a coordinate system", 0, &system->label));
+    if (field_of(nastran, 1)[0])
+        OST_TRY(take_integer(nastran, "a coordinate system", 1, &system->base));
+    return take_reals(nastran, "a coordinate", 2, 9, system->points);
+}
+
 static OstStatus read_grid(Nastran *nastran)
 {
     OstGlobal label = 0, system = 0;
@@ -123,17 +155,25 @@ static OstStatus read_grid(Nastran *nastran)
     OST_TRY(take_integer(nastran, "the number of a node", 0, &label));
     if (field_of(nastran, 1)[0])
         OST_TRY(take_integer(nastran, "a coordinate system", 1, &system));
-    if (system != 0)
-        return OST_RAISE_MSH(&nastran->cursor,
-                             "node %" PRId64 " is in coordinate system %" PRId64 "; only the basic one is read", label,
-                             system);
-    for (int d = 0; d < 3; d++) {
-        const char *text = field_of(nastran, 2 + d);
-        nastran->cursor.place = nastran->line;
-        if (text[0] && !ost_fortran_real(text, strlen(text), &x[d]))
-            return OST_RAISE_MSH(&nastran->cursor, "field %d of GRID is '%s', expected a coordinate", 3 + d, text);
+    OST_TRY(take_reals(nastran, "a coordinate", 2, 3, x));
+    if (system == 0)
+        return ost_cells_add_node(&nastran->cells, label, x);
+    if (nastran->placed == nastran->placed_room) {
+        nastran->placed_room = 2 * nastran->placed_room + FIRST_FIELDS;
+        OST_TRY(OST_RESIZE(nastran->cursor.ctx, &nastran->place, nastran->placed_room));
     }
-    return ost_cells_add_node(&nastran->cells, label, x);
+    nastran->place[nastran->placed++] = (Placed){label, system, {x[0], x[1], x[2]}};
+    return OST_SUCCESS;
+}
+
+static OstStatus place_nodes(Nastran *nastran)
+{
+    for (OstLocal n = 0; n < nastran->placed; n++) {
+        Placed *node = &nastran->place[n];
+        OST_TRY(ost_nastran_to_basic(&nastran->cursor, &nastran->systems, node->system, node->x));
+        OST_TRY(ost_cells_add_node(&nastran->cells, node->label, node->x));
+    }
+    return OST_SUCCESS;
 }
 
 /* Mid-edge nodes are all there, or none. meshio leaves out the property. */
@@ -217,6 +257,8 @@ static OstStatus end_card(Nastran *nastran)
     const char *name = nastran->name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);
+    if (strcmp(name, "CORD2R") == 0 || strcmp(name, "CORD2C") == 0 || strcmp(name, "CORD2S") == 0)
+        return read_system(nastran);
     if (strcmp(name, "CTETRA") == 0)
         return read_cell(nastran, OST_CELL_TET4, OST_CELL_TET10);
     if (strcmp(name, "CTRIA6") == 0)
@@ -310,7 +352,10 @@ OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chu
     OstStatus status = ost_cells_open(ctx, path, &nastran.cells);
     OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
     OST_THEN(read_lines(&nastran));
+    OST_THEN(place_nodes(&nastran));
     OST_FREE(nastran.field);
+    OST_FREE(nastran.systems.system);
+    OST_FREE(nastran.place);
     ost_msh_close(&nastran.cursor);
     OST_THEN(ost_cells_finish(&nastran.cells, chunk));
     ost_cells_close(&nastran.cells);
