@@ -46,6 +46,21 @@ static const char *list_keys(const OstYamlKey *keys, int count, char *list, size
     return list;
 }
 
+/* What users of other programs write, and what it is here. */
+static const char *word_for(const char *word, const char *const *names, int count)
+{
+    static const char *const other[][2] = {
+        {"E", "youngs_modulus"},   {"nu", "poissons_ratio"},    {"G", "shear_modulus"},
+        {"rho", "density"},        {"supports", "constraints"}, {"boundary_conditions", "constraints"},
+        {"fixed", "displacement"}, {"direction", "fibre"},      {"thermal_expansion", "eigenstrain"},
+    };
+    for (size_t o = 0; o < sizeof other / sizeof *other; o++)
+        for (int n = 0; n < count && strcmp(word, other[o][0]) == 0; n++)
+            if (strcmp(names[n], other[o][1]) == 0)
+                return names[n];
+    return ost_nearest_word(word, names, count);
+}
+
 static OstStatus raise_unknown_key(const OstYaml *yaml, const OstYamlNode *mapping, const OstYamlNode *key,
                                    const OstYamlKey *keys, int count)
 {
@@ -54,7 +69,10 @@ static OstStatus raise_unknown_key(const OstYaml *yaml, const OstYamlNode *mappi
     const char *names[MOST_KEYS];
     const int listed = key_names(keys, count, names);
     const char *word = scalar_text(yaml, key);
-    const char *nearest = ost_nearest_word(word, names, listed);
+    const char *nearest = word_for(word, names, listed);
+    if (word[0] && word[strspn(word, "0123456789")] == '\0')
+        return ost_yaml_raise(yaml, key, "unknown key '%.80s' in %s; decimals follow a point, and no comma: 0.3", word,
+                              ost_yaml_place(yaml, mapping, place, sizeof place));
     return ost_yaml_raise(yaml, key, "unknown key '%.80s' in %s%s%s%s Known keys: %s", word,
                           ost_yaml_place(yaml, mapping, place, sizeof place), nearest ? "; did you mean '" : ".",
                           nearest ? nearest : "", nearest ? "'?" : "", list_keys(keys, count, list, sizeof list));
