@@ -44,9 +44,6 @@ void ost_newton_stop_at(OstNewton *newton, double share);
  * is then the last one at rest. */
 OstStatus ost_newton_advance(OstNewton *newton, double to, OstNewtonState *state);
 
-/* Local. What was done since the method was made. */
-const OstNewtonReport *ost_newton_report(const OstNewton *newton);
-
 /* Collective. Copies the state's displacement into a result, with the reports, the residual and the sizes that
  * ost_guard_after needs. */
 OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstResult *result, OstSolvedFor *solved_for);

@@ -136,11 +136,6 @@ void ost_newton_stop_at(OstNewton *newton, double share)
     newton->enough = share;
 }
 
-const OstNewtonReport *ost_newton_report(const OstNewton *newton)
-{
-    return &newton->report;
-}
-
 /* Puts what is prescribed at the load factor into a displacement, ghosts included. */
 static OstStatus prescribe(OstNewton *newton, double *displacement)
 {

@@ -11,7 +11,4 @@ OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chu
 OstStatus ost_unv_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 OstStatus ost_tetgen_read(OstContext *ctx, const char *path, OstMeshChunk **chunk); /* .node or .ele of a pair */
 
-/* Local. Is the file at `sought` part of this one: itself, one that it includes, or one that goes with it? */
-int ost_abaqus_reads(const char *path, const char *sought);
-
 #endif
