@@ -281,7 +281,7 @@ static void print_failure(const OstResult *result)
         const OstLeastFactor *least = &failure->least[c];
         printf("  %-16s %s: ", c == 0 ? "strength" : "", criterion_word[c]);
         if (least->factor < OST_MOST_LOAD_FACTOR)
-            printf("fails at %.5g of the load, in tet %lld of region '%s' at (%.6g, %.6g, %.6g)\n", least->factor,
+            printf("fails at %.5g times the load, in tet %lld of region '%s' at (%.6g, %.6g, %.6g)\n", least->factor,
                    (long long)least->tet, result->mesh->regions.name[least->region], least->place[0], least->place[1],
                    least->place[2]);
         else

@@ -107,7 +107,7 @@ for criterion, factor in least.items():
     near(report["strength"][criterion]["load_factor"], factor, f"{criterion} in the summary")
     check(report["strength"][criterion]["tet"] == 1 and report["strength"][criterion]["region"] == "block",
           f"where it fails: {report['strength'][criterion]}")
-check(f"Tsai-Wu: fails at {tsai_wu:.5g} of the load, in tet 1" in finished.output, finished.output)
+check(f"Tsai-Wu: fails at {tsai_wu:.5g} times the load, in tet 1" in finished.output, finished.output)
 
 # Grown by that factor the load is the last that holds.
 write("grown.yaml", (CASE + OUTPUT).replace(f"traction: [{PULL}", f"traction: [{PULL * tsai_wu}"))
