@@ -145,9 +145,10 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
         return OST_SUCCESS;
     const int shares =
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
+    OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
     return ost_reactions_find(problem, estimate, linear->stiffness.solver, t, result->displacement,
-                              result->answer.relative, shares ? &analysis->reactions : NULL, result->reactions);
+                              result->answer.relative, shares ? kept : NULL, result->reactions);
 }
 
 static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)

@@ -109,7 +109,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(ost_nonlinear_judge(problem, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         return OST_SUCCESS;
-    if (analysis->in_company)
+    if (analysis->company)
         return OST_RAISE(analysis->ctx, OST_NOT_CONVERGED, "rotations are too large to be solved for in company");
     return go_on(analysis, result, solved_for);
 }

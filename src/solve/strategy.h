@@ -30,7 +30,8 @@ struct OstAnalysis {
     OstEstimate *estimate;  /* of the discretisation error; kept where the analysis serves several loads, else NULL */
     OstReactions reactions; /* adjoint problems of watched ones, likewise */
     int serves_several;     /* loads are to follow, so that what they share is kept */
-    int in_company;         /* is it one of several that share a solver and run together? Linear theory alone will do */
+    OstAnalysis *company;   /* the one whose solver this shares with others that run beside it; linear theory alone will
+                               do. NULL: it is alone */
     const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 

@@ -45,6 +45,17 @@ static double distance(const OstMesh *mesh, const double *u, const double *v)
     return sqrt(sums[0] / sums[1]);
 }
 
+/* What is to be added to each watched reaction by its adjoint problem, and its error. */
+static void compare_reactions(const OstCase *c, const OstResult *together, const OstResult *single, double tolerance)
+{
+    for (int w = 0; w < c->watch_count; w++) {
+        const OstWatchedReaction *found = &together->reactions[w], *expected = &single->reactions[w];
+        assert_true(found->known && expected->known);
+        assert_close(found->error, expected->error, 0.05 * fabs(expected->error));
+        assert_close(found->missing, expected->missing, tolerance);
+    }
+}
+
 static void compare_with_single_runs(const char *body, const char *settings, unsigned fields, double tolerance,
                                      int newtons)
 {
@@ -70,6 +81,7 @@ static void compare_with_single_runs(const char *body, const char *settings, uns
         assert_int_equal(together->answer.known, single->answer.known);
         assert_close(together->answer.relative, single->answer.relative, 0.05 * single->answer.relative);
         assert_true(together->checks.force_imbalance <= fmax(10.0 * tolerance, 2.0 * single->checks.force_imbalance));
+        compare_reactions(c, together, single, tolerance);
         solved_by_newton += together->newton.used;
         ost_result_destroy(&together);
         ost_result_destroy(&single);
@@ -176,13 +188,18 @@ static void ten_cases_are_ten_runs(void **state)
     compare_with_single_runs(several, "element: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-5, 0);
 }
 
+static const char reactions[] = "springs: [{on: {boundary: xmax}, foundation: 0.1}]\n"
+                                "watch:\n"
+                                "  up: {reaction: {boundary: xmin}, component: z}\n"
+                                "  along: {reaction: {boundary: xmin}, component: x}\n";
+
 /* Entries of matrices that are read for products in solves, and iterations, of all ten. */
-static void count_work(int alone, double *entries, int *iterations)
+static void count_work(int alone, const char *settings, OstAccount account, double *entries, int *iterations)
 {
-    OstCase *c = read_case(several, "");
+    OstCase *c = read_case(several, settings);
     OstScene *scene = NULL;
     OstLoadCases *cases = NULL;
-    const double before = ost_ledger_entry(ctx, OST_LEDGER_SOLVE).work.multiplied;
+    const double before = ost_ledger_entry(ctx, account).work.multiplied;
     assert_success(ost_scene_create(c, &scene));
     assert_success(ost_load_cases_create(scene, &cases));
     *iterations = 0;
@@ -199,7 +216,7 @@ static void count_work(int alone, double *entries, int *iterations)
         ost_result_destroy(&result);
         ost_scene_destroy(&one);
     }
-    *entries = ost_ledger_entry(ctx, OST_LEDGER_SOLVE).work.multiplied - before;
+    *entries = ost_ledger_entry(ctx, account).work.multiplied - before;
     ost_load_cases_destroy(&cases);
     ost_scene_destroy(&scene);
     ost_case_destroy(&c);
@@ -210,10 +227,22 @@ static void cases_of_a_company_read_matrices_once_for_all(void **state)
     double together, alone;
     int iterations[2];
     (void)state;
-    count_work(0, &together, &iterations[0]);
-    count_work(1, &alone, &iterations[1]);
+    count_work(0, "", OST_LEDGER_SOLVE, &together, &iterations[0]);
+    count_work(1, "", OST_LEDGER_SOLVE, &alone, &iterations[1]);
     assert_in_range(iterations[0], iterations[1] - 3, iterations[1] + 3);
-    assert_true(together < 0.45 * alone); /* eight at once, and two */
+    assert_true(together < 0.25 * alone); /* eight at once */
+}
+
+/* The adjoint problem of a reaction depends on the supports alone. */
+static void cases_of_a_company_share_what_reactions_take(void **state)
+{
+    double together, alone;
+    int iterations[2];
+    (void)state;
+    compare_with_single_runs(several, reactions, 1U << OST_FIELD_ERROR, 1e-5, 0);
+    count_work(0, reactions, OST_EFFECT_ERROR_ESTIMATE, &together, &iterations[0]);
+    count_work(1, reactions, OST_EFFECT_ERROR_ESTIMATE, &alone, &iterations[1]);
+    assert_true(together < 0.25 * alone);
 }
 
 static void a_case_that_fails_keeps_no_other_from_being_solved(void **state)
@@ -254,6 +283,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(stiffness_is_made_once_for_all_that_share_supports),
     cmocka_unit_test(ten_cases_are_ten_runs),
     cmocka_unit_test(cases_of_a_company_read_matrices_once_for_all),
+    cmocka_unit_test(cases_of_a_company_share_what_reactions_take),
     cmocka_unit_test(a_case_that_fails_keeps_no_other_from_being_solved),
 };
 

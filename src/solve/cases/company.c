@@ -43,7 +43,6 @@ OstStatus ost_company_most(OstContext *ctx, int *most)
 static void release(Member *member)
 {
     ost_solver_destroy(&member->linear.stiffness.solver);
-    ost_reactions_clear(&member->analysis.reactions);
     ost_estimate_destroy(&member->analysis.estimate);
     OST_FREE(member->linear.rhs);
     OST_FREE(member->linear.v);
@@ -63,7 +62,7 @@ static OstStatus share_estimate(const OstAnalysis *analysis, Member *member)
     return status;
 }
 
-static OstStatus join(const OstAnalysis *analysis, Member *member)
+static OstStatus join(OstAnalysis *analysis, Member *member)
 {
     OstContext *ctx = analysis->ctx;
     const OstProblem *common = analysis->problem;
@@ -83,7 +82,7 @@ static OstStatus join(const OstAnalysis *analysis, Member *member)
     member->analysis.reactions = (OstReactions){0};
     member->analysis.work = &member->linear;
     member->analysis.options.algebraic_fraction = member->companion->scene->c->solver.algebraic_fraction;
-    member->analysis.in_company = 1;
+    member->analysis.company = analysis;
     OST_TRY(share_estimate(analysis, member));
     OstStatus status = ost_solver_share(linear->stiffness.solver, &member->linear.stiffness.solver);
     OST_THEN(OST_NEW(ctx, &member->linear.rhs, unknowns));

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "core/together/together.h"
 
 #include <math.h>
 #include <string.h>
@@ -150,43 +151,77 @@ static OstStatus find_by_statics(const Search *whole, double t, const double *u,
     return OST_SUCCESS;
 }
 
-/* The adjoint problem of an earlier load, or NULL. */
-static OstStatus look_up(const Search *search, const OstReactions *kept, OstAdjoint **adjoint)
+/* A reaction whose adjoint problem is wanted. */
+typedef struct Wanted {
+    Search *search;
+    OstEstimate *estimate;
+    OstSolver *solver;
+    double t;
+    const double *u;
+    double share;        /* its equations' error, of z in the norm of the energy */
+    OstAdjoint *adjoint; /* found; NULL: it has no answer */
+    int is_kept;         /* by those of other loads; else it is the caller's */
+} Wanted;
+
+/* That of an earlier load, if there is one. */
+static OstStatus look_up(const OstReactions *kept, Wanted *wanted)
 {
-    const OstMesh *mesh = search->problem->mesh;
-    *adjoint = NULL;
-    for (int k = 0; kept && k < kept->count && !*adjoint; k++) {
-        int differs = memcmp(kept->moved[k], search->interest.moved,
-                             3 * (size_t)mesh->node_count * sizeof *search->interest.moved) != 0;
-        OST_TRY(ost_max_ints(search->problem->ctx, 1, &differs));
-        if (!differs)
-            *adjoint = kept->adjoint[k];
+    const OstProblem *problem = wanted->search->problem;
+    const double *moved = wanted->search->interest.moved;
+    for (int k = 0; kept && k < kept->count && !wanted->is_kept; k++) {
+        int differs = memcmp(kept->moved[k], moved, 3 * (size_t)problem->mesh->node_count * sizeof *moved) != 0;
+        OST_TRY(ost_max_ints(problem->ctx, 1, &differs));
+        wanted->is_kept = !differs;
+        wanted->adjoint = differs ? NULL : kept->adjoint[k];
     }
     return OST_SUCCESS;
 }
 
-/* By the adjoint problem; one without an answer says nothing. */
-static OstStatus find_by_adjoint(Search *search, OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                                 double share, OstReactions *kept, OstWatchedReaction *found)
+/* One without an answer says nothing. */
+static OstStatus create(Wanted *wanted)
 {
-    OstAdjoint *adjoint = NULL;
-    OST_TRY(look_up(search, kept, &adjoint));
-    const int is_new = !adjoint;
-    OstStatus status =
-        is_new ? ost_adjoint_create(estimate, solver, t, u, &search->interest, share, &adjoint) : OST_SUCCESS;
+    const OstStatus status = ost_adjoint_create(wanted->estimate, wanted->solver, wanted->t, wanted->u,
+                                                &wanted->search->interest, wanted->share, &wanted->adjoint);
     const int is_no_use = status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT; /* an indefinite stiffness */
-    if (is_no_use || (status == OST_SUCCESS && !adjoint))
-        return OST_SUCCESS;
-    OST_THEN(work_of(search, ost_adjoint_displacement(adjoint), &found->missing));
-    OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, &found->error));
-    found->known = status == OST_SUCCESS;
-    if (status == OST_SUCCESS && is_new && kept && kept->count < OST_MOST_REACTIONS) {
-        kept->adjoint[kept->count] = adjoint;
-        kept->moved[kept->count++] = search->interest.moved;
-        search->interest.moved = NULL;
-    } else if (is_new) {
-        ost_adjoint_destroy(&adjoint);
+    return is_no_use ? OST_SUCCESS : status;
+}
+
+/* OstServe: of one list of those that are kept. What the first solves for serves the others, so it is found to what
+ * suffices them all. */
+static OstStatus find_kept(void *common, int count, void *const *request)
+{
+    OstReactions *kept = common;
+    double share = most_share;
+    for (int k = 0; k < count; k++)
+        share = fmin(share, ((const Wanted *)request[k])->share);
+    for (int k = 0; k < count; k++) {
+        Wanted *wanted = request[k];
+        wanted->share = share;
+        OST_TRY(look_up(kept, wanted));
+        if (wanted->is_kept || kept->count == OST_MOST_REACTIONS)
+            continue;
+        OST_TRY(create(wanted));
+        kept->adjoint[kept->count] = wanted->adjoint;
+        kept->moved[kept->count++] = wanted->search->interest.moved;
+        wanted->search->interest.moved = NULL;
+        wanted->is_kept = 1;
     }
+    return OST_SUCCESS;
+}
+
+static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedReaction *found)
+{
+    const OstProblem *problem = wanted->search->problem;
+    OstStatus status = kept ? ost_together(problem->ctx, find_kept, OST_MOST_TOGETHER, kept, wanted) : OST_SUCCESS;
+    if (!wanted->is_kept)
+        OST_THEN(create(wanted));
+    if (wanted->adjoint) {
+        OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), &found->missing));
+        OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, &found->error));
+        found->known = status == OST_SUCCESS;
+    }
+    if (!wanted->is_kept)
+        ost_adjoint_destroy(&wanted->adjoint);
     return status;
 }
 
@@ -208,7 +243,8 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
         if (status != OST_SUCCESS || found[w].known || !ost_reactions_have_adjoint(problem))
             continue;
         status = ost_interest_create(problem, search.watch, t, u, &search.interest);
-        OST_THEN(find_by_adjoint(&search, estimate, solver, t, u, share, kept, &found[w]));
+        Wanted wanted = {&search, estimate, solver, t, u, share, NULL, 0};
+        OST_THEN(find_by_adjoint(&wanted, kept, &found[w]));
         ost_interest_clear(&search.interest);
     }
     OST_FREE(rigid);

@@ -12,7 +12,7 @@
  * work of u's residual on the surplus of z. Where a rigid motion of the body is such a w, statics alone gives R. */
 
 /* The adjoint problems of earlier loads on the same supports; start from {0}. */
-enum { OST_MOST_REACTIONS = 4 };
+enum { OST_MOST_REACTIONS = 12 };
 typedef struct OstReactions {
     int count;
     double *moved[OST_MOST_REACTIONS]; /* 3 × node_count: which reaction it is */
