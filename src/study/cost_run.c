@@ -77,6 +77,18 @@ static void describe_seconds(double seconds, char *text, size_t size)
         snprintf(text, size, "about %.0f h", seconds / 3600.0);
 }
 
+/* Requests come last: half of the time is theirs, in equal parts of what is left. */
+static double seconds_until(const OstCost *cost, const OstCostRun *run, double elapsed)
+{
+    const double most = cost->variants.max_seconds;
+    int requests = 0;
+    for (int i = 0; i < cost->run_count; i++)
+        requests += cost->run[i].accuracy != 0.0 && cost->run[i].state == OST_COST_WAITING;
+    if (run->accuracy != 0.0)
+        return elapsed + (most - elapsed) / fmax(requests, 1.0);
+    return requests > 0 ? 0.5 * most : most;
+}
+
 /* Collective. Clocks differ between ranks; rank 0's decides. */
 static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
 {
@@ -85,8 +97,9 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     predict(cost, run, &run->predicted_seconds, &bytes);
     bytes *= memory_beside;
     OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
+    const double until = seconds_until(cost, run, elapsed);
     const int is_late = run->accuracy != 0.0 && elapsed >= variants->max_seconds;
-    const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > variants->max_seconds;
+    const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > until;
     const int too_large = variants->max_bytes > 0.0 && bytes > variants->max_bytes;
     if (too_slow)
         describe_seconds(run->predicted_seconds, run->reason, sizeof run->reason);
@@ -95,7 +108,7 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
                  variants->max_bytes / 0x1p30);
     else if (is_late)
         snprintf(run->reason, sizeof run->reason, "no time is left");
-    run->seconds_left = variants->max_seconds - elapsed;
+    run->seconds_left = until - elapsed;
     *yes = !too_slow && !too_large && !is_late;
     return OST_SUCCESS;
 }

@@ -312,6 +312,27 @@ static void a_request_is_measured_by_settings_that_meet_it(void **state)
     drop_study();
 }
 
+/* Of 100 s, 89.6 would be enough for order 1 refined twice. */
+static void requests_have_half_of_the_time(void **state)
+{
+    (void)state;
+    OstCostVariants variants = ost_cost_default_variants();
+    variants.accuracy_count = 2;
+    variants.accuracy[0] = 0.3;
+    variants.accuracy[1] = 0.1;
+    variants.max_seconds = 100.0;
+    make_study("", &variants);
+    cost->measure = pretend_requests;
+    assert_success(ost_cost_run(cost));
+    for (int i = 0; i < cost->run_count; i++)
+        assert_int_equal(cost->run[i].state, cost->run[i].accuracy == 0.0 && cost->run[i].refinement == 2
+                                                 ? OST_COST_NOT_RUN
+                                                 : OST_COST_DONE);
+    const OstCostRun *asked = &cost->run[cost->run_count - 2]; /* pretended runs take next to no time */
+    assert_true(asked[0].seconds_left <= 50.0 && asked[1].seconds_left > 50.0 && asked[1].seconds_left <= 100.0);
+    drop_study();
+}
+
 static void near_by_accident_is_not_exact(void **state)
 {
     (void)state;
@@ -489,6 +510,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(errors_are_against_the_formula_where_there_is_one),
     cmocka_unit_test(a_lone_answer_of_order_two_is_measured_by_order_one),
     cmocka_unit_test(a_request_is_measured_by_settings_that_meet_it),
+    cmocka_unit_test(requests_have_half_of_the_time),
     cmocka_unit_test(near_by_accident_is_not_exact),
     cmocka_unit_test(what_diverges_has_no_price),
     cmocka_unit_test(a_run_that_fails_is_listed_with_its_reason),
