@@ -42,6 +42,8 @@ class Calibrate(unittest.TestCase):
             print(f'{run["body"]}, order {run["order"]}: memory {ratio:.3f}, '
                   f'seconds {run["seconds"]["foretold"] / run["seconds"]["taken"]:.2f}')
             self.assertTrue(1 / 1.15 < ratio < 1.15, run)
+            parts = sum(stage["taken"] for stage in run["stages"].values())
+            self.assertAlmostEqual(parts, run["seconds"]["taken"], delta=1e-9)
         # The runs that a rate is taken from are foretold by it: their mean is right whatever the day was like.
         for stage in ("mesh", "assembly", "setup", "solve"):
             for order in (1, 2):

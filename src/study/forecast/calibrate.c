@@ -53,8 +53,10 @@ static const struct {
     {"tube, stiff along", TUBE(32, 3, 32), 2, SHOWN, ALONG},
 };
 
-enum { REPEATS = 3 };
-static const double long_enough = 2.5; /* seconds after which a run is not repeated */
+/* Short runs are repeated more often: what else the machine does may take as long as they do. Not at all after so many
+ * seconds. */
+enum { REPEATS = 3, MOST_REPEATS = 12 };
+static const double short_in_all = 1.0, long_enough = 2.5;
 
 typedef struct Body {
     OstCase *c;
@@ -109,7 +111,16 @@ static OstStatus run_once(const Body *body, OstCalibrationRun *run)
     return status;
 }
 
-/* The fastest of several runs: other work on the machine makes them slower only. */
+/* Keeps the least that each stage took: other work on the machine makes stages slower only. */
+static void keep_least(const OstCalibrationRun *again, OstCalibrationRun *run)
+{
+    run->seconds = 0.0;
+    for (int s = 0; s < OST_STAGES; s++) {
+        run->stage[s] = fmin(run->stage[s], again->stage[s]);
+        run->seconds += run->stage[s];
+    }
+}
+
 static OstStatus run_body(int b, Body *body, OstCalibrationRun *run)
 {
     OstContext *ctx = body->c->ctx;
@@ -118,13 +129,14 @@ static OstStatus run_body(int b, Body *body, OstCalibrationRun *run)
     ost_plan_shape_size(body->c, &mesh.nodes, &mesh.tets);
     ost_plan_make(body->c, &mesh, ost_size(ctx), &body->plan);
     *run = (OstCalibrationRun){.name = bodies[b].name, .order = bodies[b].order, .counts = bodies[b].part != SHOWN};
-    for (int i = 0; i < REPEATS && spent < long_enough; i++) {
+    for (int i = 0; spent < (i < REPEATS ? long_enough : short_in_all) && i < MOST_REPEATS; i++) {
         OstCalibrationRun again = *run;
         OST_TRY(run_once(body, &again));
         OST_TRY(OST_MPI(ctx, MPI_Bcast(&again.seconds, 1, MPI_DOUBLE, 0, ost_comm(ctx))));
         spent += again.seconds;
-        if (i == 0 || again.seconds < run->seconds)
+        if (i == 0)
             *run = again;
+        keep_least(&again, run);
     }
     return OST_SUCCESS;
 }
