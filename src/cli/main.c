@@ -198,8 +198,11 @@ static void leave_networks_alone(void)
     const int is_alone = !is_launched();
     if (!is_alone && !(ranks && here && strcmp(ranks, here) == 0))
         return;
-    if (is_alone)
-        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0); /* no daemon beside it: it never starts others */
+    if (is_alone) { /* no daemon beside it, as it never starts others; and no folder, which all that run would share */
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+        setenv("OMPI_MCA_sharedfp", "^sm", 0);
+    }
     setenv("OMPI_MCA_pml", "ob1", 0);
     setenv("OMPI_MCA_btl", is_alone ? "self" : "self,vader", 0);
 }

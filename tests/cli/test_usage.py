@@ -29,14 +29,17 @@ def a_full_standard_output_is_no_success(folder):
               f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
-def one_process_looks_at_no_network(folder):
-    """Open MPI names the interfaces it finds, where it looks for any; a user's own choice of transports stands."""
+def one_process_needs_nobody(folder):
+    """Open MPI names the interfaces it finds, where it looks for any; a user's own choice of transports stands. No folder of Open
+    MPI's is made, which processes that run at the same time would share."""
     for chosen, looks in (None, False), ("self,tcp", True):
-        environment = {name: value for name, value in os.environ.items() if name not in ("OMPI_MCA_btl", "OMPI_MCA_pml")}
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("OMPI_MCA_")}
         environment |= {"OMPI_MCA_btl_base_verbose": "20"} | ({"OMPI_MCA_btl": chosen} if chosen else {})
-        process = subprocess.run([PROGRAM, "check", "bar.yaml"], cwd=folder, stdin=subprocess.DEVNULL, env=environment,
+        environment["OMPI_MCA_orte_tmpdir_base"] = os.path.join(folder, "session")
+        process = subprocess.run([PROGRAM, "solve", "-q", "bar.yaml"], cwd=folder, stdin=subprocess.DEVNULL, env=environment,
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=240)
         check(process.returncode == 0 and ("btl: tcp: " in process.stderr) == looks, f"{chosen}: {process.stderr}")
+        check(not os.path.exists(os.path.join(folder, "session")), f"{chosen}: Open MPI has made its folder")
 
 
 def a_case_comes_from_standard_input(folder):
@@ -163,7 +166,7 @@ def main():
     a_full_standard_output_is_no_success(folder)
     impossible_sizes_are_told_by_their_limit(folder)
     a_case_comes_from_standard_input(folder)
-    one_process_looks_at_no_network(folder)
+    one_process_needs_nobody(folder)
 
 
 main()
