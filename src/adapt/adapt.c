@@ -33,6 +33,10 @@ static const double least_growth = 1.15, worthwhile_growth[2] = {1.25, 1.6}, mad
  */
 static const double seconds_power = 1.1, memory_beside = 2.0;
 
+/* A request that would take so many times the memory there is, even if the error fell as that of a smooth solution, is
+ * out of reach. Refinement then goes on to an error that is small or for so many seconds. */
+static const double far_beyond = 100.0, small_error = 0.02, patience = 60.0;
+
 /* --- limits --- */
 
 /* Collective. Clocks differ between ranks; rank 0's counts. */
@@ -89,11 +93,20 @@ static double rate_of(const OstAdaption *adaption, double least_share)
     return fmin(fmax(found, least_share * smooth), 1.5 * smooth);
 }
 
+/* By how much the unknowns of the last level are to grow to meet the request, at a rate. */
+static double growth_to_meet(const OstAdaption *adaption, double rate)
+{
+    return pow(error_of(&adaption->level[adaption->count - 1]) / (safety * adaption->request), 1.0 / rate);
+}
+
 static void foretell(OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     adaption->rate = rate_of(adaption, 0.1);
-    const double growth = pow(error_of(last) / (safety * adaption->request), 1.0 / adaption->rate);
+    const double growth = growth_to_meet(adaption, adaption->rate);
+    const double room = fmax(adaption->limits.bytes / (memory_beside * last->bytes), 1.0);
+    adaption->reach = error_of(last) * pow(room, -adaption->rate);
+    adaption->reach_seconds = pow(room, seconds_power) * last->seconds;
     adaption->needed_unknowns = growth * (double)last->unknowns;
     adaption->needed_seconds = pow(growth, seconds_power) * last->seconds;
     adaption->needed_bytes = memory_beside * growth * last->bytes;
@@ -175,6 +188,23 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
     return note_level(adaption, next, level_start);
 }
 
+/* Whoever sets a limit of time is not stopped before: that is how to get the best there is. Collective. */
+static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *over)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    double elapsed = 0.0;
+    if (*over || adaption->count < 2 || last[-1].order != last->order || isfinite(adaption->limits.seconds))
+        return OST_SUCCESS;
+    const double growth = growth_to_meet(adaption, power_of(adaption) * last->order / 3.0);
+    if (growth * memory_beside * last->bytes <= far_beyond * adaption->limits.bytes)
+        return OST_SUCCESS;
+    OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
+    *over = error_of(last) <= small_error || elapsed > patience;
+    if (*over)
+        adaption->end = OST_ADAPT_OUT_OF_REACH;
+    return OST_SUCCESS;
+}
+
 /* Is the request met, or is there no more to be done? */
 static int is_over(OstAdaption *adaption)
 {
@@ -196,8 +226,9 @@ static OstStatus take_failure(OstAdaption *adaption, OstStatus status)
 
 static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
 {
-    int ended = 0;
-    while (!ended && !is_over(adaption)) {
+    int ended = is_over(adaption);
+    OST_TRY(stop_out_of_reach(adaption, start, &ended));
+    while (!ended) {
         OstStage *next = NULL;
         OstStatus status = ost_stage_create(adaption->ctx, &next);
         if (status == OST_SUCCESS)
@@ -210,6 +241,8 @@ static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
         ost_stage_destroy(&next);
         if (status != OST_SUCCESS)
             return take_failure(adaption, status);
+        ended = ended || is_over(adaption);
+        OST_TRY(stop_out_of_reach(adaption, start, &ended));
     }
     return OST_SUCCESS;
 }

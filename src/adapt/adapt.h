@@ -19,6 +19,7 @@ struct OstAdaption {
     char failure[OST_ERROR_TEXT_SIZE];                    /* FAILED: why */
     double rate;                                          /* the error falls as unknowns^-rate, by the last levels */
     double needed_unknowns, needed_seconds, needed_bytes; /* to meet the request, by that rate; 0 if met or not known */
+    double reach, reach_seconds;                          /* the error that the memory allows, by that rate */
     struct Stage *stage;                                  /* the last level that was solved */
 };
 

@@ -13,6 +13,7 @@ static const char *const end_name[] = {
     [OST_ADAPT_OUT_OF_LEVELS] = "out of levels",
     [OST_ADAPT_NO_ESTIMATE] = "no estimate",
     [OST_ADAPT_FAILED] = "failed",
+    [OST_ADAPT_OUT_OF_REACH] = "out of reach",
 };
 
 static void describe_end(const OstAdaption *adaption, char *text, size_t size)
@@ -33,6 +34,12 @@ static void describe_end(const OstAdaption *adaption, char *text, size_t size)
         break;
     case OST_ADAPT_FAILED:
         snprintf(text, size, "the next level failed: %.300s", adaption->failure);
+        break;
+    case OST_ADAPT_OUT_OF_REACH:
+        snprintf(text, size,
+                 "it is out of reach of %.3g GiB, which allow about %.2g %% in about %.2g s: ask for that, or set "
+                 "--max-time to refine as far as it goes",
+                 adaption->limits.bytes / 0x1p30, 100.0 * adaption->reach, adaption->reach_seconds);
         break;
     case OST_ADAPT_MET:
         text[0] = '\0';

@@ -119,6 +119,24 @@ static void limits_leave_the_best_answer_and_the_price_of_the_rest(void **state)
     }
 }
 
+static void what_no_memory_allows_ends_early(void **state)
+{
+    (void)state;
+    char words[OST_LONGEST_ADAPT_WORDS];
+    OstCase *c = NULL;
+    const OstAdaptLimits limits = {INFINITY, 1e9};
+    OstAdaption *adaption = adapt(BEAM "accuracy: {relative_error: 1e-12, of: tip}\n"
+                                       "watch: {tip: {displacement: {nearest: [3, 0, 0]}, component: z}}\n",
+                                  &limits, &c);
+    assert_int_equal(adaption->end, OST_ADAPT_OUT_OF_REACH);
+    assert_true(last_of(adaption)->relative_error <= 0.02);
+    assert_true(adaption->reach < last_of(adaption)->relative_error);
+    assert_true(adaption->needed_bytes > 100.0 * limits.bytes);
+    ost_adaption_words(adaption, words);
+    assert_non_null(strstr(words, "out of reach"));
+    end(&adaption, &c);
+}
+
 /* Equal shares, and one that is 2^14 times larger: it takes three cuts (2^7), and the others none. */
 static void marks_make_shares_equal(void **state)
 {
@@ -138,7 +156,8 @@ static void marks_make_shares_equal(void **state)
     for (int t = 0; t < TETS; t++)
         assert_int_equal(times[t], t == 7 && ost_rank(ctx) == 0 ? 3 : 0);
     assert_close(marking.expected_tets, TETS * ost_size(ctx) + 7.0, 1e-12);
-    /* a level is to have three times the tets: all are cut, but not beyond the share that a tet is to have in the end */
+    /* a level is to have three times the tets: all are cut, but not beyond the share that a tet is to have in the end
+     */
     marking.target = 2.0;
     marking.least_tets = 3.0 * TETS * ost_size(ctx);
     marking.least_share = 0.3;
@@ -161,6 +180,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(levels_start_from_the_last_answer),
     cmocka_unit_test(the_order_of_the_case_is_kept),
     cmocka_unit_test(limits_leave_the_best_answer_and_the_price_of_the_rest),
+    cmocka_unit_test(what_no_memory_allows_ends_early),
     cmocka_unit_test(marks_make_shares_equal),
 };
 
