@@ -54,7 +54,7 @@ class Render(unittest.TestCase):
 
     def test_several_results_share_one_picture(self):
         picture = os.path.join(self.folder.name, "several.png")
-        done = self.render(self.result, self.result, self.result, picture, "--size", "900x500", "--scale", "1",
+        done = self.render(self.result, "--size", "900x500", self.result, self.result, "--scale", "1", picture,
                            "--section", "y=5", "--labels", "a,b,c", "--columns", "3")
         self.assertEqual(done.returncode, 0, done.stderr)
         pixels = imread(picture)
