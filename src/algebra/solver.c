@@ -2,6 +2,7 @@
 #include "algebra/solver.h"
 
 #include "algebra/krylov/cg.h"
+#include "algebra/krylov/energy_error.h"
 #include "algebra/krylov/precondition.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/solver_data.h"
@@ -299,6 +300,16 @@ static OstMethod fastest(const OstSolveReport *report)
     return found;
 }
 
+/* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
+static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
+{
+    snprintf(step->outcome, sizeof step->outcome,
+             "does not fit, and would not help: the stiffness is singular to rounding");
+    return OST_RAISE(ctx, OST_NOT_CONVERGED,
+                     "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
+                     ost_rounding_remedy);
+}
+
 /* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. The softest motion of a
  * slender body has 1e-8 of the energy of its nodes' and less: single precision may make a coarse level that has it
  * indefinite. The same strategy is then built again with more digits. */
@@ -307,9 +318,11 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
     const int again = goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise;
     const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
     solver->precise |= again;
-    const OstStatus status = build(solver, next, report->step, &report->steps);
+    OstStatus status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
+    if (goal->singular)
+        status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
     const OstMethod best = fastest(report);
     if (best == OST_METHOD_AUTO)
         return status;

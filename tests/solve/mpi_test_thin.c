@@ -48,7 +48,25 @@ static void thin_bodies_take_few_iterations(void **state)
                          bodies[i].layers ? squeeze : NULL, NULL);
 }
 
+/* A factorisation would find the same: factor_memory, which is as good as 0, is not to blame. */
+static void a_plate_beyond_double_precision_is_not_refused_for_want_of_memory(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    OstScene *scene = NULL;
+    OstResult *result = NULL;
+    assert_success(read_text(SHEET OF("[1, 1, 1000]", "0.45"), &c));
+    c->order = 2;
+    assert_success(ost_scene_create(c, &scene));
+    assert_failure(ost_scene_solve(scene, &result), OST_NOT_CONVERGED, "the displacement less than one digit");
+    assert_null(strstr(ost_error_text(ctx), "factor_memory"));
+    ost_result_destroy(&result);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_plate_beyond_double_precision_is_not_refused_for_want_of_memory),
     cmocka_unit_test(thin_bodies_take_few_iterations),
 };
 

@@ -177,11 +177,11 @@ static OstStatus check_memory(OstMumps *mumps)
     const double wanted = mumps->memory > 0.0 ? foreseen : demand.wanted;
     if (wanted <= allowed)
         return OST_SUCCESS;
-    return OST_RAISE(ctx, OST_OUT_OF_MEMORY,
-                     "factoring %lld unknowns would take %.0f MiB, but %s %.0f MiB; use more or larger machines, or an "
-                     "iterative method",
+    const int would_fit = mumps->memory > 0.0 && demand.wanted <= demand.free;
+    return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "factoring %lld unknowns would take %.0f MiB, but %s %.3g MiB; %s",
                      (long long)mumps->all, wanted / mebibyte,
-                     mumps->memory > 0.0 ? "solver.factor_memory allows" : "there are", allowed / mebibyte);
+                     mumps->memory > 0.0 ? "solver.factor_memory allows" : "there are", allowed / mebibyte,
+                     would_fit ? "raise it or leave it out" : "use more or larger machines, or an iterative method");
 }
 
 static OstStatus factor_entries(OstMumps *mumps)

@@ -63,6 +63,7 @@ OstStatus ost_cg_judge_energy(const OstCgRun *run, double energy, OstGoal *goal)
     if (energy < -ost_cg_rounding * scale)
         return ost_goal_refuse_indefinite(goal, energy);
     goal->end = OST_END_STALLED;
+    goal->singular = 1;
     snprintf(goal->words, sizeof goal->words,
              "in iteration %d p·Ap = %g beside p·Dp = %g: the stiffness is singular to rounding, not positive definite",
              goal->iterations + 1, energy, scale);

@@ -53,6 +53,7 @@ typedef struct OstGoal {
     int indefinite;           /* p·Ap < 0 was found */
     OstEnd end;
     char words[200]; /* why it ended, unless OST_END_REACHED */
+    int singular;    /* has a strategy found the stiffness singular to rounding? */
 } OstGoal;
 
 /* Collective. The goal of A u = f from u = 0. Raises OST_INVALID_INPUT if f is not finite. */
