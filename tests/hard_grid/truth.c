@@ -151,7 +151,7 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
     OST_TRY_DONE(ost_agree(scene->ctx, OST_NEW(scene->ctx, &plain, direct.n)));
     OST_TRY_DONE(find_all(&direct, result, plain, truth));
     truth->indefinite = direct.indefinite;
-    if (result)
+    if (result && result->reaction) /* a refused one may have none */
         OST_TRY_DONE(hard_find_exact(scene, &direct, result, &truth->off));
 done:
     OST_FREE(plain);
