@@ -6,17 +6,17 @@
 #include <math.h>
 
 /* Nested dissection of a wall of N unknowns, w nodes thick, has separators of about sqrt(N w); dense fronts of that
- * size take its cube. Fitted to gears, brackets, spindles and pins of 9,000 to 227,000 unknowns, w from 4 to 11: 0.2 to
- * 39 s, right to a factor of 1.6. */
-static const double front_second = 7e-9, entry_second = 1.2e-5;
+ * size take its cube. Fitted to gears, brackets, spindles and pins of 9,000 to 227,000 unknowns, w from 4 to 11: 0.13 to
+ * 27 s, right to a factor of 1.5. */
+static const double front_second = 7e-9, entry_second = 8.5e-6;
 
 /* Setup, and an iteration, of an unknown; iterations to 1e-8. Over linear tets (16 iterations for isotropic bodies, 10
- * to 31 where the mesh follows stiff axes), and over aggregates of quadratic ones where it does not (26 to 38), whose
+ * to 31 where the mesh follows stiff axes), and over aggregates of quadratic ones where it does not (23 to 39), whose
  * levels have the more nonzeros the thicker the body is: their rate is that of so many nodes across. */
 typedef struct Rate {
     double setup, iteration, iterations;
 } Rate;
-static const Rate linear = {3e-6, 4e-7, 18.0}, aggregated = {1.35e-5, 9.5e-7, 35.0};
+static const Rate linear = {3e-6, 4e-7, 18.0}, aggregated = {1.55e-5, 1.1e-6, 35.0};
 static const double usual_thickness = 5.0;
 
 static const double early = 0.25;              /* of the iterations, where the mesh's error ends them */

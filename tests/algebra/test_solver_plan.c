@@ -147,20 +147,20 @@ static void thin_quadratic_bodies_off_the_axes_are_factored_and_no_others(void *
     assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
 }
 
-/* Gears, brackets, spindles and pins by scripts/bench-bodies: to 1e-8 factors are quicker, or as quick, up to 100,000
- * unknowns, stopped early multigrid is (docs/performance.md). */
+/* Gears, brackets, spindles and pins by scripts/bench-bodies: to 1e-8 factors are quicker up to 230,000 unknowns but in
+ * the thickest, stopped early multigrid is from 50,000 on; below, both take as long (docs/performance.md). */
 static void the_quicker_of_factors_and_multigrid_is_planned(void **state)
 {
     (void)state;
     static const struct {
         OstGlobal unknowns;
         double thickness;
-        OstMethod full, early;
+        OstMethod full, early; /* OST_METHOD_AUTO: either */
     } body[] = {
-        {15831, 3.98, OST_METHOD_DIRECT, OST_METHOD_METRIC},  {20340, 4.77, OST_METHOD_DIRECT, OST_METHOD_METRIC},
-        {32838, 4.34, OST_METHOD_DIRECT, OST_METHOD_METRIC},  {43608, 7.28, OST_METHOD_DIRECT, OST_METHOD_METRIC},
-        {54999, 4.73, OST_METHOD_DIRECT, OST_METHOD_METRIC},  {98643, 5.17, OST_METHOD_DIRECT, OST_METHOD_METRIC},
-        {196500, 10.8, OST_METHOD_METRIC, OST_METHOD_METRIC}, {222414, 7.96, OST_METHOD_METRIC, OST_METHOD_METRIC}};
+        {15831, 3.98, OST_METHOD_DIRECT, OST_METHOD_AUTO},    {20340, 4.77, OST_METHOD_DIRECT, OST_METHOD_AUTO},
+        {32838, 4.34, OST_METHOD_DIRECT, OST_METHOD_AUTO},    {54999, 4.73, OST_METHOD_DIRECT, OST_METHOD_METRIC},
+        {98643, 5.18, OST_METHOD_DIRECT, OST_METHOD_METRIC},  {223953, 6.26, OST_METHOD_DIRECT, OST_METHOD_METRIC},
+        {227238, 6.24, OST_METHOD_DIRECT, OST_METHOD_METRIC}, {196500, 10.8, OST_METHOD_METRIC, OST_METHOD_METRIC}};
     for (size_t b = 0; b < sizeof body / sizeof *body; b++) {
         OstSolverFacts facts = {.unknowns = body[b].unknowns,
                                 .anisotropy = 1e3,
@@ -169,7 +169,8 @@ static void the_quicker_of_factors_and_multigrid_is_planned(void **state)
                                 .misalignment = 3.0};
         assert_int_equal(plan_of(OST_METHOD_AUTO, &facts).first, body[b].full);
         facts.stops_early = 1;
-        assert_int_equal(plan_of(OST_METHOD_AUTO, &facts).first, body[b].early);
+        if (body[b].early != OST_METHOD_AUTO)
+            assert_int_equal(plan_of(OST_METHOD_AUTO, &facts).first, body[b].early);
     }
 }
 
