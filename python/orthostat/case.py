@@ -274,7 +274,7 @@ def _adapt(case, seconds, size):
         error = NotConverged(text_of(words))
         error.result = result
         raise error
-    return result
+    return result.find_watched()
 
 
 def solve(case, mesh=None, comm=None, **limits):

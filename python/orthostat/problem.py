@@ -21,7 +21,7 @@ def take_result(context, status, box, mesh, scene, *parents, step=None):
     if box[0]:
         result = Result(box[0], context.handle_of(box[0], lib.ost_result_destroy, mesh, scene, *parents), mesh, scene, step)
     context.check(status, result)
-    return result
+    return result.find_watched() if result else None
 
 
 def axes_of(field, mesh):

@@ -27,6 +27,7 @@ class Result:
         self.pointer, self.owner, self.mesh, self.scene = pointer, owner, mesh, scene
         self.step = step    # of a path
         self.levels = None  # of a mesh that was refined to an accuracy
+        self._watched = None
         self.context = mesh.context
 
     def _view(self, pointer, *shape):
@@ -130,18 +131,23 @@ class Result:
         newton = lib.ost_result_newton_report(self.pointer)
         return newton.linear_iterations if newton.used else lib.ost_result_solve_report(self.pointer).iterations
 
-    @property
-    def watch(self):
-        """Collective. The quantities that the case watches: {name: value, expected and error (nan: not known)}."""
-        values = {}
+    def find_watched(self):
+        """Collective. Finds what `watch` gives; a solve that succeeds has done so."""
+        self._watched = {}
         count = lib.ost_case_watch_count(self.scene.case.pointer) if self.scene else 0
         if count > 0:
             box = ffi.new("OstWatchedValue **")
             self.context.check(lib.ost_watch_evaluate_all(self.scene.pointer, self.pointer, box))
             for item in box[0][0:count]:
-                values[text_of(item.name)] = struct(item)
+                self._watched[text_of(item.name)] = struct(item)
             lib.ost_free_memory(box[0])
-        return values
+        return self
+
+    @property
+    def watch(self):
+        """The quantities that the case watches: {name: value, expected and error (nan: not known)}. Collective for the result
+        of a failure."""
+        return self._watched if self._watched is not None else self.find_watched()._watched
 
     def write(self, path, fields=None):
         """Collective. Writes the file of fields for ParaView (.vtkhdf, .hdf, .vtu, .pvtu): those of `fields` that the

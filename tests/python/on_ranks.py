@@ -45,9 +45,11 @@ def a_uniform_stretch_has_the_formula(folder):
     close(result.strain_energy_density, np.full(result.mesh.owned_tets, 2e-5), 1e-6)
     close(result.node_stress[:, 0], np.full(result.mesh.node_count, 0.02), 1e-6)
     close(result.largest_displacement_at[0], 4.0)
-    watched = result.watch["end"]
-    close(watched.value, 0.008, 1e-6)
-    assert watched.expected == 0.008 and result.iterations == result.solver.iterations > 0
+    if result.context.rank == 0:  # the others need not read it
+        watched = result.watch["end"]
+        close(watched.value, 0.008, 1e-6)
+        assert watched.expected == 0.008
+    assert result.iterations == result.solver.iterations > 0
     assert result.checks.finite == 1 and result.error.known and "MUMPS" in result.solver.engine
     file = os.path.join(folder, "bar.yaml")
     text = open(os.path.join(SOURCE, "cases", "block", "sliding.yaml"), encoding="utf-8").read()
