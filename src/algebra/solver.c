@@ -103,6 +103,7 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
         ost_ledger_leave(solver->ctx);
         solver->strategy_seconds = ost_own_seconds(solver->ctx) - start;
         solver->setup_seconds += solver->strategy_seconds;
+        solver->singular |= status == OST_NOT_CONVERGED;
         ost_log(solver->ctx, OST_LOG_VERBOSE, "solver: %s: %s (%.3f s)", ost_method_name(method),
                 status == OST_SUCCESS ? "set up" : ost_error_text(solver->ctx), solver->strategy_seconds);
         if (status == OST_SUCCESS || !may_change(solver) || !is_mendable(status) || solver->aim.probing)
@@ -321,7 +322,7 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
     OstStatus status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
-    if (goal->singular)
+    if (goal->singular || solver->singular)
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
     const OstMethod best = fastest(report);
     if (best == OST_METHOD_AUTO)
