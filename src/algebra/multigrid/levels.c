@@ -33,7 +33,7 @@ static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
  * iterations are the same and its product and prolongator a quarter of the work. Along a wall of one aggregate there
  * are 12 to 20 neighbours, and larger aggregates would cost iterations. So they do below the aggregates of quadratic
  * tets whose edges cross the stiff directions, which have fewer: a bracket with E3 x 1000 takes 59 iterations with up
- * to 27, 39 with 10. With 8 a gear of 224,000 unknowns takes a third longer than with 10. */
+ * to 27, 38 with 10. With 8, a solid gear of 224,000 unknowns takes longer for the same number. */
 static const double row_share = 1.0 / 3.0, most_coarse_nodes = 27.0, most_below_quadratic = 10.0;
 
 /* The columns of a plate of quadratic tets are nodes of a flat mesh, whose factors are small: they are not coarsened
