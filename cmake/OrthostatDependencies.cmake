@@ -88,3 +88,24 @@ else()
   set_target_properties(Orthostat::HDF5 PROPERTIES INTERFACE_LINK_LIBRARIES "${HDF5_C_LIBRARIES}"
                         INTERFACE_INCLUDE_DIRECTORIES "${HDF5_C_INCLUDE_DIRS}")
 endif()
+
+# netCDF, if there is one over a parallel HDF5: with a serial one a second HDF5 would come into the process. Debian has it in
+# folders of its own.
+add_library(Orthostat::NetCDF INTERFACE IMPORTED)
+set(orthostat_exodus OFF)
+if(NOT DEFINED ORTHOSTAT_EXODUS OR ORTHOSTAT_EXODUS)
+  orthostat_places(NETCDF places)
+  find_path(ORTHOSTAT_NetCDF_INCLUDE netcdf_meta.h HINTS ${places} "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/netcdf/mpi" PATH_SUFFIXES include)
+  find_library(ORTHOSTAT_NetCDF_library NAMES netcdf_mpi netcdf NAMES_PER_DIR HINTS ${places} PATH_SUFFIXES lib lib64)
+  mark_as_advanced(ORTHOSTAT_NetCDF_INCLUDE ORTHOSTAT_NetCDF_library)
+  if(ORTHOSTAT_NetCDF_INCLUDE AND ORTHOSTAT_NetCDF_library)
+    file(STRINGS "${ORTHOSTAT_NetCDF_INCLUDE}/netcdf_meta.h" orthostat_parallel REGEX "NC_HAS_PARALLEL4[ \t]+1")
+  endif()
+  if(orthostat_parallel)
+    set(orthostat_exodus ON)
+    set_target_properties(Orthostat::NetCDF PROPERTIES INTERFACE_LINK_LIBRARIES "${ORTHOSTAT_NetCDF_library}"
+                          INTERFACE_INCLUDE_DIRECTORIES "${ORTHOSTAT_NetCDF_INCLUDE}")
+  else()
+    message(STATUS "Exodus II files will not be read: no netCDF over a parallel HDF5 (Debian: libnetcdf-mpi-dev)")
+  endif()
+endif()

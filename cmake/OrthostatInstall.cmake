@@ -50,7 +50,11 @@ pkg_search_module(ORTHOSTAT_MPI mpi-c ompi-c mpich)
 
 # pkg-config. Programs that use the shared library link nothing of what stands below it; the static one brings it all.
 set(orthostat_pc_below)
-foreach(below IN ITEMS Trilinos MUMPS METIS YAML JSON ZLIB)
+set(orthostat_pc_targets Trilinos MUMPS METIS YAML JSON ZLIB)
+if(orthostat_exodus)
+  list(APPEND orthostat_pc_targets NetCDF)
+endif()
+foreach(below IN LISTS orthostat_pc_targets)
   get_target_property(libraries Orthostat::${below} INTERFACE_LINK_LIBRARIES)
   list(APPEND orthostat_pc_below ${libraries})
 endforeach()

@@ -2,6 +2,7 @@
 #include "formats/mesh_formats.h"
 
 #include "formats/exchange/exchange.h"
+#include "formats/exodus/exodus.h"
 #include "formats/vtk/vtk.h"
 
 #include <stdio.h>
@@ -23,6 +24,13 @@ const OstMeshFormat ost_mesh_formats[] = {
     {".unv", 0, ost_unv_read, NULL, NULL},
     {".node", 0, ost_tetgen_read, NULL, NULL},
     {".ele", 0, ost_tetgen_read, NULL, NULL},
+#ifdef ORTHOSTAT_EXODUS
+    {".exo", 0, ost_exodus_read, NULL, ost_exodus_read_field},
+    {".ex2", 0, ost_exodus_read, NULL, ost_exodus_read_field},
+    {".e", 0, ost_exodus_read, NULL, ost_exodus_read_field},
+    {".g", 0, ost_exodus_read, NULL, ost_exodus_read_field},
+    {".gen", 0, ost_exodus_read, NULL, ost_exodus_read_field},
+#endif
     {".veg", 0, NULL, ost_veg_read, NULL},
 };
 const int ost_mesh_format_count = sizeof ost_mesh_formats / sizeof *ost_mesh_formats;
@@ -59,10 +67,13 @@ static const struct {
 } others[] = {
     {".yaml", "YAML", IS_CASE},
     {".yml", "YAML", IS_CASE},
+#ifndef ORTHOSTAT_EXODUS
     {".exo", "Exodus", BY_MESHIO_NETCDF},
     {".ex2", "Exodus", BY_MESHIO_NETCDF},
     {".e", "Exodus", BY_MESHIO_NETCDF},
     {".g", "Exodus", BY_MESHIO_NETCDF},
+    {".gen", "Exodus", BY_MESHIO_NETCDF},
+#endif
     {".xdmf", "XDMF", BY_MESHIO_HDF5},
     {".xmf", "XDMF", BY_MESHIO_HDF5},
     {".xml", "DOLFIN", BY_MESHIO},

@@ -11,6 +11,7 @@ MOST_FILES, MOST_LINES = 26, 600
 LIBRARIES = {
     "Orthostat::Trilinos": (r"(ml_|az_|Epetra|Amesos|Aztec|Teuchos|Ifpack|Tpetra|MueLu|Belos)", "algebra/trilinos"),
     "Orthostat::HDF5": (r"(hdf5|H5)", "formats"),
+    "Orthostat::NetCDF": (r"netcdf", "formats/exodus"),
     "Orthostat::GmshHeader": (r"gmsh", "formats"),
     "Orthostat::ZLIB": (r"zlib\.h", "formats"),
     "Orthostat::METIS": (r"(par)?metis\.h", "mesh"),
@@ -36,7 +37,7 @@ def read_rooms():
     with open(os.path.join(SOURCE, "CMakeLists.txt")) as stream:
         text = re.sub(r"#.*", "", stream.read())
     rooms = {}
-    for call in re.findall(r"^orthostat_room\(([^)]*)\)", text, re.MULTILINE):
+    for call in re.findall(r"^\s*orthostat_room\(([^)]*)\)", text, re.MULTILINE):
         name, *words = call.split()
         given = {keyword: [] for keyword in KEYWORDS}
         for word in words:

@@ -195,7 +195,7 @@ static void mistakes_are_named_with_file_and_line(void **state)
         {"a.unv", "    -1\n  2411\n 1 1 1 1\n 0.D0 0.D0 zero\n    -1\n", "a.unv:4: 'zero' found"},
         {"a.stl", "solid\n", "tetgen -pq"},
         {"a.med", "", "python3-h5py"},
-        {"a.exo", "", "python3-netcdf4"},
+        {"a.exo", "", "Exodus"},
         {"a.cgns", "", "ParaView"},
         {"a.xdmf", "", "a.xdmf').write('"},
         {"a.qqq", "", "the ending '.qqq' is not that of a mesh file"},

@@ -14,6 +14,12 @@
  * files a second. Here a process reads one file after the other, until one of them ends it or it has had enough of
  * them for what HDF5 leaves behind. */
 
+/* What is asked of the process, which has all that the pointers name since before the fork. */
+typedef struct Request {
+    OstReading *read_file;
+    const char *name;
+} Request;
+
 enum { FILES_PER_PROCESS = 500, NO_PROCESS = 0 };
 
 static pid_t process;
@@ -29,23 +35,23 @@ static void give_up(const char *what)
     exit(1);
 }
 
-static void dry_run_on_request(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
+static void dry_run_on_request(OstContext *ctx, const char *path)
 {
-    char word = 0;
+    Request request;
     const int silence = open("/dev/null", O_WRONLY);
     if (silence >= 0)
         dup2(silence, STDERR_FILENO);
     if (__sanitizer_set_death_callback)
         __sanitizer_set_death_callback(NULL);
-    while (read(wire, &word, 1) == 1) {
-        ost_hdf5_dry_run_here(ctx, path, read_file, name);
-        if (write(wire, &word, 1) != 1)
+    while (read(wire, &request, sizeof request) == sizeof request) {
+        ost_hdf5_dry_run_here(ctx, path, request.read_file, request.name);
+        if (write(wire, "", 1) != 1)
             break;
     }
     _exit(0);
 }
 
-static void start(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
+static void start(OstContext *ctx, const char *path)
 {
     int ends[2];
     H5set_free_list_limits(-1, -1, 4 << 20, 256 << 10, 16 << 20,
@@ -58,7 +64,7 @@ static void start(OstContext *ctx, const char *path, OstReading *read_file, cons
     wire = ends[process == 0];
     close(ends[process != 0]);
     if (process == 0)
-        dry_run_on_request(ctx, path, read_file, name);
+        dry_run_on_request(ctx, path);
     files = 0;
 }
 
@@ -76,10 +82,11 @@ static int finish(void)
 
 OstStatus ost_hdf5_dry_run(OstContext *ctx, const char *path, OstReading *read_file, const char *name)
 {
+    const Request request = {read_file, name};
     char word = 0;
     if (process == NO_PROCESS)
-        start(ctx, path, read_file, name);
-    if (write(wire, &word, 1) != 1)
+        start(ctx, path);
+    if (write(wire, &request, sizeof request) != sizeof request)
         give_up("dry run: write");
     if (read(wire, &word, 1) != 1)
         return ost_hdf5_raise_lost(ctx, path, finish());

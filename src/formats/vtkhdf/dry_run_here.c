@@ -71,7 +71,7 @@ void ost_hdf5_dry_run_here(OstContext *ctx, const char *path, OstReading *read, 
 
 OstStatus ost_hdf5_raise_lost(OstContext *ctx, const char *path, int how)
 {
-    return OST_RAISE(ctx, OST_FILE_FAILED, "%s: the file is damaged: reading it HDF5 %s; write it again", path,
+    return OST_RAISE(ctx, OST_FILE_FAILED, "%s: the file is damaged: reading it %s; write it again", path,
                      WIFEXITED(how)             ? "asks for too much memory"
                      : WTERMSIG(how) == SIGPROF ? "does not come to an end"
                                                 : "crashes");

@@ -9,6 +9,7 @@ import tempfile
 
 import gmsh
 import meshio
+import netCDF4
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -56,6 +57,96 @@ def by_meshio():
                                   for name, number in (("left", 11), ("right-hand", 12), ("clamp", 7))}
                 mesh.point_sets = {"pins": np.flatnonzero(mesh.points[:, 0] == 2)}
                 meshio.write(os.path.join(HERE, "meshio-" + name), mesh, **how)
+
+
+def parts(kind):
+    """Points, triangles of the clamp, tets of the left and of the right cube."""
+    mesh = meshio.read(source(kind))
+    tets = np.vstack([block.data for block in mesh.cells if block.type.startswith("tetra")])
+    clamp = np.vstack([block.data for block in mesh.cells if block.type.startswith("triangle")])
+    left = mesh.points[tets[:, :4]].mean(axis=1)[:, 0] < 1
+    return mesh.points, clamp[(mesh.points[clamp, 0] == 0).all(axis=1)], tets[left], tets[~left]
+
+
+def exodus_by_meshio():
+    for kind, types in (("linear", ("triangle", "tetra")), ("quadratic", ("triangle6", "tetra10"))):
+        points, clamp, left, right = parts(kind)
+        sense = np.where(np.arange(len(points)) % 2, 1.0, -1.0)[:, None]
+        mesh = meshio.Mesh(points, [(types[0], clamp), (types[1], left), (types[1], right)],
+                           point_data={"density": 1.0 + points[:, 0], "direction": sense * np.tile([0.6, 0.8, 0.0], (len(points), 1))},
+                           point_sets={"pins": np.flatnonzero(points[:, 0] == 2)})
+        meshio.write(os.path.join(HERE, f"meshio-{kind}.e"), mesh)
+
+
+def exodus(name, kind, flavour, elem_type, steps=2, **packing):
+    """As Cubit and Sandia's programs write it: blocks, side sets, node sets with names or none, maps of numbers, variables.
+    Nodes are numbered 10, 20, ..., elements from 1001; only the last time step has the values that count."""
+    points, _, left, right = parts(kind)
+    tets = np.vstack([left, right])
+    integer = "i8" if flavour == "NETCDF3_64BIT_DATA" else "i4"
+    sides = [(0, 1, 3), (1, 2, 3), (0, 3, 2), (0, 2, 1)]
+    at = {x: [(t + 1, s + 1) for t, tet in enumerate(tets) for s, side in enumerate(sides) if (points[tet[list(side)], 0] == x).all()]
+          for x in (0, 2)}
+    end = np.flatnonzero(points[:, 0] == 2) + 1
+    centre = points[tets[:, :4]].mean(axis=1)[:, 0]
+    elements = {"modulus": 1000.0 + 1000.0 * centre, "fibre_x": np.cos(centre), "fibre_y": np.sin(centre), "fibre_z": 0 * centre}
+    sense = np.where(np.arange(len(points)) % 2, 1.0, -1.0)
+    nodes = {"density": 1.0 + points[:, 0], "directionX": 0.6 * sense, "directionY": 0.8 * sense, "directionZ": 0.0 * sense}
+    with netCDF4.Dataset(os.path.join(HERE, name), "w", format=flavour) as out:
+        out.set_auto_mask(False)
+
+        def array(word, dimensions, values, form):
+            for dimension, size in zip(dimensions, np.shape(values)):
+                if dimension not in out.dimensions:
+                    out.createDimension(dimension, size)
+            variable = out.createVariable(word, form, dimensions, **packing)
+            variable[:] = values
+            return variable
+
+        def texts(word, dimension, values):
+            array(word, (dimension, "len_name"), netCDF4.stringtochar(np.array(values, "S33")), "S1")
+
+        out.createDimension("time_step", None)
+        out.createDimension("num_dim", 3)
+        out.createDimension("num_elem", len(tets))
+        out.createDimension("num_elem_var", len(elements))
+        out.createDimension("num_nod_var", len(nodes))
+        for axis, word in enumerate(("coordx", "coordy", "coordz")):
+            array(word, ("num_nodes",), points[:, axis], "f8")
+        array("node_num_map", ("num_nodes",), 10 * np.arange(1, len(points) + 1), integer)
+        array("elem_num_map", ("num_elem",), np.arange(1001, 1001 + len(tets)), integer)
+        array("eb_prop1", ("num_el_blk",), [10, 20, 30], integer)
+        texts("eb_names", "num_el_blk", ["left", "", "nothing"])  # the third is empty
+        for b, block in enumerate((left, right), 1):
+            array(f"connect{b}", (f"num_el_in_blk{b}", f"num_nod_per_el{b}"), block + 1, integer).elem_type = elem_type
+        array("ss_prop1", ("num_side_sets",), [3, 5], integer)
+        texts("ss_names", "num_side_sets", ["clamp", ""])
+        for s, x in ((1, 0), (2, 2)):
+            array(f"elem_ss{s}", (f"num_side_ss{s}",), [e for e, _ in at[x]], integer)
+            array(f"side_ss{s}", (f"num_side_ss{s}",), [side for _, side in at[x]], integer)
+        array("ns_prop1", ("num_node_sets",), [8, 9], integer)
+        texts("ns_names", "num_node_sets", ["pins", ""])
+        array("node_ns1", ("num_nod_ns1",), end, integer)
+        array("node_ns2", ("num_nod_ns2",), end[:1], integer)
+        texts("name_elem_var", "num_elem_var", list(elements))
+        texts("name_nod_var", "num_nod_var", list(nodes))
+        array("time_whole", ("time_step",), np.arange(steps) * 1.0, "f8")
+        for v, values in enumerate(elements.values(), 1):
+            for b, block in ((1, values[:len(left)]), (2, values[len(left):])):
+                variable = out.createVariable(f"vals_elem_var{v}eb{b}", "f8", ("time_step", f"num_el_in_blk{b}"), **packing)
+                for step in range(steps):
+                    variable[step] = block if step == steps - 1 else -1.0
+        for v, values in enumerate(nodes.values(), 1):
+            variable = out.createVariable(f"vals_nod_var{v}", "f8", ("time_step", "num_nodes"), **packing)
+            for step in range(steps):
+                variable[step] = values if step == steps - 1 else -1.0
+
+
+def by_netcdf():
+    exodus("exodus-linear-classic.exo", "linear", "NETCDF3_CLASSIC", "TETRA")
+    exodus("exodus-linear-offset.gen", "linear", "NETCDF3_64BIT_OFFSET", "TET4", steps=1)
+    exodus("exodus-linear-netcdf4.g", "linear", "NETCDF4_CLASSIC", "tetra4", zlib=True)
+    exodus("exodus-quadratic-64bit.ex2", "quadratic", "NETCDF3_64BIT_DATA", "tetra10")
 
 
 def appended_by_vtk():
@@ -135,6 +226,8 @@ def as_from_cae(kind):
 if __name__ == "__main__":
     by_gmsh()
     by_meshio()
+    exodus_by_meshio()
+    by_netcdf()
     appended_by_vtk()
     by_tetgen()
     for order in SOURCES:

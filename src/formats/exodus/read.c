@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "formats/exodus/exodus.h"
+#include "formats/exodus/file.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+enum { NAME = 64, MOST_NODES = 27 };
+
+/* --- nodes --- */
+
+/* Coordinates are three arrays, or in older files one. */
+static OstStatus open_axis(const OstExodus *exodus, int axis, OstNetcdfRows *rows)
+{
+    static const char *const names[3] = {"coordx", "coordy", "coordz"};
+    OST_TRY(ost_netcdf_rows(&exodus->nc, names[axis], 0, 0, rows));
+    if (!rows->found)
+        OST_TRY(ost_netcdf_rows(&exodus->nc, "coord", 1, axis, rows));
+    if (rows->found && rows->width == 1 && rows->total == exodus->nodes)
+        return OST_SUCCESS;
+    return OST_RAISE(exodus->nc.ctx, OST_INVALID_INPUT,
+                     "%s: %s (or coord) has %d numbers, expected %d, as num_nodes is", exodus->nc.path, names[axis],
+                     rows->total, exodus->nodes);
+}
+
+static OstStatus read_nodes(const OstExodus *exodus, OstCells *cells)
+{
+    OstNetcdfRows axis[3];
+    for (int d = 0; d < 3; d++)
+        OST_TRY(open_axis(exodus, d, &axis[d]));
+    do {
+        for (int d = 0; d < 3; d++)
+            OST_TRY(ost_netcdf_reals(&axis[d]));
+        for (OstLocal i = 0; i < axis[0].count && !exodus->nc.dry; i++) {
+            const double x[3] = {axis[0].real[i], axis[1].real[i], axis[2].real[i]};
+            OST_TRY(ost_cells_add_node(cells, ost_exodus_node(exodus, axis[0].first + i + 1), x));
+        }
+    } while (axis[0].count > 0);
+    return OST_SUCCESS;
+}
+
+/* --- blocks --- */
+
+static OstStatus add_element(const OstExodus *exodus, const OstExodusBlock *block, OstLocal place,
+                             const long long *read, OstCells *cells)
+{
+    OstGlobal nodes[MOST_NODES];
+    for (OstLocal n = 0; n < block->type->nodes; n++) {
+        const OstGlobal node = ost_exodus_node(exodus, read[n]);
+        if (node < 0)
+            return OST_RAISE(exodus->nc.ctx, OST_INVALID_INPUT, "%s: element %d uses node %lld, expected 1 to %d",
+                             exodus->nc.path, place, read[n], exodus->nodes);
+        nodes[block->type->place ? block->type->place[n] : n] = node;
+    }
+    return ost_cells_add(cells, block->type->kind, ost_exodus_element(exodus, place), block->id, nodes);
+}
+
+static void skip_block(const OstNetcdf *nc, const char *name, const OstExodusBlock *block, OstCells *cells)
+{
+    char word[OST_NETCDF_NAME];
+    ost_netcdf_attribute(nc, name, "elem_type", word);
+    if (block->count == 0)
+        return;
+    ost_cells_skip(cells, block->type->dimension, word[0] ? word : "of no type");
+    *(block->type->dimension == 3 ? &cells->solids : &cells->others) += block->count - 1;
+}
+
+static OstStatus read_block(const OstExodus *exodus, OstLocal b, OstCells *cells)
+{
+    const OstNetcdf *nc = &exodus->nc;
+    const OstExodusBlock *block = &exodus->block[b];
+    OstNetcdfRows rows;
+    char name[NAME], own[OST_NETCDF_NAME];
+    snprintf(name, sizeof name, "connect%d", b + 1);
+    OST_TRY(ost_netcdf_text(nc, "eb_names", b, own));
+    if (block->type->kind == OST_CELL_KINDS) {
+        if (!nc->dry)
+            skip_block(nc, name, block, cells);
+        return OST_SUCCESS;
+    }
+    if (own[0] && !nc->dry)
+        OST_TRY(ost_cells_name(cells, block->type->dimension, block->id, own));
+    OST_TRY(ost_netcdf_rows(nc, name, 0, 0, &rows));
+    do {
+        OST_TRY(ost_netcdf_integers(&rows));
+        for (OstLocal i = 0; i < rows.count && !nc->dry; i++)
+            OST_TRY(add_element(exodus, block, block->first + rows.first + i + 1,
+                                rows.integer + (size_t)i * (size_t)rows.width, cells));
+    } while (rows.count > 0);
+    return OST_SUCCESS;
+}
+
+/* --- the file --- */
+
+static OstStatus read_all(OstContext *ctx, const char *path, int dry, OstCells *cells)
+{
+    OstExodus exodus;
+    OstStatus status = ost_exodus_open(ctx, path, dry, &exodus);
+    OST_THEN(read_nodes(&exodus, cells));
+    for (OstLocal b = 0; b < exodus.block_count && status == OST_SUCCESS; b++)
+        status = read_block(&exodus, b, cells);
+    OST_THEN(ost_exodus_read_sets(&exodus, cells));
+    ost_exodus_close(&exodus);
+    return status;
+}
+
+static OstStatus try_all(OstContext *ctx, const char *path, const char *name)
+{
+    (void)name;
+    return read_all(ctx, path, 1, NULL);
+}
+
+OstStatus ost_exodus_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
+{
+    OstCells cells;
+    OstStatus status = ost_cells_open(ctx, path, &cells);
+    OST_THEN(ost_netcdf_dry_run(ctx, path, try_all, NULL));
+    OST_THEN(read_all(ctx, path, 0, &cells));
+    OST_THEN(ost_cells_finish(&cells, chunk));
+    ost_cells_close(&cells);
+    return status;
+}
