@@ -9,6 +9,7 @@ class Orthostat(CMakePackage):
     license("BSD-3-Clause")
     version("0.1.0")
     variant("python", default=True, description="Make the Python package")
+    variant("exodus", default=True, description="Read Exodus II meshes")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
@@ -19,6 +20,7 @@ class Orthostat(CMakePackage):
     depends_on("mumps +mpi")
     depends_on("metis@5:")
     depends_on("hdf5 +mpi")
+    depends_on("netcdf-c@4.8: +mpi", when="+exodus")
     depends_on("lapack")
     depends_on("libyaml")
     depends_on("jansson")
@@ -30,7 +32,8 @@ class Orthostat(CMakePackage):
     def cmake_args(self):
         # Spack compiles for its own target.
         args = [self.define("BUILD_TESTING", False), self.define("ORTHOSTAT_NATIVE", False),
-                self.define_from_variant("ORTHOSTAT_PYTHON", "python")]
+                self.define_from_variant("ORTHOSTAT_PYTHON", "python"),
+                self.define_from_variant("ORTHOSTAT_EXODUS", "exodus")]
         if self.spec.satisfies("+python"):
             args.append(self.define("ORTHOSTAT_PYTHON3", self.spec["python"].command.path))
         return args
