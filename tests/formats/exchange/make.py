@@ -106,7 +106,12 @@ def exodus(name, kind, flavour, elem_type, steps=2, **packing):
         def texts(word, dimension, values):
             array(word, (dimension, "len_name"), netCDF4.stringtochar(np.array(values, "S33")), "S1")
 
+        out.setncatts({"api_version": np.float32(8.03), "version": np.float32(8.03), "floating_point_word_size": np.int32(8),
+                       "file_size": np.int32(1), "maximum_name_length": np.int32(32), "title": "two cubes"})
         out.createDimension("time_step", None)
+        out.createDimension("len_string", 33)
+        out.createDimension("len_line", 81)
+        out.createDimension("four", 4)
         out.createDimension("num_dim", 3)
         out.createDimension("num_elem", len(tets))
         out.createDimension("num_elem_var", len(elements))
@@ -115,16 +120,19 @@ def exodus(name, kind, flavour, elem_type, steps=2, **packing):
             array(word, ("num_nodes",), points[:, axis], "f8")
         array("node_num_map", ("num_nodes",), 10 * np.arange(1, len(points) + 1), integer)
         array("elem_num_map", ("num_elem",), np.arange(1001, 1001 + len(tets)), integer)
-        array("eb_prop1", ("num_el_blk",), [10, 20, 30], integer)
+        array("eb_status", ("num_el_blk",), [1, 1, 0], "i4")
+        array("eb_prop1", ("num_el_blk",), [10, 20, 30], integer).setncattr("name", "ID")
         texts("eb_names", "num_el_blk", ["left", "", "nothing"])  # the third is empty
         for b, block in enumerate((left, right), 1):
             array(f"connect{b}", (f"num_el_in_blk{b}", f"num_nod_per_el{b}"), block + 1, integer).elem_type = elem_type
-        array("ss_prop1", ("num_side_sets",), [3, 5], integer)
+        array("ss_status", ("num_side_sets",), [1, 1], "i4")
+        array("ss_prop1", ("num_side_sets",), [3, 5], integer).setncattr("name", "ID")
         texts("ss_names", "num_side_sets", ["clamp", ""])
         for s, x in ((1, 0), (2, 2)):
             array(f"elem_ss{s}", (f"num_side_ss{s}",), [e for e, _ in at[x]], integer)
             array(f"side_ss{s}", (f"num_side_ss{s}",), [side for _, side in at[x]], integer)
-        array("ns_prop1", ("num_node_sets",), [8, 9], integer)
+        array("ns_status", ("num_node_sets",), [1, 1], "i4")
+        array("ns_prop1", ("num_node_sets",), [8, 9], integer).setncattr("name", "ID")
         texts("ns_names", "num_node_sets", ["pins", ""])
         array("node_ns1", ("num_nod_ns1",), end, integer)
         array("node_ns2", ("num_nod_ns2",), end[:1], integer)
