@@ -44,8 +44,8 @@ OstStatus ost_steps_next(OstSteps *steps);
 /* Collective. What is left of r'B r on the functions. */
 OstStatus ost_steps_left(const OstSteps *steps, double *left);
 
-/* Collective. What is left on the elements' own unknowns, once more: few steps have little of a displacement far from
- * where its error is made. */
+/* Collective. Steps on the elements' own unknowns alone, until they move e by little: few steps have little of a
+ * displacement far from where its error is made. The last thing that is done with `steps`, but for reading e. */
 OstStatus ost_steps_settle(OstSteps *steps);
 
 /* Local; collective where nodes follow others. The rows' part of forces on nodes. */

@@ -14,6 +14,15 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
         }
 }
 
+/* Quadratic tets sum coordinates times derivatives of shape functions. Far from the origin that would round as much as
+ * the distance from there is larger than the tet. (Linear tets take differences alone.) */
+static void refer_to_first_node(OstSimd *x, int nodes)
+{
+    for (int a = nodes - 1; a >= 0; a--)
+        for (int i = 0; i < 3; i++)
+            x[3 * a + i] -= x[i];
+}
+
 void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh *mesh, const OstMaterialField *field,
                       int count, const OstLocal *tets)
 {
@@ -29,6 +38,8 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
     if (field->region_formula && element->points > 0)
         element->places(batch->x, places);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points, places);
+    if (nodes > 4)
+        refer_to_first_node(batch->x, nodes);
 }
 
 void ost_batch_gather_from(OstBatch *batch, const OstElement *element, const OstMesh *mesh,

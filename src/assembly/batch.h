@@ -12,7 +12,7 @@ typedef struct OstBatch {
     int count;
     OstLocal tet[OST_SIMD_WIDTH];
     OstLocal node[OST_SIMD_WIDTH][OST_MAX_TET_NODES];
-    OstSimd x[3 * OST_MAX_TET_NODES];
+    OstSimd x[3 * OST_MAX_TET_NODES]; /* of quadratic tets less that of the first node */
     OstElasticity elasticity;
 } OstBatch;
 

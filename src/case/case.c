@@ -331,6 +331,33 @@ static OstStatus read_each_load_case(const OstYaml *yaml, OstCase *c)
     return OST_SUCCESS;
 }
 
+static int asks_along_material_axes(const OstCase *c)
+{
+    const unsigned fields = 1U << OST_FIELD_MATERIAL_STRESS | 1U << OST_FIELD_MATERIAL_STRAIN | 1U << OST_FIELD_E1 |
+                            1U << OST_FIELD_E2 | 1U << OST_FIELD_E3;
+    int asks = (c->output_fields & fields) != 0 || c->probe_count > 0;
+    for (int i = 0; i < c->watch_count; i++)
+        asks |= c->watches[i].kind == OST_WATCH_STRESS && c->watches[i].component >= OST_STRESS_MEASURE_11 &&
+                c->watches[i].component <= OST_STRESS_MEASURE_31;
+    return asks;
+}
+
+/* An isotropic material's axes change no answer, and are left out unless something is asked for along them. */
+static void keep_axes_asked_for(OstCase *c)
+{
+    int asks = asks_along_material_axes(c);
+    for (int k = 0; k < c->load_case_count; k++)
+        asks |= asks_along_material_axes(c->load_cases[k].c);
+    for (int k = -1; asks && k < c->load_case_count; k++) {
+        OstCase *of = k < 0 ? c : c->load_cases[k].c;
+        for (int i = 0; i < of->material_count; i++) {
+            OstCaseMaterial *material = &of->materials[i];
+            material->axes_asked_for = material->material.isotropic && material->axes.kind != OST_AXES_NONE;
+            material->material.isotropic &= !material->axes_asked_for;
+        }
+    }
+}
+
 static OstStatus parse(OstContext *ctx, const char *path, const OstCaseText *text, OstCase **c)
 {
     OstYaml *yaml = NULL;
@@ -344,6 +371,8 @@ static OstStatus parse(OstContext *ctx, const char *path, const OstCaseText *tex
     }
     OST_THEN(read_sections(yaml, OST_EVERY_LOAD_CASE, *c));
     OST_THEN(read_each_load_case(yaml, *c));
+    if (status == OST_SUCCESS)
+        keep_axes_asked_for(*c);
     ost_yaml_destroy(&yaml);
     return status;
 }

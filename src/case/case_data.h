@@ -154,6 +154,7 @@ typedef struct OstCaseMaterial {
     int eigen_per_unit; /* the field is the change that `eigenstrain` is multiplied by, not the strain itself */
     OstModulusField modulus;
     OstAxesSpec axes;
+    int axes_asked_for; /* isotropic, but something is asked for along its axes, so that these are kept */
 } OstCaseMaterial;
 
 /* A field of the mesh file that a material asks for. */

@@ -26,6 +26,8 @@ static void say_why_orthotropic(const char *region, const OstOrthotropic *k, con
         snprintf(reason, 160, "the eigenstrain of region '%.60s' has directions", region);
     else if (stated && ost_strength_has_directions(&stated->material.strength))
         snprintf(reason, 160, "the strengths of region '%.60s' have directions", region);
+    else if (stated && stated->axes_asked_for)
+        snprintf(reason, 160, "stresses along the axes of region '%.60s' are asked for", region);
     else
         snprintf(reason, 160, "the shear moduli of region '%.60s' are not those of an isotropic material", region);
 }

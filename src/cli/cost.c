@@ -198,9 +198,8 @@ static OstStatus run_study(OstContext *ctx, void *input)
         return calibrate(ctx, text['j']);
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
     OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
-    if (ost_cli_is_stdout(text['p']))
-        OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 3, paths));
+    OST_TRY_DONE(ost_cli_check_picture(ctx, text['p']));
     OST_TRY_DONE(ost_cost_create(c, &arguments->variants, &cost));
     OST_TRY_DONE(ost_cost_run(cost));
     status = report(cost, text['c'], text['j'], text['p']);

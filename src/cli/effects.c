@@ -48,9 +48,8 @@ static OstStatus run_study(OstContext *ctx, void *input)
     OstEffectStudy study;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_cli_read_one(ctx, arguments, &c));
-    if (ost_cli_is_stdout(paths[1]))
-        OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 2, paths));
+    OST_TRY_DONE(ost_cli_check_picture(ctx, paths[1]));
     OST_TRY_DONE(ost_effect_study(c, &study));
     status = report(&study, paths[0], paths[1]);
 done:

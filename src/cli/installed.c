@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/installed.h"
 
+#include "cli/destination.h"
 #include "core/error.h"
 
 #include <errno.h>
@@ -8,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,6 +60,20 @@ OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *firs
             return OST_RAISE(ctx, OST_FILE_FAILED, "cannot wait for '%s': %s", script, strerror(errno));
     return WIFEXITED(ending) && WEXITSTATUS(ending) == 0 ? OST_SUCCESS
                                                          : OST_RAISE(ctx, OST_FILE_FAILED, "'%s' failed", script);
+}
+
+OstStatus ost_cli_check_picture(OstContext *ctx, const char *path)
+{
+    static const char *const endings[] = {".png", ".svg", ".pdf"};
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    if (!path)
+        return OST_SUCCESS;
+    if (ost_cli_is_stdout(path))
+        return OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it");
+    for (int e = 0; dot && dot > path && dot[-1] != '/' && e < 3; e++)
+        if (strcasecmp(dot, endings[e]) == 0)
+            return OST_SUCCESS;
+    return OST_RAISE(ctx, OST_INVALID_USAGE, "a picture ends with .png, .svg or .pdf; found '%s'", path);
 }
 
 OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(const void *study, const char *path),

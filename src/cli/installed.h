@@ -16,6 +16,10 @@ OstStatus ost_cli_run_script(OstContext *ctx, const char *name, const char *firs
 OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(const void *study, const char *path),
                        const void *study, const char *picture);
 
+/* Local. Can a picture be drawn to this path (NULL: none is asked for)? By its ending, .png, .svg or .pdf; standard
+ * output is none. */
+OstStatus ost_cli_check_picture(OstContext *ctx, const char *path);
+
 /* Local. The folder of the program's cases: ORTHOSTAT_CASES of the environment, else the installed one, else ./cases,
  * else the source's. */
 void ost_cli_cases_folder(char *path, size_t size);

@@ -180,6 +180,7 @@ static OstStatus work(OstContext *ctx, void *input)
     OstStatus status = OST_SUCCESS;
     if (request->out)
         OST_TRY(ost_mesh_export_check(ctx, request->out));
+    OST_TRY(ost_cli_check_picture(ctx, request->text['p']));
     OST_TRY_DONE(ost_chunk_read(ctx, request->in, &chunk));
     OST_TRY_DONE(prepare(request, chunk));
     OST_TRY_DONE(ost_mesh_distribute(ctx, &chunk, &mesh));

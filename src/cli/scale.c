@@ -146,9 +146,8 @@ static OstStatus run_study(OstContext *ctx, void *input)
                          "the case is read anew for each number of ranks: name a file, not standard input");
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
     OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
-    if (ost_cli_is_stdout(text['p']))
-        OST_TRY_DONE(OST_RAISE(ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it"));
     OST_TRY_DONE(ost_check_outputs(c, 3, paths));
+    OST_TRY_DONE(ost_cli_check_picture(ctx, text['p']));
     OST_TRY_DONE(ost_scale_create(c, read_again, &arguments->common, &arguments->variants, &scale));
     ost_case_destroy(&c);
     OST_TRY_DONE(ost_scale_run(scale));

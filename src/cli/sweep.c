@@ -149,9 +149,8 @@ static OstStatus check(const OstCase *c, const Arguments *arguments)
     if (c->sweep_count > OST_MOST_SWEEP_KEYS && arguments->over_count == 0)
         return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: a sweep is over %d keys at most", c->path,
                          OST_MOST_SWEEP_KEYS);
-    if (ost_cli_is_stdout(text['p']))
-        return OST_RAISE(c->ctx, OST_INVALID_USAGE, "a picture cannot go to standard output; name a file for it");
-    return ost_check_outputs(c, 3, paths);
+    OST_TRY(ost_check_outputs(c, 3, paths));
+    return ost_cli_check_picture(c->ctx, text['p']);
 }
 
 /* The case is read once: it may come from standard input. */

@@ -243,8 +243,7 @@ OstStatus ost_axes_from_directions(OstContext *ctx, const int along[2], const do
 {
     double frame[9];
     const double length1 = ost_norm3(d1), length2 = d2 ? ost_norm3(d2) : 1.0;
-    const int first = along[0], second = !d2 ? (first + 1) % 3 : along[1] == first ? 1 : along[1];
-    OstCylindricalDirection order[3];
+    const int first = along[0], second = !d2 || along[1] == first ? (first + 1) % 3 : along[1];
     if (!(length1 > 0.0) || !isfinite(length1) || !(length2 > 0.0) || !isfinite(length2))
         return OST_RAISE(ctx, OST_INVALID_INPUT, "the direction (%g, %g, %g) is zero or not finite, and gives no axis",
                          length1 > 0.0 && isfinite(length1) ? d2[0] : d1[0],
@@ -261,10 +260,14 @@ OstStatus ost_axes_from_directions(OstContext *ctx, const int along[2], const do
                          "the directions (%g, %g, %g) and (%g, %g, %g) are parallel, and give one axis only", d1[0],
                          d1[1], d1[2], d2 ? d2[0] : 0.0, d2 ? d2[1] : 0.0, d2 ? d2[2] : 0.0);
     ost_complete_frame(frame);
-    order[first] = OST_AXIAL;
-    order[second] = OST_RADIAL;
-    order[3 - first - second] = OST_TANGENTIAL;
-    return ost_frame_in_order(ctx, order, frame, axes);
+    const int third = 3 - first - second;
+    const double sign = (second - first + 3) % 3 == 1 ? 1.0 : -1.0; /* right-handed, and both as they were stated */
+    for (int i = 0; i < 3; i++) {
+        axes[3 * first + i] = frame[i];
+        axes[3 * second + i] = frame[3 + i];
+        axes[3 * third + i] = sign * frame[6 + i];
+    }
+    return OST_SUCCESS;
 }
 
 OstStatus ost_axes_from_gradients(OstContext *ctx, const double g1[3], const double g2[3], double axes[9])

@@ -176,14 +176,15 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
     for (int k = 0; k < found.count; k++) {
         if (found.number[k] == scene->mesh->node_number[node]) /* on both sides already */
             return OST_SUCCESS;
-        if (fabs(found.weight[k]) < no_weight)
+        double largest = 0.0;
+        for (int i = 0; i < 9; i++)
+            largest = fmax(largest, fabs(found.weight[k][i]));
+        if (largest < no_weight)
             continue;
         leader[leaders].number = found.number[k];
-        for (int i = 0; i < 9; i++)
-            leader[leaders].weight[i] = found.weight[k] * identity[i];
-        leaders++;
+        memcpy(leader[leaders++].weight, found.weight[k], sizeof found.weight[k]);
     }
-    return ost_links_add(links, node, leaders, leader, found.place, nothing);
+    return ost_links_add(links, node, leaders, leader, x, nothing);
 }
 
 static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint, OstLinks *links)

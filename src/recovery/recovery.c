@@ -98,7 +98,9 @@ static void find_regions(const OstMesh *mesh, int32_t *region)
 static void gather_at_nodes(const OstResult *result, const OstElement *element, const OstBatch *batch,
                             OstElasticity *at_nodes)
 {
-    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, batch->x);
+    OstSimd places[3 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(batch, element->nodes, result->mesh->coordinates, places);
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, places);
 }
 
 /* Stress at the nodes of a batch's tets, 6 numbers a node. */

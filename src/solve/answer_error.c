@@ -141,13 +141,15 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
 {
     const OstProblem *problem = analysis->problem;
     const OstLinear *linear = analysis->work;
+    OstProblem state = *problem; /* with the answer's pressure: the forces of a mixed form have a part in it */
+    state.field = result->field;
     if (!problem->scene)
         return OST_SUCCESS;
     const int shares =
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
-    return ost_reactions_find(problem, estimate, linear->stiffness.solver, t, result->displacement,
+    return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, shares ? kept : NULL, result->reactions);
 }
 

@@ -73,6 +73,27 @@ static void three_equal_moduli_with_axes_are_isotropic_still(void **state)
     assert_effect(OST_EFFECT_VARYING_AXES, 0, "an isotropic body needs no axes");
 }
 
+static void axes_of_an_isotropic_material_stay_if_something_is_asked_for_along_them(void **state)
+{
+    (void)state;
+    static const char *const asking[] = {"watch: {hoop: {stress: {at: [0.5, 0.5, 0.5]}, component: 33}}\n",
+                                         "output: {fields: [material_stress]}\n", "output: {fields: [e1]}\n",
+                                         "output: {probes: {line: {points: [[0.5, 0.5, 0.5]]}}}\n",
+                                         "cases: [{name: a, watch: {hoop: {stress: {region: all}, component: 12}}}]\n"};
+    for (size_t i = 0; i < sizeof asking / sizeof asking[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 CUBE "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3, axes: {cylindrical: {origin: "
+                      "[9, 9, 0], axis: [0, 0, 1], order: [axial, radial, tangential]}}}]\n%s",
+                 asking[i]);
+        make_plan(text);
+        assert_effect(OST_EFFECT_ORTHOTROPY, 1, "stresses along the axes of region 'all' are asked for");
+        assert_effect(OST_EFFECT_VARYING_AXES, 1, "axes follow a cylinder in region 'all'");
+    }
+    make_plan(CUBE STEEL "watch: {s: {stress: {at: [0.5, 0.5, 0.5]}, component: 11}}\n");
+    assert_effect(OST_EFFECT_ORTHOTROPY, 0, "every material is isotropic");
+}
+
 static void orthotropy_and_its_axes_are_explained(void **state)
 {
     (void)state;
@@ -303,6 +324,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_bare_isotropic_body_calls_for_nothing),
     cmocka_unit_test(large_rotations_are_explained),
     cmocka_unit_test(three_equal_moduli_with_axes_are_isotropic_still),
+    cmocka_unit_test(axes_of_an_isotropic_material_stay_if_something_is_asked_for_along_them),
     cmocka_unit_test(orthotropy_and_its_axes_are_explained),
     cmocka_unit_test(materials_that_are_replaced_do_not_count),
     cmocka_unit_test(materials_of_the_file_count_where_the_case_has_none),

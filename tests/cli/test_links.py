@@ -166,6 +166,37 @@ def tied_parts_pull_as_one():
         near(values["energy"], 0.24, limit, f"order {order}: their energy")
 
 
+GAP = """
+mesh: {file: gap.msh}
+element: {order: ORDER}
+materials: [{region: all, youngs_modulus: 1200, poissons_ratio: 0}]
+constraints:
+  - {on: {boundary: a_xmin}, displacement: [0, 0, 0]}
+  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}, tolerance: 0.6}
+loads: [{on: {boundary: b_xmax}, total_force: [1, 2, -3]}]
+watch:
+  tip: {displacement: {nearest: [4.5, 0.5, 0.5]}, component: y}
+  x: {reaction: {boundary: a_xmin}, about: [0, 0.5, 0.5], component: x}
+  y: {reaction: {boundary: a_xmin}, about: [0, 0.5, 0.5], component: y}
+  z: {reaction: {boundary: a_xmin}, about: [0, 0.5, 0.5], component: z}
+accuracy: {relative_residual: 1e-10}
+large_rotation: off
+"""
+
+
+def a_tie_passes_moments_across_a_gap():
+    """Two bars, of EI = 100 each, with half a unit between them that turns as the end of the first does."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "gap.msh"), [("a", (0, 0, 0), (2, 1, 1), (4, 2, 2), "a"), ("b", (2.5, 0, 0), (2, 1, 1), (4, 4, 4), "b")])
+    for order, ranks in ((1, (2,)), (2, RANKS)):
+        values = watched(GAP.replace("ORDER", str(order)), folder, ranks)
+        check(abs(values["x"]) < 1e-6, f"the moment about x is {values['x']}")
+        near(values["y"], -3 * 4.5, 1e-7, "the moment about y")
+        near(values["z"], -2 * 4.5, 1e-7, "the moment about z")
+    shear = 2 * (2 + 2) / (5 / 6 * 600)
+    near(values["tip"], 2 * (4.5**3 - 2.5**3 + 2**3) / 300 + shear, 1e-2, "the tip of two bars with a gap")
+
+
 CELL = """
 mesh: {file: layers.msh}
 element: {order: ORDER}
@@ -230,5 +261,6 @@ a_rigid_face_bends_a_bar()
 what_lies_elsewhere_does_not_matter()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
+a_tie_passes_moments_across_a_gap()
 a_layered_cell_has_the_stiffness_of_a_laminate()
 what_cannot_be_is_refused()

@@ -133,6 +133,12 @@ meshio.write(os.path.join(folder, "equal.vtu"),
 done = run("mesh", "equal.vtu", folder=folder)
 check(done.exit_code == 0 and "volume-7" in done.output and "24576" in done.output, done.errors)
 
+# meshio's sets of points are references of vertices, -1 where there is none.
+meshio.write(os.path.join(folder, "sets.meshb"),
+             meshio.Mesh(large.points, tets, point_sets={"few": np.arange(9)}, cell_data={"region": [np.full(len(tets[0].data), 7)]}))
+done = run("mesh", "sets.meshb", folder=folder)
+check(done.exit_code == 0 and "volume-7" in done.output and "24576" in done.output, done.errors)
+
 # Bulk data that were cut off at a line's end.
 done = run("mesh", write("short.bdf", DECK.replace("ENDDATA\n", "")), folder=folder)
 check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)

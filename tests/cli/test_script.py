@@ -1,6 +1,7 @@
 """scripts/orthostat: words in any order, standard input left to its caller, and a full standard output."""
 import os
 import shutil
+import signal
 import subprocess
 
 from program import SOURCE, check, new_folder
@@ -115,6 +116,27 @@ def passes_on_the_exit_status(folder, script):
             check(call(script, "solve a", output=output).returncode == 7, "the program's exit status")
 
 
+# Like the real one, mpirun ends its ranks before they can speak, if it is asked to.
+SLOW = """#!/bin/sh
+sh -c 'trap "echo the rank stops >&2; exit 130" TERM; echo up; while :; do sleep 0.05; done' &
+trap 'kill -9 $!; echo mpirun stops >&2; exit 1' INT TERM
+wait $!
+"""
+
+
+def lets_ranks_say_that_they_were_interrupted(folder, script):
+    """Ctrl-C reaches all processes of the terminal's group."""
+    write_program(os.path.join(folder, "path", "mpirun"), SLOW)
+    for number in signal.SIGINT, signal.SIGTERM:
+        running = subprocess.Popen(["bash", script, "solve", "a"], text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, start_new_session=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        check(running.stdout.readline() == "up\n", "the rank does not start")
+        os.killpg(running.pid, number)
+        _, errors = running.communicate(timeout=60)
+        check(running.returncode == 130 and errors == "the rank stops\n", f"{number}: exit {running.returncode}, {errors}")
+
+
 def main():
     folder = new_folder()
     script, program = make_script(folder)
@@ -124,6 +146,7 @@ def main():
     leaves_standard_input_alone(script)
     a_full_disk_is_no_success(script)
     passes_on_the_exit_status(folder, script)
+    lets_ranks_say_that_they_were_interrupted(folder, script)
 
 
 main()

@@ -78,6 +78,8 @@ for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
                          (("--over", "loads.0.value.x=1:2"), "KEY=from:to:count"),
                          (("--over", "loads.0.value.x=1:2:9999", "--over", "loads.0.value.y=1:2:9999"), "at most 10000"),
                          (("--picture", "-"), "a picture cannot go to standard output"),
+                         (("--picture", "bar.bmp"), "ends with .png, .svg or .pdf; found 'bar.bmp'"),
+                         (("--picture", "bar"), "ends with .png, .svg or .pdf; found 'bar'"),
                          (("--csv", "bar.yaml"), "would be written over the case itself")):
     refused = run("sweep", "bar.yaml", *arguments, folder=folder)
     check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")

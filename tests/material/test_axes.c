@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/small.h"
 #include "support.h"
 
 #include "material/random.h"
@@ -107,6 +108,25 @@ static void quaternions_agree_with_euler_angles(void **state)
     assert_failure(ost_axes_from_quaternion(ctx, zero, axes), OST_INVALID_INPUT, "not all zero");
     assert_failure(ost_axes_from_quaternion(ctx, broken, axes), OST_INVALID_INPUT, "finite");
     assert_failure(ost_axes_from_quaternion(ctx, broken_first, axes), OST_INVALID_INPUT, "finite");
+}
+
+/* For every pair: the first as it is stated, the second as far as it is orthogonal to the first; none is turned round.
+ */
+static void two_directions_keep_their_senses(void **state)
+{
+    (void)state;
+    const double d1[3] = {3, 0, 4}, d2[3] = {1, 2, 0};
+    for (int first = 0; first < 3; first++)
+        for (int second = 0; second < 3; second++) {
+            const int along[2] = {first, second};
+            double axes[9];
+            if (first == second)
+                continue;
+            assert_success(ost_axes_from_directions(ctx, along, d1, d2, axes));
+            assert_rotation(axes);
+            assert_close(ost_dot3(axes + 3 * first, d1), 5.0, 1e-14);
+            assert_true(ost_dot3(axes + 3 * second, d2) > 0.0);
+        }
 }
 
 static void fixed_axes_are_the_same_everywhere(void **state)
@@ -245,6 +265,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(fixed_and_turned_sequences_mirror_each_other),
     cmocka_unit_test(unknown_sequences_and_angles_are_refused),
     cmocka_unit_test(quaternions_agree_with_euler_angles),
+    cmocka_unit_test(two_directions_keep_their_senses),
     cmocka_unit_test(fixed_axes_are_the_same_everywhere),
     cmocka_unit_test(kinds_that_vary_say_so),
     cmocka_unit_test(cylindrical_axes_follow_the_wall),

@@ -13,6 +13,9 @@
 
 enum { MOST = 6 };
 
+/* Distances below this part of a face are rounding errors. */
+static const double no_gap = 1e-9;
+
 typedef struct Face {
     OstGlobal number[MOST];
     double x[3 * MOST];
@@ -172,6 +175,34 @@ static void try_face(const Face *face, const double x[3], double *nearest, const
     memcpy(best_at, at, sizeof at);
 }
 
+/* Adds what the face's turning moves the end of the lever by. Its normal n turns by -(n.du_a) t^a, with du_a the slope
+ * of the displacement along the tangent t_a, and t^a the tangents reciprocal to these; what of the lever lies along the
+ * face moves with the slopes. */
+static void add_lever(const Face *face, int nodes, const double at[3], const double lever[3], double (*weight)[9])
+{
+    double slope[MOST][2], tangent[2][3] = {{0.0}}, reciprocal[2][3], normal[3];
+    ost_shape_face_slopes(nodes, at, slope);
+    for (int k = 0; k < nodes; k++)
+        for (int i = 0; i < 6; i++)
+            tangent[i / 3][i % 3] += slope[k][i / 3] * face->x[3 * k + i % 3];
+    ost_cross3(tangent[0], tangent[1], normal);
+    const double area = ost_norm3(normal);
+    if (!(area > 0.0))
+        return;
+    for (int i = 0; i < 3; i++)
+        normal[i] /= area;
+    ost_cross3(tangent[1], normal, reciprocal[0]);
+    ost_cross3(normal, tangent[0], reciprocal[1]);
+    const double across = ost_dot3(lever, normal);
+    for (int k = 0; k < nodes; k++)
+        for (int a = 0; a < 2; a++) {
+            const double along = slope[k][a] * ost_dot3(lever, reciprocal[a]) / area;
+            for (int i = 0; i < 9; i++)
+                weight[k][i] +=
+                    (i % 4 == 0 ? along : 0.0) - across * slope[k][a] * reciprocal[a][i / 3] / area * normal[i % 3];
+        }
+}
+
 void ost_face_search_nearest(const OstFaceSearch *search, const double x[3], OstFacePoint *found)
 {
     const OstLocal middle = first_beyond(search, x[0]);
@@ -188,10 +219,17 @@ void ost_face_search_nearest(const OstFaceSearch *search, const double x[3], Ost
             moves = 1;
         }
     }
+    double shape[MOST], place[3], lever[3];
+    ost_shape_values(search->nodes, at, shape);
+    ost_shape_place(search->nodes, shape, best->x, place);
+    for (int i = 0; i < 3; i++)
+        lever[i] = x[i] - place[i];
+    found->distance = ost_norm3(lever);
     found->count = search->nodes;
-    ost_shape_values(search->nodes, at, found->weight);
     memcpy(found->number, best->number, sizeof found->number);
-    ost_shape_place(search->nodes, found->weight, best->x, found->place);
-    const double gap[3] = {x[0] - found->place[0], x[1] - found->place[1], x[2] - found->place[2]};
-    found->distance = ost_norm3(gap);
+    for (int k = 0; k < search->nodes; k++)
+        for (int i = 0; i < 9; i++)
+            found->weight[k][i] = i % 4 == 0 ? shape[k] : 0.0;
+    if (found->distance > no_gap * best->radius)
+        add_lever(best, search->nodes, at, lever, found->weight);
 }

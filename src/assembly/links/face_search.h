@@ -12,15 +12,17 @@ OstStatus ost_face_search_create(const OstMesh *mesh, OstLocal count, const OstL
                                  OstFaceSearch **search);
 void ost_face_search_destroy(OstFaceSearch **search);
 
-/* A point of a face, by the face's nodes (node_number) and their shape functions there. */
+/* How a point x moves with a face, by the face's nodes (node_number) and a 3×3 weight for each: as the nearest point of
+ * the face, and from there to x along a lever that turns with the face, so that the tie passes moments on. */
 typedef struct OstFacePoint {
     int count;
     OstGlobal number[6];
-    double weight[6];
-    double place[3], distance;
+    double weight[6][9];
+    double distance;
 } OstFacePoint;
 
-/* Local. The point nearest to x; of a curved face, the one over the nearest point of its three vertices' triangle. */
+/* Local. By the point nearest to x; of a curved face, the one over the nearest point of its three vertices' triangle.
+ */
 void ost_face_search_nearest(const OstFaceSearch *search, const double x[3], OstFacePoint *found);
 
 #endif

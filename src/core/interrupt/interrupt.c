@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -13,7 +14,7 @@ enum { MOST_FILES = 4, LONGEST_PATH = 8192, INTERRUPTED = 130 };
 static char half_written[MOST_FILES][LONGEST_PATH];
 static volatile sig_atomic_t is_half_written[MOST_FILES];
 static volatile sig_atomic_t completed;
-static volatile sig_atomic_t speaks;
+static volatile sig_atomic_t speaks, on_terminal;
 static int handles;
 static void (*tick)(void);
 
@@ -30,7 +31,7 @@ static void end(int signal_number)
         if (is_half_written[f])
             unlink(half_written[f]);
     if (speaks) {
-        if (isatty(STDERR_FILENO))
+        if (on_terminal)
             say("\r\033[K");
         say(completed > 0 ? "orthostat: interrupted; the files that were complete stay, nothing else was written\n"
                           : "orthostat: interrupted, nothing written\n");
@@ -49,6 +50,7 @@ static void handle(int number, void (*handler)(int), int flags)
 void ost_end_when_interrupted(int says)
 {
     speaks = says;
+    on_terminal = isatty(STDERR_FILENO) || getenv("ORTHOSTAT_ON_TERMINAL"); /* which mpirun hides */
     handles = 1;
     handle(SIGINT, end, 0);
     handle(SIGTERM, end, 0);

@@ -57,7 +57,7 @@ static OstStatus read_integer(Medit *medit, const char *what, OstGlobal *value)
     int number = 0;
     skip_comments(&medit->cursor);
     if (medit->version >= 4 && medit->cursor.binary)
-        return ost_msh_size(&medit->cursor, what, value);
+        return ost_msh_long(&medit->cursor, what, value);
     OST_TRY(ost_msh_int(&medit->cursor, what, &number));
     *value = number;
     return OST_SUCCESS;

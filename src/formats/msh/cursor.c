@@ -190,6 +190,16 @@ OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value)
     return OST_SUCCESS;
 }
 
+OstStatus ost_msh_long(OstMshCursor *cursor, const char *what, OstGlobal *value)
+{
+    if (!cursor->binary)
+        return read_text_integer(cursor, what, -OST_LARGEST_LABEL, OST_LARGEST_LABEL, value);
+    OST_TRY(read_bytes(cursor, what, sizeof *value, value));
+    if (*value < -OST_LARGEST_LABEL || *value > OST_LARGEST_LABEL)
+        return OST_RAISE_MSH(cursor, "%" PRId64 " found, expected %s", *value, what);
+    return OST_SUCCESS;
+}
+
 static OstStatus read_double(OstMshCursor *cursor, const char *what, double *value)
 {
     char *end = NULL;

@@ -25,6 +25,8 @@ void ost_msh_close(OstMshCursor *cursor);
 OstStatus ost_msh_int(OstMshCursor *cursor, const char *what, int *value);
 OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value);
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value);
+/* Local. A whole number that may be negative: 64 bits in a binary file. Refused beyond OST_LARGEST_LABEL in size. */
+OstStatus ost_msh_long(OstMshCursor *cursor, const char *what, OstGlobal *value);
 /* Local. Skips numbers, which need not be finite: Gmsh writes boxes of empty entities as infinite. */
 OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal count);
 
