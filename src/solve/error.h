@@ -25,4 +25,8 @@ typedef struct OstSolved {
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
                           OstErrors *errors);
 
+/* Collective. The same of a mixed form, at the answer's pressure: nothing is corrected. */
+OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+                                OstErrors *errors);
+
 #endif

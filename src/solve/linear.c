@@ -12,6 +12,8 @@
 #include "solve/error.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* An error so many times what is good enough is not waited for, but solved for to the end. */
@@ -197,8 +199,12 @@ static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int
     const OstLinear *linear = analysis->work;
     const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
     if (linear->volume) { /* the solver has estimated the error that its residuals leave */
-        const double error = result->solve.error_estimate;
-        *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};
+        OstProblem state = *analysis->problem;
+        state.field = result->field;
+        OST_TRY(ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, once, errors));
+        if (getenv("MX"))
+            printf("MX u est %.2e meas %.2e energy %.2e stress %.2e reaction %.2e\n", result->solve.error_estimate, errors->displacement, result->solve.energy_error, errors->stress, errors->reaction);
+        errors->displacement = fmax(errors->displacement, result->solve.error_estimate);
         return OST_SUCCESS;
     }
     return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
@@ -274,11 +280,10 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
                                       : run_solver(analysis, NULL, begins_at_start(analysis), result);
     if (!result->reached)
         return solved;
-    if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
+    if (solved == OST_SUCCESS && !result->solve.stopped)
         OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(problem, linear, solved_for));
-    if (!linear->volume)
-        solved_for->errors = errors;
+    solved_for->errors = errors;
     return solved;
 }
 

@@ -113,7 +113,7 @@ static void judge(HardReading *reading)
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
 }
 
-/* Displacements and pressures against what is stated of displacements and stresses. */
+/* Displacements, reactions and stresses, the pressures in these. */
 static void judge_mixed(HardReading *reading)
 {
     const HardTruth *truth = &reading->truth;
@@ -122,7 +122,8 @@ static void judge_mixed(HardReading *reading)
         reading->outcome = truth->indefinite || truth->rounded > hard_hopeless ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)
         fail(reading, HARD_FALSE, "solved, but there is no direct solution");
-    else if (!states(reading->stated_error, truth->error) || !states(reading->stated_forces, truth->pressure))
+    else if (!states(reading->stated_error, truth->error) ||
+             !states(reading->stated_forces, fmax(truth->off.reaction, truth->off.stress)))
         fail(reading, HARD_FALSE, "its errors are not as stated");
     else
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;

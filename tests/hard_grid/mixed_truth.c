@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "hard_grid/direct.h"
 #include "hard_grid/grid.h"
 
@@ -204,26 +205,55 @@ static void stresses_of(const Mixed *mixed, const double *u, const double *p, do
     ost_visit_means(mixed->space->mesh, &field, 0.0, u, add_stresses, square);
 }
 
-/* The stresses of both differences to those of the answer; du and dp hold the differences, dp with ghosts. */
-static OstStatus compare_stresses(Mixed *mixed, const OstResult *result, double *error)
+/* Squares of the internal forces at constrained nodes along what is constrained, of the differences, and of the
+ * answer's reactions. */
+static OstStatus add_reactions(const Mixed *mixed, const OstResult *result, const double *apart, const double *of_tets,
+                               double *force, double *sums)
 {
     const OstMesh *mesh = mixed->space->mesh;
-    double *apart = NULL, *of_tets = NULL, sums[2] = {0.0};
+    OstMaterialField field = *mixed->field;
+    field.pressure = of_tets;
+    OST_TRY(ost_agree(mixed->ctx, ost_internal_force(mesh, &field, 0.0, apart, force, NULL)));
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
+        double projector[9], free_part[3];
+        const size_t n = 3 * (size_t)node;
+        if (ost_supports_get(mixed->direct.supports, node, projector, NULL) == 0)
+            continue;
+        ost_apply3(projector, force + n, free_part);
+        for (size_t i = 0; i < 3; i++) {
+            const double off = force[n + i] - free_part[i];
+            sums[0] += off * off;
+            sums[1] += result->reaction[n + i] * result->reaction[n + i];
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* The stresses and reactions of both differences to those of the answer; du and dp hold the differences, dp with ghosts.
+ */
+static OstStatus compare_forces(Mixed *mixed, const OstResult *result, HardErrors *off)
+{
+    const OstMesh *mesh = mixed->space->mesh;
+    double *apart = NULL, *of_tets = NULL, *force = NULL, sums[4] = {0.0};
     OstStatus status = OST_NEW(mixed->ctx, &apart, 3 * (size_t)mesh->node_count);
     OST_THEN(OST_NEW(mixed->ctx, &of_tets, 4 * (size_t)mesh->tet_count));
+    OST_THEN(OST_NEW(mixed->ctx, &force, 3 * (size_t)mesh->owned_nodes));
     OST_TRY_DONE(ost_agree(mixed->ctx, status));
     for (size_t i = 0; i < mixed->n; i++)
         apart[3 * (size_t)mixed->direct.system->node_of_row[i / 3] + i % 3] =
             mixed->du[i] - mixed->direct.u[i].high - mixed->direct.u[i].low;
     OST_TRY_DONE(ost_agree(mixed->ctx, ost_halo_import(mesh->halo, 3 * sizeof *apart, apart)));
     stresses_of(mixed, apart, mixed->dp, of_tets, &sums[0]);
+    OST_TRY_DONE(add_reactions(mixed, result, apart, of_tets, force, &sums[2]));
     for (size_t i = 0; i < 4 * (size_t)mesh->tet_count; i++)
         if (mixed->space->of_tet[i] >= 0)
             mixed->dp[mixed->space->of_tet[i]] = result->pressure[i];
     stresses_of(mixed, result->displacement, mixed->dp, of_tets, &sums[1]);
-    OST_TRY_DONE(ost_sum(mixed->ctx, 2, sums));
-    *error = sqrt(sums[0] / sums[1]);
+    OST_TRY_DONE(ost_sum(mixed->ctx, 4, sums));
+    off->stress = sqrt(sums[0] / sums[1]);
+    off->reaction = sqrt(sums[2] / sums[3]);
 done:
+    OST_FREE(force);
     OST_FREE(apart);
     OST_FREE(of_tets);
     return status;
@@ -236,7 +266,7 @@ static OstStatus compare(Mixed *mixed, const OstResult *result, HardTruth *truth
     OST_TRY(distance(mixed, mixed->n, mixed->du, mixed->direct.u, &truth->error));
     truth->error /= truth->size;
     OST_TRY(compare_pressures(mixed, result, &truth->pressure));
-    return compare_stresses(mixed, result, &truth->off.stress);
+    return compare_forces(mixed, result, &truth->off);
 }
 
 OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, HardTruth *truth)
