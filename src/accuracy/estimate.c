@@ -2,6 +2,7 @@
 #include "accuracy/estimate.h"
 
 #include "accuracy/blocks.h"
+#include "accuracy/pressure_error.h"
 #include "accuracy/search.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -214,25 +215,31 @@ double ost_search_largest(size_t count, const double *numbers)
     return most;
 }
 
+OstStatus ost_search_take(Search *search, const double *left)
+{
+    OstSteps *steps = &search->steps;
+    const double unit = search->estimate->stiffness.unit;
+    double most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
+    OST_TRY(ost_max(search->estimate->problem->ctx, 1, &most));
+    steps->size = most > 0.0 ? most / unit : 1.0;
+    ost_steps_take_residual(steps, left, steps->size * unit);
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->r.rows[i] /= steps->size * unit;
+    return OST_SUCCESS;
+}
+
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
     OstSteps *steps = &search->steps;
     const OstEstimate *estimate = search->estimate;
     const OstProblem *problem = estimate->problem;
-    const double unit = estimate->stiffness.unit;
-    double *left = ost_steps_spare(steps), most; /* f - A u */
+    double *left = ost_steps_spare(steps); /* f - A u */
     OST_TRY(
         ost_agree(problem->ctx, ost_operator_force(&estimate->stiffness, t, u, steps->force, left, &search->energy)));
     ost_surplus_loads_add(&estimate->loads, problem, &estimate->complement, t, u, left);
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
-    most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
-    OST_TRY(ost_max(problem->ctx, 1, &most));
-    steps->size = most > 0.0 ? most / unit : 1.0;
-    ost_steps_take_residual(steps, left, steps->size * unit);
-    for (size_t i = 0; i < steps->rows; i++)
-        steps->r.rows[i] /= steps->size * unit;
-    return OST_SUCCESS;
+    return ost_search_take(search, left);
 }
 
 OstStatus ost_search_displacement(Search *search)
@@ -283,6 +290,30 @@ OstStatus ost_search_share(Search *search, double square, double *tet_error)
     return OST_SUCCESS;
 }
 
+/* What e adds to the stress; of a mixed form, what e and the error of the pressure add. */
+static OstStatus add_stress(Search *search, OstSolver *solver, double t, const double *u, const OstSurplus *surplus)
+{
+    const OstProblem *problem = search->estimate->problem;
+    OstOperator with_pressure = search->estimate->stiffness;
+    double *of_tets = NULL;
+    OstMaterialField field;
+    OstProblem state;
+    OstStatus status = OST_SUCCESS;
+    if (problem->pressures) {
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count)));
+        OST_THEN(ost_pressure_error(search, solver, &(OstState){problem, u, ost_problem_eigen_share(problem, t)}, of_tets));
+        OST_THEN(ost_search_displacement(search));
+        OST_THEN(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
+        ost_problem_at_pressure(problem, of_tets, &field, &state);
+        with_pressure.problem = &state;
+    }
+    if (status == OST_SUCCESS)
+        ost_operator_add_stress(&with_pressure, search->steps.u, search->steps.e.functions,
+                                search->longer * search->steps.size, surplus->node_stress, surplus->stress);
+    OST_FREE(of_tets);
+    return status;
+}
+
 /* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual. */
 static OstStatus hand_out(Search *search, double *surplus)
 {
@@ -314,9 +345,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
-        if (status == OST_SUCCESS && surplus->tet_error && (surplus->stress || surplus->node_stress))
-            ost_operator_add_stress(&estimate->stiffness, search.steps.u, search.steps.e.functions,
-                                    search.longer * search.steps.size, surplus->node_stress, surplus->stress);
+        if (surplus->tet_error && (surplus->stress || surplus->node_stress))
+            OST_THEN(add_stress(&search, solver, t, u, surplus));
         if (surplus->displacement)
             OST_THEN(hand_out(&search, surplus->displacement));
     }

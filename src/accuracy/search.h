@@ -45,6 +45,9 @@ OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *sear
 /* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u);
 
+/* Collective. r, from forces left on the functions, and those in r.rows. */
+OstStatus ost_search_take(Search *search, const double *left);
+
 /* Collective. Steps until what is to come of |e|² is small; `start` is that of the part of e that was found
  * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
