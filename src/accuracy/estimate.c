@@ -290,30 +290,6 @@ OstStatus ost_search_share(Search *search, double square, double *tet_error)
     return OST_SUCCESS;
 }
 
-/* What e adds to the stress; of a mixed form, what e and the error of the pressure add. */
-static OstStatus add_stress(Search *search, OstSolver *solver, double t, const double *u, const OstSurplus *surplus)
-{
-    const OstProblem *problem = search->estimate->problem;
-    OstOperator with_pressure = search->estimate->stiffness;
-    double *of_tets = NULL;
-    OstMaterialField field;
-    OstProblem state;
-    OstStatus status = OST_SUCCESS;
-    if (problem->pressures) {
-        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count)));
-        OST_THEN(ost_pressure_error(search, solver, &(OstState){problem, u, ost_problem_eigen_share(problem, t)}, of_tets));
-        OST_THEN(ost_search_displacement(search));
-        OST_THEN(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
-        ost_problem_at_pressure(problem, of_tets, &field, &state);
-        with_pressure.problem = &state;
-    }
-    if (status == OST_SUCCESS)
-        ost_operator_add_stress(&with_pressure, search->steps.u, search->steps.e.functions,
-                                search->longer * search->steps.size, surplus->node_stress, surplus->stress);
-    OST_FREE(of_tets);
-    return status;
-}
-
 /* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual. */
 static OstStatus hand_out(Search *search, double *surplus)
 {
@@ -323,6 +299,35 @@ static OstStatus hand_out(Search *search, double *surplus)
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
         surplus[i] = search->longer * search->steps.size * search->steps.u[i];
     return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *surplus, surplus));
+}
+
+/* What e adds to displacements and stresses. */
+static OstStatus hand_out_all(Search *search, const OstProblem *state, const OstSurplus *surplus)
+{
+    OstOperator at_state = search->estimate->stiffness;
+    at_state.problem = state;
+    if (surplus->stress || surplus->node_stress)
+        ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions,
+                                search->longer * search->steps.size, surplus->node_stress, surplus->stress);
+    return surplus->displacement ? hand_out(search, surplus->displacement) : OST_SUCCESS;
+}
+
+/* Of a mixed form by linear theory: of the errors of displacement and pressure, which the e at hand stands for. */
+static OstStatus hand_out_mixed(Search *search, OstSolver *solver, double t, const double *u, const OstSurplus *surplus)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstState of = {problem, u, ost_problem_eigen_share(problem, t)};
+    double *of_tets = NULL;
+    OstMaterialField field;
+    OstProblem state;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count)));
+    ost_problem_at_pressure(problem, of_tets, &field, &state);
+    OstStatus status = ost_pressure_error(search, solver, &of, of_tets);
+    OST_THEN(ost_search_displacement(search));
+    OST_THEN(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
+    OST_THEN(hand_out_all(search, &state, surplus));
+    OST_FREE(of_tets);
+    return status;
 }
 
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
@@ -345,10 +350,9 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
-        if (surplus->tet_error && (surplus->stress || surplus->node_stress))
-            OST_THEN(add_stress(&search, solver, t, u, surplus));
-        if (surplus->displacement)
-            OST_THEN(hand_out(&search, surplus->displacement));
+        const int is_mixed = surplus->displacement && estimate->problem->pressures && !estimate->stiffness.turned_by;
+        OST_THEN(is_mixed ? hand_out_mixed(&search, solver, t, u, surplus)
+                          : hand_out_all(&search, estimate->problem, surplus));
     }
     ost_steps_close(&search.steps);
     return status;
