@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
-#include "accuracy/pressure_error.h"
 #include "accuracy/search.h"
 #include "assembly/springs.h"
 #include "core/error.h"
@@ -208,7 +207,7 @@ struct OstAdjoint {
     OstEnriched e; /* the surplus of z, lengthened, over `size` */
     double size;
     double *pressure; /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
-    double *z; /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *z;        /* 3 × owned_nodes: what the solve adds to the given motion */
 };
 
 void ost_adjoint_destroy(OstAdjoint **adjoint)
@@ -259,8 +258,7 @@ static OstStatus mixed_adjoint_residual(Search *search, const OstProblem *state,
     OstOperator at_state = search->estimate->stiffness;
     double *left = ost_steps_spare(steps);
     at_state.problem = state;
-    OST_TRY(
-        ost_agree(state->ctx, ost_operator_force(&at_state, 0.0, z, steps->force, left, &search->energy)));
+    OST_TRY(ost_agree(state->ctx, ost_operator_force(&at_state, 0.0, z, steps->force, left, &search->energy)));
     memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
     return ost_search_take(search, left);
 }
@@ -303,8 +301,8 @@ static OstStatus find_plain(Search *search, const OstInterest *interest, double 
     return ost_search_iterate(search, 0.0, &square);
 }
 
-static OstStatus find_adjoint(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u, double share,
-                              OstAdjoint *adjoint)
+static OstStatus find_adjoint(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u,
+                              double share, OstAdjoint *adjoint)
 {
     search->of_adjoint = 1;
     OST_TRY(search->estimate->problem->pressures ? find_mixed(search, solver, interest, t, u, adjoint)

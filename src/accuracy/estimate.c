@@ -2,7 +2,6 @@
 #include "accuracy/estimate.h"
 
 #include "accuracy/blocks.h"
-#include "accuracy/pressure_error.h"
 #include "accuracy/search.h"
 #include "core/error.h"
 #include "core/memory.h"

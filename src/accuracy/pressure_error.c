@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/pressure_error.h"
-
 #include "accuracy/cells.h"
+#include "accuracy/search.h"
 #include "assembly/system.h"
-#include "core/parallel/reduce.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "element/large_rotation.h"
 
 #include <math.h>
@@ -88,9 +87,9 @@ static OstStatus find_pressures(Search *search, const OstState *of, double *volu
     add_volume(&(Part){&at_state, of->u, NULL, 1.0, of->eigen_share}, volume);
     OST_TRY(ost_search_displacement(search));
     OST_TRY(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
-    add_volume(&(Part){&no_pressure, search->steps.u, search->steps.e.functions, search->longer * search->steps.size,
-                       0.0},
-               volume);
+    add_volume(
+        &(Part){&no_pressure, search->steps.u, search->steps.e.functions, search->longer * search->steps.size, 0.0},
+        volume);
     for (size_t i = 0; i < VERTICES * (size_t)problem->mesh->tet_count; i++)
         if (problem->pressures->of_tet[i] >= 0)
             of_tets[i] = volume[i] / ost_field_giving_way(problem->field, problem->mesh->tet_region[i / VERTICES]);

@@ -87,8 +87,8 @@ static double relative(double square_of_error, double square)
 }
 
 /* Stresses of the answer, of its error, and of the eigenstrain alone. */
-static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement, const double *error,
-                                  double *sums)
+static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                                  const double *error, double *sums)
 {
     const double share = ost_problem_eigen_share(problem, 1.0);
     double *zero = NULL;
@@ -116,8 +116,8 @@ static OstStatus free_displacement(const OstMesh *mesh, double squares, double *
     return OST_SUCCESS;
 }
 
-OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement, const double *error,
-                           OstErrors *errors)
+OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                           const double *error, OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;

@@ -195,8 +195,8 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
 static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
 {
     const OstLinear *linear = analysis->work;
-    const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement, linear->pressure,
-                              result->pressure};
+    const OstSolved solved = {&result->solve,       linear->rhs,      linear->v,
+                              result->displacement, linear->pressure, result->pressure};
     OstProblem state = *analysis->problem; /* with the pressure reached, if there is one */
     state.field = result->field;
     return linear->volume ? ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, once, errors)

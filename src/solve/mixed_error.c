@@ -10,8 +10,8 @@
  * part may be missing. */
 static const double small_error = 1e-6, part = 0.1;
 
-/* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected, and
- * above which residual they are as asked for. */
+/* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
+ * and above which residual they are as asked for. */
 static const double forces_caution = 2.0, corrected_caution = 3.0;
 static const double worth_correcting = 1e-4, past_correcting = 0.5, large_residual = 1e-4;
 enum { MOST_CORRECTIONS = 20 };
@@ -88,9 +88,10 @@ static OstStatus measure(Search *search, double missing, OstErrors *errors)
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->force));
     OST_TRY(ost_guard_errors(problem, &of_error, search->solved->displacement, search->force, errors));
-    ost_log(problem->ctx, OST_LOG_VERBOSE,
-            "solver: to %g, the error of both equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",
-            missing, errors->displacement, errors->reaction, errors->stress);
+    ost_log(
+        problem->ctx, OST_LOG_VERBOSE,
+        "solver: to %g, the error of both equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",
+        missing, errors->displacement, errors->reaction, errors->stress);
     return OST_SUCCESS;
 }
 

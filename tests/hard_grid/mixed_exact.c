@@ -84,8 +84,7 @@ static void find_residual(Exact *exact)
         for (size_t i = 0; i < 3; i++) {
             Long sum = 0.0L;
             for (size_t j = 0; j < 3; j++)
-                sum +=
-                    (Long)projector[3 * i + j] * ((Long)direct->force[3 * node + j] - exact->internal[3 * node + j]);
+                sum += (Long)projector[3 * i + j] * ((Long)direct->force[3 * node + j] - exact->internal[3 * node + j]);
             exact->ru[3 * (size_t)row + i] = (double)sum;
         }
     }
@@ -145,8 +144,8 @@ static void add_reactions(const Exact *exact, const OstResult *result, double su
         for (size_t i = 0; i < 3; i++) {
             Long reaction = 0.0L;
             for (size_t j = 0; j < 3; j++)
-                reaction += ((i == j) - (Long)projector[3 * i + j]) *
-                            (exact->internal[n + j] - (Long)direct->force[n + j]);
+                reaction +=
+                    ((i == j) - (Long)projector[3 * i + j]) * (exact->internal[n + j] - (Long)direct->force[n + j]);
             const double off = result->reaction[n + i] - (double)reaction;
             sums[0] += off * off;
             sums[1] += (double)(reaction * reaction);

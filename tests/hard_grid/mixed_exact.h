@@ -16,8 +16,8 @@ typedef struct HardMixed {
     const OstSaddleFactors *factors;
 } HardMixed;
 
-/* Collective. Solves both equations as the tets have them (exact.h), from the result on, by corrections with the factors
- * of the rounded ones, and compares. */
+/* Collective. Solves both equations as the tets have them (exact.h), from the result on, by corrections with the
+ * factors of the rounded ones, and compares. */
 OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
                                 HardErrors *errors);
 

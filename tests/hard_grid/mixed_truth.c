@@ -200,8 +200,8 @@ OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, 
     if (truth->known && result)
         OST_THEN(compare(&mixed, result, truth));
     if (truth->known && result)
-        OST_THEN(hard_find_mixed_exact(
-            scene, &(HardMixed){&mixed.direct, mixed.space, mixed.b, mixed.factors}, result, &truth->off));
+        OST_THEN(hard_find_mixed_exact(scene, &(HardMixed){&mixed.direct, mixed.space, mixed.b, mixed.factors}, result,
+                                       &truth->off));
     clear(&mixed);
     return status;
 }

@@ -69,8 +69,7 @@ OstStatus ost_saddle_iterated_error(const OstCgSystem *system, const OstPrecondi
 {
     const OstErrorStop stop = {.ask = accept, .first = missing, .relative = 1};
     OstSolveReport report = {0};
-    OstGoal goal = {
-        .ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1, .stop = &stop};
+    OstGoal goal = {.ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1, .stop = &stop};
     OST_TRY(ost_saddle_goal(system->matrix, saddle, r_u, missing * residual_beside, &goal));
     const OstStatus status = ost_saddle_solve(system, preconditioner, saddle, r_u, e_u, &goal, &report);
     *found = status == OST_SUCCESS && goal.end != OST_END_PRECONDITIONER && isfinite(goal.error.estimate);
