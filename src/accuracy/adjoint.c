@@ -206,7 +206,8 @@ struct OstAdjoint {
     size_t nodes;
     OstEnriched e; /* the surplus of z, lengthened, over `size` */
     double size;
-    double *z; /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *pressure; /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
+    double *z;        /* 3 × owned_nodes: what the solve adds to the given motion */
 };
 
 void ost_adjoint_destroy(OstAdjoint **adjoint)
@@ -216,18 +217,96 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
     OST_FREE((*adjoint)->e.rows);
     OST_FREE((*adjoint)->e.functions);
     OST_FREE((*adjoint)->z);
+    OST_FREE((*adjoint)->pressure);
     OST_FREE(*adjoint);
 }
 
-static OstStatus find_adjoint(Search *search, const OstInterest *interest, double t, const double *u, double share,
-                              OstAdjoint *adjoint)
+/* steps.u: z, and its pressures, of tets, by both equations of a mixed form, to the solver's residual. */
+static OstStatus solve_mixed_adjoint(Search *search, const OstInterest *interest, double t, const double *u,
+                                     double *of_tets)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstPressureSpace *space = problem->pressures;
+    OstSteps *steps = &search->steps;
+    OstMaterialField field;
+    OstProblem without;
+    OstSolveReport report;
+    double *g = NULL, *pressure = NULL;
+    ost_problem_at_pressure(problem, NULL, &field, &without);
+    OstStatus status = OST_NEW(problem->ctx, &g, space->owned);
+    OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
+    OST_THEN(ost_pressure_volume(space, &field, OST_FORMULATION_LINEAR, 0.0, interest->moved, g, NULL));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    for (OstLocal i = 0; i < space->owned; i++)
+        g[i] = -g[i];
+    OST_TRY_DONE(adjoint_load(search, interest, t, u));
+    OST_TRY_DONE(ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
+                                        steps->z, &report));
+    OST_TRY_DONE(ost_pressure_complete(space, pressure));
+    ost_pressure_of_tets(space, pressure, of_tets);
+    status = ost_system_displacement(problem->system, 0.0, steps->z, steps->u);
+done:
+    OST_FREE(g);
+    OST_FREE(pressure);
+    return status;
+}
+
+/* r: what z and its pressure leave on the functions. `z` becomes the whole motion. */
+static OstStatus mixed_adjoint_residual(Search *search, const OstProblem *state, const double *z)
+{
+    OstSteps *steps = &search->steps;
+    OstOperator at_state = search->estimate->stiffness;
+    double *left = ost_steps_spare(steps);
+    at_state.problem = state;
+    OST_TRY(ost_agree(state->ctx, ost_operator_force(&at_state, 0.0, z, steps->force, left, &search->energy)));
+    memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
+    return ost_search_take(search, left);
+}
+
+/* The surplus of z and of its pressure. */
+static OstStatus find_mixed(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u,
+                            OstAdjoint *adjoint)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->node_count;
+    double *of_tets = NULL, *z = NULL, square;
+    OstMaterialField field;
+    OstProblem state;
+    OstStatus status = OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count);
+    OST_THEN(OST_NEW(problem->ctx, &z, numbers));
+    OST_THEN(OST_NEW(problem->ctx, &adjoint->pressure, 4 * (size_t)problem->mesh->tet_count));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    OST_TRY_DONE(solve_mixed_adjoint(search, interest, t, u, of_tets));
+    memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
+    for (size_t i = 0; i < numbers; i++)
+        z[i] = search->steps.u[i] + interest->moved[i];
+    ost_problem_at_pressure(problem, of_tets, &field, &state);
+    OST_TRY_DONE(mixed_adjoint_residual(search, &state, z));
+    OST_TRY_DONE(ost_search_iterate(search, 0.0, &square));
+    if (!search->steps.failed)
+        status = ost_pressure_error(search, solver, &(OstState){&state, z, 0.0}, adjoint->pressure);
+done:
+    OST_FREE(of_tets);
+    OST_FREE(z);
+    return status;
+}
+
+static OstStatus find_plain(Search *search, const OstInterest *interest, double t, const double *u, double share,
+                            OstAdjoint *adjoint)
 {
     double square;
-    search->of_adjoint = 1;
     OST_TRY(solve_adjoint(search, interest, t, u, share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     OST_TRY(adjoint_residual(search, interest));
-    OST_TRY(ost_search_iterate(search, 0.0, &square));
+    return ost_search_iterate(search, 0.0, &square);
+}
+
+static OstStatus find_adjoint(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u,
+                              double share, OstAdjoint *adjoint)
+{
+    search->of_adjoint = 1;
+    OST_TRY(search->estimate->problem->pressures ? find_mixed(search, solver, interest, t, u, adjoint)
+                                                 : find_plain(search, interest, t, u, share, adjoint));
     adjoint->size = search->longer * search->steps.size;
     memcpy(adjoint->e.rows, search->steps.e.rows, search->steps.rows * sizeof *adjoint->e.rows);
     memcpy(adjoint->e.functions, search->steps.e.functions,
@@ -251,7 +330,7 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
         status = ost_agree(problem->ctx, status);
     }
-    OST_THEN(find_adjoint(&search, interest, t, u, share, *adjoint));
+    OST_THEN(find_adjoint(&search, solver, interest, t, u, share, *adjoint));
     if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
     ost_steps_close(&search.steps);
@@ -267,6 +346,12 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
     OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
     *error *= status == OST_SUCCESS ? -adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
     ost_steps_close(&search.steps);
+    if (adjoint->pressure) {
+        double of_pressure = 0.0;
+        const OstState state = {estimate->problem, u, ost_problem_eigen_share(estimate->problem, t)};
+        OST_THEN(ost_pressure_work(estimate, &state, adjoint->pressure, &of_pressure));
+        *error += of_pressure;
+    }
     return status;
 }
 

@@ -214,25 +214,31 @@ double ost_search_largest(size_t count, const double *numbers)
     return most;
 }
 
+OstStatus ost_search_take(Search *search, const double *left)
+{
+    OstSteps *steps = &search->steps;
+    const double unit = search->estimate->stiffness.unit;
+    double most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
+    OST_TRY(ost_max(search->estimate->problem->ctx, 1, &most));
+    steps->size = most > 0.0 ? most / unit : 1.0;
+    ost_steps_take_residual(steps, left, steps->size * unit);
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->r.rows[i] /= steps->size * unit;
+    return OST_SUCCESS;
+}
+
 /* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
     OstSteps *steps = &search->steps;
     const OstEstimate *estimate = search->estimate;
     const OstProblem *problem = estimate->problem;
-    const double unit = estimate->stiffness.unit;
-    double *left = ost_steps_spare(steps), most; /* f - A u */
+    double *left = ost_steps_spare(steps); /* f - A u */
     OST_TRY(
         ost_agree(problem->ctx, ost_operator_force(&estimate->stiffness, t, u, steps->force, left, &search->energy)));
     ost_surplus_loads_add(&estimate->loads, problem, &estimate->complement, t, u, left);
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
-    most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
-    OST_TRY(ost_max(problem->ctx, 1, &most));
-    steps->size = most > 0.0 ? most / unit : 1.0;
-    ost_steps_take_residual(steps, left, steps->size * unit);
-    for (size_t i = 0; i < steps->rows; i++)
-        steps->r.rows[i] /= steps->size * unit;
-    return OST_SUCCESS;
+    return ost_search_take(search, left);
 }
 
 OstStatus ost_search_displacement(Search *search)
@@ -294,6 +300,35 @@ static OstStatus hand_out(Search *search, double *surplus)
     return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *surplus, surplus));
 }
 
+/* What e adds to displacements and stresses. */
+static OstStatus hand_out_all(Search *search, const OstProblem *state, const OstSurplus *surplus)
+{
+    OstOperator at_state = search->estimate->stiffness;
+    at_state.problem = state;
+    if (surplus->stress || surplus->node_stress)
+        ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions,
+                                search->longer * search->steps.size, surplus->node_stress, surplus->stress);
+    return surplus->displacement ? hand_out(search, surplus->displacement) : OST_SUCCESS;
+}
+
+/* Of a mixed form by linear theory: of the errors of displacement and pressure, which the e at hand stands for. */
+static OstStatus hand_out_mixed(Search *search, OstSolver *solver, double t, const double *u, const OstSurplus *surplus)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstState of = {problem, u, ost_problem_eigen_share(problem, t)};
+    double *of_tets = NULL;
+    OstMaterialField field;
+    OstProblem state;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count)));
+    ost_problem_at_pressure(problem, of_tets, &field, &state);
+    OstStatus status = ost_pressure_error(search, solver, &of, of_tets);
+    OST_THEN(ost_search_displacement(search));
+    OST_THEN(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
+    OST_THEN(hand_out_all(search, &state, surplus));
+    OST_FREE(of_tets);
+    return status;
+}
+
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
                             const OstSurplus *surplus)
 {
@@ -314,11 +349,9 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
-        if (status == OST_SUCCESS && surplus->tet_error && (surplus->stress || surplus->node_stress))
-            ost_operator_add_stress(&estimate->stiffness, search.steps.u, search.steps.e.functions,
-                                    search.longer * search.steps.size, surplus->node_stress, surplus->stress);
-        if (surplus->displacement)
-            OST_THEN(hand_out(&search, surplus->displacement));
+        const int is_mixed = surplus->displacement && estimate->problem->pressures && !estimate->stiffness.turned_by;
+        OST_THEN(is_mixed ? hand_out_mixed(&search, solver, t, u, surplus)
+                          : hand_out_all(&search, estimate->problem, surplus));
     }
     ost_steps_close(&search.steps);
     return status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/interest.h"
+#include "accuracy/estimate.h"
 
 #include "case/select.h"
 #include "core/error.h"

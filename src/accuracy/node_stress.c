@@ -102,6 +102,19 @@ static void find_large(const OstElasticity *at_nodes, int nodes, const OstSimd *
     }
 }
 
+/* Of a mixed form. */
+static void add_pressure(const OstElasticity *at_nodes, int nodes, OstSimd *stress)
+{
+    for (int a = 0; a < nodes && at_nodes->mixed; a++) {
+        double place[4];
+        OstSimd pressure;
+        find_place(a, place);
+        ost_pressure_at(at_nodes, place, &pressure);
+        for (int p = 0; p < 6; p++)
+            stress[6 * a + p] += pressure * at_nodes->m[ost_elasticity_at(at_nodes, a)][p];
+    }
+}
+
 /* Batches of tets that follow each other. */
 typedef struct Visit {
     const OstOperator *operator;
@@ -127,6 +140,7 @@ static void find_added(Visit *visit, OstSimd *found)
         slope[n] *= visit->factor;
     if (!base) {
         find_small(&visit->at_nodes, nodes, slope, found);
+        add_pressure(&visit->at_nodes, nodes, found);
         return;
     }
     OstSimd given[9 * OST_MAX_TET_NODES];

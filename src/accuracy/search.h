@@ -45,6 +45,9 @@ OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *sear
 /* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u);
 
+/* Collective. r, from forces left on the functions, and those in r.rows. */
+OstStatus ost_search_take(Search *search, const double *left);
+
 /* Collective. Steps until what is to come of |e|² is small; `start` is that of the part of e that was found
  * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
@@ -60,5 +63,23 @@ OstStatus ost_search_share(Search *search, double square, double *tet_error);
 
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);
+
+/* A displacement (3 × node_count, ghosts included) whose pressure the problem's field has. */
+typedef struct OstState {
+    const OstProblem *problem;
+    const double *u;
+    double eigen_share;
+} OstState;
+
+/* Collective, after the steps of a mixed form's estimate by linear theory. They have found the e of which A e balances
+ * what u and p leave; that is the displacement's error and what the pressure's brings with it, A e = A e_u + B'e_p. So
+ * e_p, linear in each tet, is what e leaves of the second equation, over what B A^-1 B' is about in a solve too; the
+ * displacement that this takes off e is found by steps as e was. (To do both again with what is left gains nothing.)
+ * of_tets (4 × tet_count, 0 on entry): e_p at the vertices; the search's e becomes e_u, already lengthened.
+ * steps.failed: not known. */
+OstStatus ost_pressure_error(Search *search, OstSolver *solver, const OstState *of, double *of_tets);
+
+/* Collective. The work of such a pressure on what a state leaves of the second equation. */
+OstStatus ost_pressure_work(const OstEstimate *estimate, const OstState *of, const double *of_tets, double *work);
 
 #endif

@@ -427,6 +427,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
         status = run_strategies(solver, f, u, &goal, report);
     report->method = solver->method != OST_METHOD_AUTO ? solver->method : solver->plan.first;
     solver->smallest = goal.smallest;
+    solver->scale = goal.scale;
     report_goal(&goal, stop->size, report);
     if (status == OST_SUCCESS)
         status = ost_goal_verdict(&goal);

@@ -66,6 +66,11 @@ OstStatus ost_solver_solve_unsymmetric(OstSolver *solver, const OstSaddle *saddl
  */
 OstStatus ost_solver_error(OstSolver *solver, double missing, const double *residual, double *error, int *found);
 
+/* Collective. The same of a mixed form, of residuals of both its equations, by factors of both or iterations, as
+ * above; the saddle has r_p for g, and its p, which has room for ghosts, becomes the error of p. */
+OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u,
+                                 double *e_u, int *found);
+
 /* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
  * `half`: of multigrid half a cycle will do, which is not symmetric. *found: 0 if the solver has no strategy. */
 OstStatus ost_solver_precondition(OstSolver *solver, int half, const double *r, double *z, int *found);

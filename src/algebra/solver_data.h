@@ -30,6 +30,7 @@ struct OstSolver {
     OstEpetraMap *map;
     double nonzeros;         /* of the matrix, over all ranks */
     double smallest;         /* eigenvalue of the last solve's preconditioned matrix; 0 if not known */
+    double scale;            /* of a mixed form's preconditioner, as its last solve has found it (saddle/error.h) */
     double setup_seconds;    /* for all strategies so far */
     double strategy_seconds; /* setup of the current one, until it is added to a step */
     int steps;               /* strategies that could not be built before the current one */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "algebra/saddle/error.h"
 #include "algebra/saddle/unsymmetric.h"
 #include "algebra/solver.h"
 #include "algebra/solver_data.h"
@@ -76,6 +77,36 @@ OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u
     snprintf(report->engine, sizeof report->engine, "Bramble-Pasciak CG, %s",
              solver->direct ? "MUMPS factors" : "ML cycle");
     return ost_saddle_solve(&system, &preconditioner, solver->saddle, f, u, goal, report);
+}
+
+static OstStatus find_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u, double *e_u,
+                            int *found)
+{
+    OstPreconditioner preconditioner;
+    OstCgSystem system;
+    if (solver->whole)
+        return ost_saddle_factors_solve(solver->whole, r_u, saddle->g, e_u, saddle->p);
+    ost_solver_system(solver, &system, &preconditioner);
+    if (missing < 1.0)
+        return ost_saddle_iterated_error(&system, &preconditioner, saddle, missing, r_u, e_u, found);
+    OST_TRY(ost_saddle_error(&system, &preconditioner, saddle, solver->scale, r_u, e_u));
+    for (size_t i = 0; i < 3 * (size_t)solver->matrix->rows; i++)
+        e_u[i] /= solver->smallest;
+    for (size_t i = 0; i < (size_t)saddle->coupling->rows; i++)
+        saddle->p[i] /= solver->smallest;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u,
+                                 double *e_u, int *found)
+{
+    *found = solver->whole || (ost_solver_has_preconditioner(solver) && solver->smallest > 0.0);
+    if (!*found)
+        return OST_SUCCESS;
+    ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);
+    const OstStatus status = find_error(solver, missing, saddle, r_u, e_u, found);
+    ost_ledger_leave(solver->ctx);
+    return status;
 }
 
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,

@@ -87,13 +87,13 @@ static double relative(double square_of_error, double square)
 }
 
 /* Stresses of the answer, of its error, and of the eigenstrain alone. */
-static OstStatus add_all_stresses(const OstProblem *problem, const double *displacement, const double *error,
-                                  double *sums)
+static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                                  const double *error, double *sums)
 {
     const double share = ost_problem_eigen_share(problem, 1.0);
     double *zero = NULL;
     ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
-    ost_visit_means(problem->mesh, problem->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
+    ost_visit_means(problem->mesh, of_error->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
     if (!ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
@@ -116,20 +116,20 @@ static OstStatus free_displacement(const OstMesh *mesh, double squares, double *
     return OST_SUCCESS;
 }
 
-OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement, const double *error,
-                           OstErrors *errors)
+OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                           const double *error, OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
-    double *internal = NULL, *of_error = NULL, *load = NULL, *straining = NULL;
+    double *internal = NULL, *wrong = NULL, *load = NULL, *straining = NULL;
     double sums[SUMS] = {0.0}, swollen = 0.0;
     OstStatus status = OST_NEW(ctx, &internal, n);
-    OST_THEN(OST_NEW(ctx, &of_error, n));
+    OST_THEN(OST_NEW(ctx, &wrong, n));
     OST_THEN(OST_NEW(ctx, &load, n));
     OST_THEN(OST_NEW(ctx, &straining, n));
     OST_THEN(ost_problem_force(problem, 1.0, displacement, internal));
-    OST_THEN(ost_problem_force(problem, 0.0, error, of_error));
-    OST_THEN(add_all_stresses(problem, displacement, error, sums));
+    OST_THEN(ost_problem_force(of_error, 0.0, error, wrong));
+    OST_THEN(add_all_stresses(problem, of_error, displacement, error, sums));
     if (status == OST_SUCCESS) {
         ost_problem_load(problem, 1.0, NULL, load);
         memcpy(straining, load, n * sizeof *load);
@@ -143,7 +143,7 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
         sums[DISPLACEMENT_ERROR] += error[i] * error[i];
     }
     for (size_t k = 0; k < n; k += 3)
-        add_node(problem, (OstLocal)(k / 3), internal + k, of_error + k, displacement + k, error + k, load + k,
+        add_node(problem, (OstLocal)(k / 3), internal + k, wrong + k, displacement + k, error + k, load + k,
                  straining + k, sums);
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
     OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
@@ -157,7 +157,7 @@ OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement
                           .stress = relative(sums[STRESS_ERROR], stress)};
 done:
     OST_FREE(internal);
-    OST_FREE(of_error);
+    OST_FREE(wrong);
     OST_FREE(load);
     OST_FREE(straining);
     return status;

@@ -50,9 +50,10 @@ typedef struct OstErrors {
     int asked;           /* is the residual asked for their reason, not rounding? */
 } OstErrors;
 
-/* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). */
-OstStatus ost_guard_errors(const OstProblem *problem, const double *displacement, const double *error,
-                           OstErrors *errors);
+/* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). Of a mixed
+ * form `problem` has the answer's pressure, and `of_error` that of the error; else they are the same. */
+OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                           const double *error, OstErrors *errors);
 
 /* The sizes that errors of an answer are relative to, and its errors where the solver could find them. */
 typedef struct OstSolvedFor {

@@ -40,8 +40,8 @@ static OstStatus find_worst(const OstResult *result, double *share, OstAnswerErr
     return OST_MPI(ctx, MPI_Bcast(answer->place, 3, MPI_DOUBLE, most.rank, ost_comm(ctx)));
 }
 
-/* Is a stress watched that the estimate knows: a mean one, or one at a place? The error of a mixed form has no
- * pressure. */
+/* Is a stress watched that the estimate knows: a mean one, or one at a place? With large rotations the error of a mixed
+ * form has no pressure. */
 static int watches_stress(const OstProblem *problem, int is_mean)
 {
     int any = 0;
@@ -49,7 +49,7 @@ static int watches_stress(const OstProblem *problem, int is_mean)
         const OstWatch *watch = &problem->scene->c->watches[w];
         any |= watch->kind == OST_WATCH_STRESS && (watch->region && watch->take == OST_TAKE_MEAN) == is_mean;
     }
-    return any && !problem->pressures;
+    return any && !(problem->pressures && !ost_problem_is_linear(problem));
 }
 
 static int watches_reaction(const OstProblem *problem)
@@ -148,6 +148,8 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
     const int shares =
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
+    OstProblem state = *problem; /* with the answer's pressure, if it has one */
+    state.field = result->field;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, shares ? kept : NULL, result->reactions);

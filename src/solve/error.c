@@ -87,7 +87,7 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
-    OST_TRY(ost_guard_errors(problem, search->solved->displacement, search->error, errors));
+    OST_TRY(ost_guard_errors(problem, problem, search->solved->displacement, search->error, errors));
     state(search, errors);
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,

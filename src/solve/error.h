@@ -21,8 +21,14 @@ typedef struct OstSolved {
     const double *rhs;    /* 3 × rows */
     double *unknowns;     /* 3 × rows; corrected, as is the displacement */
     double *displacement; /* 3 × node_count, ghosts included */
+    double *pressure;     /* of a mixed form; pressures->count, ghosts included; and of the tets' vertices, which */
+    double *of_tets;      /* the problem's field has */
 } OstSolved;
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
                           OstErrors *errors);
+
+/* Collective. The same of a mixed form, of both equations; the problem is at the answer's pressure. */
+OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+                                OstErrors *errors);
 
 #endif

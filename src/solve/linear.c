@@ -195,13 +195,12 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
 static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
 {
     const OstLinear *linear = analysis->work;
-    const OstSolved solved = {&result->solve, linear->rhs, linear->v, result->displacement};
-    if (linear->volume) { /* the solver has estimated the error that its residuals leave */
-        const double error = result->solve.error_estimate;
-        *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};
-        return OST_SUCCESS;
-    }
-    return ost_find_errors(analysis->problem, linear->stiffness.solver, &solved, once, errors);
+    const OstSolved solved = {&result->solve,       linear->rhs,      linear->v,
+                              result->displacement, linear->pressure, result->pressure};
+    OstProblem state = *analysis->problem; /* with the pressure reached, if there is one */
+    state.field = result->field;
+    return linear->volume ? ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, once, errors)
+                          : ost_find_errors(&state, linear->stiffness.solver, &solved, once, errors);
 }
 
 /* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
@@ -274,11 +273,10 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
                                       : run_solver(analysis, NULL, begins_at_start(analysis), result);
     if (!result->reached)
         return solved;
-    if (solved == OST_SUCCESS && !result->solve.stopped && !linear->volume)
+    if (solved == OST_SUCCESS && !result->solve.stopped)
         OST_TRY(find_errors(analysis, result, 0, &errors));
     OST_TRY(describe_rhs(problem, linear, solved_for));
-    if (!linear->volume)
-        solved_for->errors = errors;
+    solved_for->errors = errors;
     return solved;
 }
 

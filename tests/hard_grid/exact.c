@@ -59,7 +59,7 @@ static void find_internal(Exact *exact, const Twofold *displacement)
         for (int slot = 0; slot < batch.count; slot++) {
             Long u[3 * OST_MAX_TET_NODES], force[3 * OST_MAX_TET_NODES];
             gather(&batch, slot, element->nodes, displacement, u);
-            hard_exact_tet(&batch, slot, element->nodes, u, force, NULL);
+            hard_exact_tet(&batch, slot, element->nodes, u, NULL, force, NULL, NULL);
             for (int n = 0; n < 3 * element->nodes; n++)
                 if (batch.node[slot][n / 3] < mesh->owned_nodes)
                     exact->internal[3 * (size_t)batch.node[slot][n / 3] + (size_t)(n % 3)] += force[n];
@@ -162,11 +162,11 @@ static void add_stresses(const Exact *exact, const Twofold *off, double *sums)
         for (int slot = 0; slot < batch.count; slot++) {
             Long u[3 * OST_MAX_TET_NODES], stress[6];
             gather(&batch, slot, element->nodes, exact->u, u);
-            hard_exact_tet(&batch, slot, element->nodes, u, NULL, stress);
+            hard_exact_tet(&batch, slot, element->nodes, u, NULL, NULL, stress, NULL);
             for (int p = 0; p < 6; p++)
                 sums[STRESS] += (double)(stress[p] * stress[p]);
             gather(&batch, slot, element->nodes, off, u);
-            hard_exact_tet(&batch, slot, element->nodes, u, NULL, stress);
+            hard_exact_tet(&batch, slot, element->nodes, u, NULL, NULL, stress, NULL);
             for (int p = 0; p < 6; p++)
                 sums[STRESS_ERROR] += (double)(stress[p] * stress[p]);
         }

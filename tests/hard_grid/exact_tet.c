@@ -121,7 +121,24 @@ static Long mean_of_mode(const OstBatch *batch, int slot, int nodes, const OstQu
     return sum / volume;
 }
 
-void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, Long *force, Long mean[6])
+/* Adds m p to the stress, and a point's part of each vertex's share of m'strain - looseness p. */
+static void add_mixed(const OstBatch *batch, int slot, const OstQuadraturePoint *place, int at, const Point *point,
+                      const Long strain[6], const Long pressure[4], Long stress[6], Long *volume)
+{
+    Long mode = 0.0L, p = 0.0L;
+    for (int v = 0; v < 4; v++)
+        p += pressure[v] * (Long)place->at[v];
+    for (int s = 0; s < 6; s++) {
+        const Long m = batch->elasticity.m[at][s][slot];
+        stress[s] += p * m;
+        mode += m * strain[s];
+    }
+    for (int v = 0; v < 4 && volume; v++)
+        volume[v] += point->volume * (Long)place->at[v] * (mode - (Long)batch->elasticity.looseness[slot] * p);
+}
+
+void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, const Long pressure[4], Long *force,
+                    Long mean[6], Long volume_left[4])
 {
     const OstElasticity *elasticity = &batch->elasticity;
     const int by_mean = nodes > 4 && elasticity->by_mean;
@@ -130,6 +147,8 @@ void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, L
     Long volume = 0.0L, sum[6] = {0};
     if (force)
         memset(force, 0, 3 * (size_t)nodes * sizeof *force);
+    if (volume_left)
+        memset(volume_left, 0, 4 * sizeof *volume_left);
     for (int q = 0; q < rule->count; q++) {
         const int at = nodes == 4 ? 0 : ost_elasticity_at(elasticity, q);
         Point point;
@@ -137,6 +156,8 @@ void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, L
         evaluate(batch, slot, nodes, &rule->point[q], &point);
         strain_of(&point, nodes, u, strain);
         stress_of(elasticity, at, slot, strain, stress);
+        if (pressure && elasticity->mixed)
+            add_mixed(batch, slot, &rule->point[q], at, &point, strain, pressure, stress, volume_left);
         for (int p = 0; p < 6; p++) {
             stress[p] += by_mean ? stiff * (Long)elasticity->m[at][p][slot] : 0.0L;
             sum[p] += point.volume * stress[p];

@@ -7,7 +7,9 @@
 typedef long double Long;
 
 /* Local. Forces (3 × nodes) and mean stress of one tet of a batch, under displacements relative to its first node (3 ×
- * nodes). Either may be NULL. */
-void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, Long *force, Long stress[6]);
+ * nodes) and, of a mixed form, pressures at its vertices; `volume`: what they leave of each pressure's equation. All
+ * but the displacements may be NULL. */
+void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, const Long pressure[4], Long *force,
+                    Long stress[6], Long volume[4]);
 
 #endif

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/rounded_stiffness.h"
 #include "algebra/matrix/vector.h"
-#include "algebra/saddle/factors.h"
-#include "assembly/batch.h"
-#include "assembly/pressure/pressure_space.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "hard_grid/direct.h"
 #include "hard_grid/grid.h"
+#include "hard_grid/mixed_exact.h"
 
 #include <string.h>
 
@@ -24,7 +22,6 @@ static const double five_digits = 1e-5;
 
 typedef struct Mixed {
     OstContext *ctx;
-    const OstMaterialField *field;
     HardDirect direct;
     OstPressureSpace *space;
     OstCoupling *b;
@@ -185,68 +182,26 @@ static OstStatus compare_pressures(Mixed *mixed, const OstResult *result, double
     return OST_SUCCESS;
 }
 
-static void add_stresses(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
-                         const OstMeans *means)
-{
-    (void)element;
-    (void)u;
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6; p++)
-            *(double *)sum += means->stress[p][slot] * means->stress[p][slot];
-}
-
-/* Squares of the tets' mean stresses under a displacement of nodes and pressures, ghosts included. */
-static void stresses_of(const Mixed *mixed, const double *u, const double *p, double *of_tets, double *square)
-{
-    OstMaterialField field = *mixed->field;
-    field.pressure = of_tets;
-    ost_pressure_of_tets(mixed->space, p, of_tets);
-    ost_visit_means(mixed->space->mesh, &field, 0.0, u, add_stresses, square);
-}
-
-/* The stresses of both differences to those of the answer; du and dp hold the differences, dp with ghosts. */
-static OstStatus compare_stresses(Mixed *mixed, const OstResult *result, double *error)
-{
-    const OstMesh *mesh = mixed->space->mesh;
-    double *apart = NULL, *of_tets = NULL, sums[2] = {0.0};
-    OstStatus status = OST_NEW(mixed->ctx, &apart, 3 * (size_t)mesh->node_count);
-    OST_THEN(OST_NEW(mixed->ctx, &of_tets, 4 * (size_t)mesh->tet_count));
-    OST_TRY_DONE(ost_agree(mixed->ctx, status));
-    for (size_t i = 0; i < mixed->n; i++)
-        apart[3 * (size_t)mixed->direct.system->node_of_row[i / 3] + i % 3] =
-            mixed->du[i] - mixed->direct.u[i].high - mixed->direct.u[i].low;
-    OST_TRY_DONE(ost_agree(mixed->ctx, ost_halo_import(mesh->halo, 3 * sizeof *apart, apart)));
-    stresses_of(mixed, apart, mixed->dp, of_tets, &sums[0]);
-    for (size_t i = 0; i < 4 * (size_t)mesh->tet_count; i++)
-        if (mixed->space->of_tet[i] >= 0)
-            mixed->dp[mixed->space->of_tet[i]] = result->pressure[i];
-    stresses_of(mixed, result->displacement, mixed->dp, of_tets, &sums[1]);
-    OST_TRY_DONE(ost_sum(mixed->ctx, 2, sums));
-    *error = sqrt(sums[0] / sums[1]);
-done:
-    OST_FREE(apart);
-    OST_FREE(of_tets);
-    return status;
-}
-
 static OstStatus compare(Mixed *mixed, const OstResult *result, HardTruth *truth)
 {
     for (size_t i = 0; i < mixed->n; i++)
         mixed->du[i] = result->displacement[3 * (size_t)mixed->direct.system->node_of_row[i / 3] + i % 3];
     OST_TRY(distance(mixed, mixed->n, mixed->du, mixed->direct.u, &truth->error));
     truth->error /= truth->size;
-    OST_TRY(compare_pressures(mixed, result, &truth->pressure));
-    return compare_stresses(mixed, result, &truth->off.stress);
+    return compare_pressures(mixed, result, &truth->pressure);
 }
 
 OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, HardTruth *truth)
 {
-    Mixed mixed = {.ctx = scene->ctx, .field = scene->field};
+    Mixed mixed = {.ctx = scene->ctx};
     OstStatus status = create(scene, &mixed);
     truth->indefinite = status == OST_SUCCESS && ost_saddle_factors_negative(mixed.factors) > 0;
     OST_THEN(solve(&mixed, truth));
     if (truth->known && result)
         OST_THEN(compare(&mixed, result, truth));
+    if (truth->known && result)
+        OST_THEN(hard_find_mixed_exact(scene, &(HardMixed){&mixed.direct, mixed.space, mixed.b, mixed.factors}, result,
+                                       &truth->off));
     clear(&mixed);
     return status;
 }

@@ -43,7 +43,7 @@ def check_ranks(name, one, two):
 
 
 def mixed_forms_state_their_errors(folder):
-    """Bodies of nu = 1/2 against factors, in twice the precision: of one material, all are solved."""
+    """Bodies of nu = 1/2 against both equations as the tets have them: of one material, all are solved."""
     path = os.path.join(folder, "mixed.json")
     finished = run("--mixed", "--quick", "--json", path, "tube", "slivers", "layers", timeout=580, program=GRID)
     with open(path) as stream:
@@ -51,7 +51,8 @@ def mixed_forms_state_their_errors(folder):
     check(finished.exit_code == 0 and len(points) > 5, f"--mixed: {len(points)} points: {finished.output}{finished.errors}")
     for point in points:
         check(point["outcome"] in SOLVED, f"{point['point']}: {point['outcome']}: {point['reason']}")
-        check(point["pressure_error"] <= 3 * point["stated_forces"] < 1e-3, f"{point['point']}: {point['pressure_error']}")
+        true = max(point["stress_error"], point["reaction_error"])
+        check(true <= 3 * point["stated_forces"] < 1e-3, f"{point['point']}: {true}, stated {point['stated_forces']}")
     check(run("--mixed", "--size", "5000", "tube", program=GRID).exit_code == 2, "--mixed has no sizes")
 
 

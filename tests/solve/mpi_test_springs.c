@@ -221,7 +221,7 @@ static void forces_of_springs_have_the_error_of_reactions(void **state)
         u[3 * n + 2] = -0.2;
         error[3 * n + 2] = 3e-3;
     }
-    assert_success(ost_guard_errors(problem, u, error, &errors));
+    assert_success(ost_guard_errors(problem, problem, u, error, &errors));
     assert_close(errors.reaction, 3e-3 / 0.2, 1e-12);
     free(u);
     free(error);

@@ -422,6 +422,7 @@ static OstStatus report_error(Run *run, OstSolveReport *report)
     int again;
     ost_lanczos_extremes(&run->lanczos, &smallest, &largest);
     goal->smallest = smallest;
+    goal->scale = run->tau;
     report->error_estimate = report->energy_error = 0.0;
     report->condition_estimate = smallest > 0.0 ? largest / smallest : 0.0;
     if (goal->crude || goal->end == OST_END_PRECONDITIONER || !(smallest > 0.0))

@@ -44,8 +44,8 @@ int ost_reactions_allow_stop(const OstProblem *problem)
 
 int ost_reactions_have_adjoint(const OstProblem *problem)
 {
-    return problem->scene && any(problem->scene->c) && is_work(problem) && !problem->pressures &&
-           (ost_problem_is_linear(problem) || problem->conservative);
+    return problem->scene && any(problem->scene->c) && is_work(problem) &&
+           (ost_problem_is_linear(problem) || (problem->conservative && !problem->pressures));
 }
 
 /* One watched reaction of an answer. */
@@ -216,7 +216,8 @@ static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedR
     if (!wanted->is_kept)
         OST_THEN(create(wanted));
     if (wanted->adjoint) {
-        OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), &found->missing));
+        if (!problem->pressures) /* a mixed form is solved to its residual */
+            OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), &found->missing));
         OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, &found->error));
         found->known = status == OST_SUCCESS;
     }

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "problem/free_body.h"
+#include "solve/error.h"
+
+#include <math.h>
+#include <string.h>
+/* Below this an error need not be known better than one application of the preconditioner tells; above it, so large a
+ * part may be missing. */
+static const double small_error = 1e-6, part = 0.1;
+
+/* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
+ * and above which residual they are as asked for. */
+static const double forces_caution = 2.0, corrected_caution = 3.0;
+static const double worth_correcting = 1e-4, past_correcting = 0.5, large_residual = 1e-4;
+enum { MOST_CORRECTIONS = 20 };
+
+typedef struct Search {
+    const OstProblem *problem; /* at the answer's pressure */
+    OstSolver *solver;
+    const OstSolved *solved;
+    double *load;                  /* 3 × owned_nodes */
+    double *force;                 /* of nodes: internal forces, then the error */
+    double *r_u, *r_p, *e_u, *e_p; /* residuals and errors of the rows and pressures */
+    double *of_tets;               /* the error of the pressures, of tets */
+} Search;
+
+static OstStatus make_room(Search *search)
+{
+    const OstProblem *problem = search->problem;
+    OstContext *ctx = problem->ctx;
+    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    OstStatus status = OST_NEW(ctx, &search->r_u, 2 * rows);
+    OST_THEN(OST_NEW(ctx, &search->r_p, 2 * (size_t)problem->pressures->count));
+    OST_THEN(OST_NEW(ctx, &search->load, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &search->force, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &search->of_tets, 4 * (size_t)problem->mesh->tet_count));
+    OST_TRY(ost_agree(ctx, status));
+    search->e_u = search->r_u + rows;
+    search->e_p = search->r_p + problem->pressures->count;
+    return OST_SUCCESS;
+}
+
+static void release(Search *search)
+{
+    OST_FREE(search->r_u);
+    OST_FREE(search->r_p);
+    OST_FREE(search->load);
+    OST_FREE(search->force);
+    OST_FREE(search->of_tets);
+}
+
+/* What displacement and pressure leave of both equations, tet by tet. */
+static OstStatus find_residuals(Search *search)
+{
+    const OstProblem *problem = search->problem;
+    const double *u = search->solved->displacement;
+    OstStatus status = ost_problem_force(problem, 1.0, u, search->force);
+    OST_THEN(ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR,
+                                 ost_problem_eigen_share(problem, 1.0), u, search->r_p, NULL));
+    OST_TRY(ost_agree(problem->ctx, status));
+    for (OstLocal i = 0; i < problem->pressures->owned; i++)
+        search->r_p[i] = -search->r_p[i];
+    ost_problem_load(problem, 1.0, NULL, search->load);
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        search->load[i] -= search->force[i];
+    return ost_system_take_rows(problem->system, search->load, search->r_u);
+}
+
+/* `missing`: of the error, as in ost_solver_error. */
+static OstStatus measure(Search *search, double missing, OstErrors *errors)
+{
+    const OstProblem *problem = search->problem;
+    const OstSaddle saddle = {problem->coupling, search->r_p, search->e_p};
+    OstMaterialField field;
+    OstProblem of_error;
+    int found;
+    memset(search->e_u, 0, 3 * (size_t)problem->system->matrix->rows * sizeof *search->e_u);
+    memset(search->e_p, 0, (size_t)problem->pressures->count * sizeof *search->e_p);
+    OST_TRY(ost_solver_mixed_error(search->solver, missing, &saddle, search->r_u, search->e_u, &found));
+    if (!found)
+        return OST_SUCCESS;
+    OST_TRY(ost_pressure_complete(problem->pressures, search->e_p));
+    ost_pressure_of_tets(problem->pressures, search->e_p, search->of_tets);
+    ost_problem_at_pressure(problem, search->of_tets, &field, &of_error);
+    OST_TRY(ost_problem_displacement(problem, 0.0, search->e_u, search->force));
+    if (problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, search->force));
+    OST_TRY(ost_guard_errors(problem, &of_error, search->solved->displacement, search->force, errors));
+    ost_log(
+        problem->ctx, OST_LOG_VERBOSE,
+        "solver: to %g, the error of both equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",
+        missing, errors->displacement, errors->reaction, errors->stress);
+    return OST_SUCCESS;
+}
+
+static double largest(const OstErrors *errors)
+{
+    return errors->known ? fmax(errors->displacement, fmax(errors->reaction, errors->stress)) : 0.0;
+}
+
+static void take_correction(const Search *search)
+{
+    const OstProblem *problem = search->problem;
+    const OstSolved *solved = search->solved;
+    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
+        solved->unknowns[i] += search->e_u[i];
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
+        solved->displacement[i] += search->force[i];
+    for (size_t i = 0; i < (size_t)problem->pressures->count; i++)
+        solved->pressure[i] += search->e_p[i];
+    for (size_t i = 0; i < 4 * (size_t)problem->mesh->tet_count; i++)
+        solved->of_tets[i] += search->of_tets[i];
+}
+
+/* What is measured is a correction too. The equations as they are assembled are not those of the tets: corrections find
+ * what rounding their entries has cost, each to the share that it has cost. */
+static OstStatus correct(Search *search, OstErrors *errors)
+{
+    double before = INFINITY;
+    for (int k = 0; k < MOST_CORRECTIONS && largest(errors) > small_error && largest(errors) < 0.5 * before; k++) {
+        before = largest(errors);
+        take_correction(search);
+        OST_TRY(find_residuals(search));
+        OST_TRY(measure(search, part, errors));
+    }
+    errors->corrected = errors->known;
+    return OST_SUCCESS;
+}
+
+static OstStatus measure_all(Search *search, OstErrors *errors)
+{
+    const OstSolveReport *report = search->solved->report;
+    double caution = forces_caution;
+    OST_TRY(measure(search, 1.0, errors));
+    if (!(largest(errors) > small_error)) {
+        errors->displacement = fmax(errors->displacement, report->error_estimate);
+    } else {
+        OST_TRY(measure(search, part, errors));
+        if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
+            (report->rounding_limited || report->relative_residual <= large_residual))
+            OST_TRY(correct(search, errors));
+        if (errors->corrected)
+            caution = corrected_caution;
+        errors->displacement *= errors->corrected ? caution : 1.0;
+    }
+    errors->reaction *= caution;
+    errors->stress *= caution;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+                                OstErrors *errors)
+{
+    Search search = {.problem = problem, .solver = solver, .solved = solved};
+    *errors = (OstErrors){0};
+    OstStatus status = make_room(&search);
+    OST_THEN(find_residuals(&search));
+    OST_THEN(once ? measure(&search, 1.0, errors) : measure_all(&search, errors));
+    release(&search);
+    return status;
+}

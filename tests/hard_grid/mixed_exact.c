@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "hard_grid/mixed_exact.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "hard_grid/exact_tet.h"
+
+#include <math.h>
+
+enum { MOST_PASSES = 400, MOST_STALLS = 12, VERTICES = 4 };
+
+/* Corrections end when one changes the solution by the first, and it counts if one came below the second. */
+static const double last_digit = 1e-15, settled = 1e-10;
+
+typedef struct Exact {
+    const OstScene *scene;
+    const HardMixed *mixed;
+    const OstMesh *mesh;
+    size_t rows, pressures; /* of this rank */
+    Twofold *u, *p;         /* of all local nodes, and of all pressures: the solution */
+    Twofold *off_u, *off_p; /* the answer less these */
+    Long *internal;         /* of owned nodes */
+    Long *volume;           /* of owned pressures */
+    double *ru, *rp, *du, *dp;
+    double *step; /* du, of all local nodes */
+} Exact;
+
+/* Displacements less that of the first node, which makes no force, and pressures of a tet. */
+static void gather(const Exact *exact, const OstBatch *batch, int slot, const Twofold *u, const Twofold *p,
+                   Long *relative, Long *pressure)
+{
+    const Twofold *first = u + 3 * (size_t)batch->node[slot][0];
+    for (int n = 0; n < 3 * exact->mesh->nodes_per_tet; n++) {
+        const Twofold here = u[3 * (size_t)batch->node[slot][n / 3] + (size_t)(n % 3)];
+        relative[n] = ((Long)here.high - (Long)first[n % 3].high) + ((Long)here.low - (Long)first[n % 3].low);
+    }
+    for (int v = 0; v < VERTICES; v++) {
+        const OstLocal k = exact->mixed->space->of_tet[VERTICES * (size_t)batch->tet[slot] + (size_t)v];
+        pressure[v] = k < 0 ? 0.0L : (Long)p[k].high + (Long)p[k].low;
+    }
+}
+
+/* Internal forces and the second equation, and, unless NULL, the sum of the squared mean stresses of owned tets. */
+static void visit(Exact *exact, const Twofold *u, const Twofold *p, double *square)
+{
+    const OstMesh *mesh = exact->mesh;
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstBatch batch;
+    ost_elasticity_clear(&batch.elasticity);
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        exact->internal[i] = 0.0L;
+    for (size_t i = 0; i < exact->pressures; i++)
+        exact->volume[i] = 0.0L;
+    for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
+        ost_batch_gather_from(&batch, element, mesh, exact->scene->field, first, mesh->tet_count);
+        for (int slot = 0; slot < batch.count; slot++) {
+            Long relative[3 * OST_MAX_TET_NODES], force[3 * OST_MAX_TET_NODES], of_tet[VERTICES], stress[6], left[4];
+            gather(exact, &batch, slot, u, p, relative, of_tet);
+            hard_exact_tet(&batch, slot, element->nodes, relative, of_tet, force, stress, left);
+            for (int n = 0; n < 3 * element->nodes; n++)
+                if (batch.node[slot][n / 3] < mesh->owned_nodes)
+                    exact->internal[3 * (size_t)batch.node[slot][n / 3] + (size_t)(n % 3)] += force[n];
+            for (int v = 0; v < VERTICES; v++) {
+                const OstLocal k = exact->mixed->space->of_tet[VERTICES * (size_t)batch.tet[slot] + (size_t)v];
+                if (k >= 0 && k < (OstLocal)exact->pressures)
+                    exact->volume[k] += left[v];
+            }
+            for (int s = 0; s < 6 && square && batch.tet[slot] < mesh->owned_tets; s++)
+                *square += (double)(stress[s] * stress[s]);
+        }
+    }
+}
+
+/* P (f - internal forces), and minus the second equation. */
+static void find_residual(Exact *exact)
+{
+    const HardDirect *direct = exact->mixed->direct;
+    visit(exact, exact->u, exact->p, NULL);
+    for (OstLocal row = 0; row < direct->system->matrix->rows; row++) {
+        const size_t node = (size_t)direct->system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(direct->supports, (OstLocal)node, projector, NULL);
+        for (size_t i = 0; i < 3; i++) {
+            Long sum = 0.0L;
+            for (size_t j = 0; j < 3; j++)
+                sum += (Long)projector[3 * i + j] * ((Long)direct->force[3 * node + j] - exact->internal[3 * node + j]);
+            exact->ru[3 * (size_t)row + i] = (double)sum;
+        }
+    }
+    for (size_t i = 0; i < exact->pressures; i++)
+        exact->rp[i] = -(double)exact->volume[i];
+}
+
+/* How large the correction is beside the solution. */
+static OstStatus measure(const Exact *exact, double *change)
+{
+    double sums[4] = {0.0};
+    for (size_t i = 0; i < exact->rows; i++)
+        sums[0] += exact->du[i] * exact->du[i];
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++)
+        sums[1] += exact->u[i].high * exact->u[i].high;
+    for (size_t i = 0; i < exact->pressures; i++) {
+        sums[2] += exact->dp[i] * exact->dp[i];
+        sums[3] += exact->p[i].high * exact->p[i].high;
+    }
+    OST_TRY(ost_sum(exact->scene->ctx, 4, sums));
+    *change = sqrt(fmax(sums[0] / sums[1], sums[2] / sums[3]));
+    return OST_SUCCESS;
+}
+
+static OstStatus solve(Exact *exact, int *known)
+{
+    const HardMixed *mixed = exact->mixed;
+    double change = INFINITY, least = INFINITY;
+    int stalls = 0;
+    for (int pass = 0; pass < MOST_PASSES && stalls < MOST_STALLS && change > last_digit; pass++) {
+        find_residual(exact);
+        OST_TRY(ost_saddle_factors_solve(mixed->factors, exact->ru, exact->rp, exact->du, exact->dp));
+        OST_TRY(ost_system_displacement(mixed->direct->system, 0.0, exact->du, exact->step));
+        for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+            exact->u[i] = hard_plus(exact->u[i], exact->step[i]);
+        for (size_t i = 0; i < exact->pressures; i++)
+            exact->p[i] = hard_plus(exact->p[i], exact->dp[i]);
+        OST_TRY(ost_halo_import(mixed->coupling->halo, sizeof *exact->p, exact->p));
+        OST_TRY(measure(exact, &change));
+        if (!isfinite(change))
+            break;
+        stalls = change < 0.9 * least ? 0 : stalls + 1;
+        least = fmin(least, change);
+    }
+    *known = change <= settled;
+    return OST_SUCCESS;
+}
+
+static void add_reactions(const Exact *exact, const OstResult *result, double sums[2])
+{
+    const HardDirect *direct = exact->mixed->direct;
+    for (OstLocal node = 0; node < exact->mesh->owned_nodes; node++) {
+        double projector[9];
+        const size_t n = 3 * (size_t)node;
+        if (ost_supports_get(direct->supports, node, projector, NULL) == 0)
+            continue;
+        for (size_t i = 0; i < 3; i++) {
+            Long reaction = 0.0L;
+            for (size_t j = 0; j < 3; j++)
+                reaction +=
+                    ((i == j) - (Long)projector[3 * i + j]) * (exact->internal[n + j] - (Long)direct->force[n + j]);
+            const double off = result->reaction[n + i] - (double)reaction;
+            sums[0] += off * off;
+            sums[1] += (double)(reaction * reaction);
+        }
+    }
+}
+
+static OstStatus compare(Exact *exact, const OstResult *result, HardErrors *errors)
+{
+    enum { DISPLACEMENT, REACTION = 2, STRESS = 4, SUMS = 6 };
+    double sums[SUMS] = {0.0};
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->node_count; i++)
+        exact->off_u[i] = hard_plus((Twofold){-exact->u[i].high, -exact->u[i].low}, result->displacement[i]);
+    for (size_t i = 0; i < VERTICES * (size_t)exact->mesh->tet_count; i++) {
+        const OstLocal k = exact->mixed->space->of_tet[i];
+        if (k >= 0)
+            exact->off_p[k] = hard_plus((Twofold){-exact->p[k].high, -exact->p[k].low}, result->pressure[i]);
+    }
+    for (size_t i = 0; i < 3 * (size_t)exact->mesh->owned_nodes; i++) {
+        sums[DISPLACEMENT] += exact->off_u[i].high * exact->off_u[i].high;
+        sums[DISPLACEMENT + 1] += exact->u[i].high * exact->u[i].high;
+    }
+    visit(exact, exact->off_u, exact->off_p, &sums[STRESS]);
+    visit(exact, exact->u, exact->p, &sums[STRESS + 1]);
+    add_reactions(exact, result, &sums[REACTION]);
+    OST_TRY(ost_sum(exact->scene->ctx, SUMS, sums));
+    errors->displacement = sqrt(sums[DISPLACEMENT] / sums[DISPLACEMENT + 1]);
+    errors->reaction = sqrt(sums[REACTION] / sums[REACTION + 1]);
+    errors->stress = sqrt(sums[STRESS] / sums[STRESS + 1]);
+    return OST_SUCCESS;
+}
+
+static OstStatus create(const OstResult *result, Exact *exact)
+{
+    OstContext *ctx = exact->scene->ctx;
+    const OstMesh *mesh = exact->mesh;
+    const size_t nodes = 3 * (size_t)mesh->node_count, owned = 3 * (size_t)mesh->owned_nodes;
+    const size_t pressures = (size_t)exact->mixed->space->count;
+    OstStatus status = OST_NEW(ctx, &exact->u, 2 * (nodes + pressures));
+    OST_THEN(OST_NEW(ctx, &exact->internal, owned + exact->pressures));
+    OST_THEN(OST_NEW(ctx, &exact->ru, 2 * (exact->rows + pressures) + nodes));
+    OST_TRY(ost_agree(ctx, status));
+    exact->off_u = exact->u + nodes;
+    exact->p = exact->off_u + nodes;
+    exact->off_p = exact->p + pressures;
+    exact->volume = exact->internal + owned;
+    exact->du = exact->ru + exact->rows;
+    exact->rp = exact->du + exact->rows;
+    exact->dp = exact->rp + pressures;
+    exact->step = exact->dp + pressures;
+    for (size_t i = 0; i < nodes; i++)
+        exact->u[i] = (Twofold){result->displacement[i], 0.0};
+    for (size_t i = 0; i < VERTICES * (size_t)mesh->tet_count; i++)
+        if (exact->mixed->space->of_tet[i] >= 0)
+            exact->p[exact->mixed->space->of_tet[i]] = (Twofold){result->pressure[i], 0.0};
+    return OST_SUCCESS;
+}
+
+OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
+                                HardErrors *errors)
+{
+    Exact exact = {.scene = scene,
+                   .mixed = mixed,
+                   .mesh = scene->mesh,
+                   .rows = mixed->direct->n,
+                   .pressures = (size_t)mixed->coupling->rows};
+    *errors = (HardErrors){0, NAN, NAN, NAN};
+    OstStatus status = create(result, &exact);
+    OST_THEN(solve(&exact, &errors->known));
+    if (errors->known)
+        OST_THEN(compare(&exact, result, errors));
+    OST_FREE(exact.u);
+    OST_FREE(exact.internal);
+    OST_FREE(exact.ru);
+    return status;
+}
