@@ -148,8 +148,6 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
     const int shares =
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
-    OstProblem state = *problem; /* with the answer's pressure, if it has one */
-    state.field = result->field;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, shares ? kept : NULL, result->reactions);
