@@ -9,8 +9,8 @@
 #include <string.h>
 #include <strings.h>
 
-/* By the Exodus manual (SAND92-2137) types are told by their first three letters, in any capitals. The nodes of tets
- * and triangles are in VTK's order. */
+/* Types are told by their first three letters, as Exodus' own library does it, in any capitals. The nodes of tets and
+ * triangles are in VTK's order. */
 static const OstExodusType types[] = {
     {"TET", 4, 3, OST_CELL_TET4, NULL},      {"TET", 10, 3, OST_CELL_TET10, NULL},
     {"TRI", 3, 2, OST_CELL_TRIANGLE3, NULL}, {"TRI", 6, 2, OST_CELL_TRIANGLE6, NULL},

@@ -22,8 +22,8 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
 typedef enum { OST_FIELD_OF_NUMBERS, OST_FIELD_OF_DIRECTIONS } OstFieldUse;
 
 /* Collective. Adds to the chunk that was read from the file a field, by its name, as further columns of its
- * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh file states none. A tet takes the mean of its vertices
- * where the field is on nodes: $NodeData of .msh, PointData of .vtu, .vtk and .vtkhdf. */
+ * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh or Exodus file states none. A tet takes the mean of
+ * its vertices where the field is on nodes: $NodeData of .msh, PointData of .vtu, .vtk and .vtkhdf, nodal variables. */
 OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
                                    OstMeshChunk *chunk);
 
