@@ -104,7 +104,7 @@ static OstStatus take_cycle(OstSteps *steps, int half, int *found)
 /* The elements' own unknowns take part in every other step: hardly more steps are needed so, and a multigrid cycle, or
  * half of one, takes longer than a product with A. On quadratic tets, where that is most of the time, the first two
  * steps are without. Half a cycle does: |e| of small tubes of linear tets is less by 1 to 2 %, the effectivity of
- * `verify` the same within 0.01, on quadratic tets within 0.02, and within 0.04 where shear locks them. */
+ * `verify` the same within 0.01, on quadratic tets within 0.02, and within 0.04 at E/G = 200. */
 static OstStatus precondition(OstSteps *steps)
 {
     int found = 1;
