@@ -39,6 +39,12 @@ static void find_strain(const Cells *cells, OstFormulation formulation, int q, c
     ost_elastic_strain(elasticity, ost_elasticity_at(elasticity, q), strain, elastic);
 }
 
+/* Is the material of quadratic tets known by the line of its axes alone? */
+static inline int is_about_line(const Cells *cells)
+{
+    return cells->nodes == 10 && cells->batch.elasticity.about_line;
+}
+
 /* The first Piola stress, times the volume; `mean` is that of the stiff mode over the tet. */
 static void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
                         const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
@@ -46,10 +52,13 @@ static void find_stress(const Cells *cells, OstFormulation formulation, int q, c
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     const OstElasticity *elasticity = &cells->batch.elasticity;
     const int at = ost_elasticity_at(elasticity, q);
-    OstSimd elastic[6], stress[6];
+    OstSimd elastic[6], stress[6], tensor[6];
     OstPolar polar;
     find_strain(cells, formulation, q, slope, &polar, elastic);
-    if (elasticity->by_stretch)
+    if (is_about_line(cells)) {
+        ost_straight_stretch(cells->batch.x, elasticity, cells->rule->point[q].at, tensor);
+        ost_stretch_stress(tensor, elasticity->shear, elastic, stress);
+    } else if (elasticity->by_stretch)
         ost_stretch_stress(elasticity->stretch_tensor, elasticity->shear, elastic, stress);
     else
         ost_simd_stress(elasticity->c[at], elastic, stress);
@@ -256,7 +265,7 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
         at_nodes[n] = -at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing && cells->batch.elasticity.about_line)
+    if (sum->missing && cells->nodes == 4 && cells->batch.elasticity.about_line)
         add_own_about_line(sum->operator, cells, moved, sum->force);
     else if (sum->missing)
         add_own(sum->operator, cells, element, sum->u, sum->force);
@@ -271,8 +280,8 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
-    cells.batch.elasticity.line_suffices = cells.nodes == 4 && one->formulation == OST_FORMULATION_LINEAR &&
-                                           !ost_field_is_eigenstrained(one->operator->problem->field);
+    cells.batch.elasticity.line_suffices =
+        one->formulation == OST_FORMULATION_LINEAR && !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
         for (int k = 0; k < count; k++)
@@ -376,6 +385,7 @@ static OstStatus multiply(void *complement, int count, void *const *product)
     Cells cells;
     (void)complement;
     clear_cells(operator, 0, 0.0, &cells);
+    cells.batch.elasticity.line_suffices = cells.nodes == 10 && !cells.turned_by;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(operator, first, mesh->tet_count, &cells);
         for (int k = 0; k < count; k++)
@@ -412,6 +422,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
         return;
     }
     clear_cells(operator, 0, 0.0, &cells);
+    cells.batch.elasticity.line_suffices = cells.nodes == 10 && !cells.turned_by;
     for (OstLocal first = 0; first < mesh->owned_tets; first += OST_SIMD_WIDTH) {
         OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
         OstSimd sum = {0};
@@ -429,6 +440,36 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
 }
 
 /* --- the functions' own blocks --- */
+
+/* With A at a point and g the gradient there: (1 - shear) A g (A g)' + shear (g'A g) A. */
+static inline void add_stretch_block(const OstSimd a[6], double shear, const OstSimd *volume, const OstSimd g[3],
+                                     OstSimd block[9])
+{
+    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    OstSimd along[3];
+    for (int i = 0; i < 3; i++)
+        along[i] = a[place[3 * i]] * g[0] + a[place[3 * i + 1]] * g[1] + a[place[3 * i + 2]] * g[2];
+    const OstSimd size = shear * *volume * (g[0] * along[0] + g[1] * along[1] + g[2] * along[2]);
+    for (int p = 0; p < 6; p++) { /* the others are not asked for */
+        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
+        block[3 * i + j] += (1.0 - shear) * *volume * along[i] * along[j] + size * a[p];
+    }
+}
+
+/* Of quadratic tets whose axes are known by their line. */
+static void add_blocks_about_line(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
+{
+    const OstElasticity *elasticity = &cells->batch.elasticity;
+    memset(block, 0, OST_MAX_FUNCTIONS * sizeof *block);
+    for (int q = 0; q < cells->rule->count; q++) {
+        OstSimd gradient[OST_MAX_FUNCTIONS][3], tensor[6];
+        OstPoint point;
+        evaluate(cells, element, q, &point, gradient);
+        ost_straight_stretch(cells->batch.x, elasticity, cells->rule->point[q].at, tensor);
+        for (int k = 0; k < cells->functions; k++)
+            add_stretch_block(tensor, elasticity->shear, &point.volume, gradient[k], block[k]);
+    }
+}
 
 static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
 {
@@ -485,6 +526,7 @@ static void sum_blocks(const OstOperator *operator, double * sum)
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
     clear_cells(operator, 0, 0.0, &cells);
+    cells.batch.elasticity.line_suffices = cells.nodes == 10 && !cells.turned_by;
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);
@@ -492,6 +534,8 @@ static void sum_blocks(const OstOperator *operator, double * sum)
             ost_linear_tets_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
             ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
+        else if (is_about_line(&cells))
+            add_blocks_about_line(&cells, element, block);
         else
             add_blocks(&cells, element, block);
         if (cells.turned_by)

@@ -2,6 +2,7 @@
 #include "accuracy/straight.h"
 
 #include "core/kernel.h"
+#include "element/shape_functions.h"
 #include "element/strain_batch.h"
 #include "element/tets.h"
 
@@ -131,9 +132,33 @@ static inline void integrate(const Straight *tet, const OstSimd *c, OstSimd stra
     }
 }
 
+void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6])
+{
+    double shape[OST_MAX_TET_NODES];
+    OstSimd fourfold[3] = {{0}};
+    ost_shape_values(VERTICES + EDGES, at, shape);
+    for (int a = 0; a < VERTICES + EDGES; a++)
+        for (int i = 0; i < 3; i++)
+            fourfold[i] += 4.0 * shape[a] * x[3 * a + i];
+    ost_stretch_at(elasticity, fourfold, tensor);
+}
+
+/* Of C at point q. */
+static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, int q,
+                               const OstSimd strain[6], OstSimd stress[6])
+{
+    OstSimd tensor[6];
+    if (!elasticity->about_line) {
+        ost_simd_stress(elasticity->c[q], strain, stress);
+        return;
+    }
+    ost_straight_stretch(x, elasticity, rule->point[q].at, tensor);
+    ost_stretch_stress(tensor, elasticity->shear, strain, stress);
+}
+
 /* The same by quadrature, of a C that varies. */
-static inline void integrate_points(const Straight *tet, const OstElasticity *elasticity, const OstQuadrature *rule,
-                                    OstSimd strain[PRODUCTS][6], OstSimd moment[PRODUCTS][6])
+static inline void integrate_points(const OstSimd *x, const Straight *tet, const OstElasticity *elasticity,
+                                    const OstQuadrature *rule, OstSimd strain[PRODUCTS][6], OstSimd moment[PRODUCTS][6])
 {
     memset(moment, 0, PRODUCTS * sizeof *moment);
     for (int q = 0; q < rule->count; q++) {
@@ -147,7 +172,7 @@ static inline void integrate_points(const Straight *tet, const OstElasticity *el
         for (int k = 0; k < PRODUCTS; k++)
             for (int p = 0; p < 6; p++)
                 here[p] += product[k] * strain[k][p];
-        ost_simd_stress(elasticity->c[q], here, stress);
+        find_stress(x, elasticity, rule, q, here, stress);
         for (int p = 0; p < 6; p++) {
             const OstSimd weighted = rule->point[q].weight * tet->volume * stress[p];
             for (int k = 0; k < PRODUCTS; k++)
@@ -220,7 +245,7 @@ OST_KERNEL void ost_straight_forces(const OstSimd *x, const OstElasticity *elast
     if (elasticity->points == 1)
         integrate(&tet, elasticity->c[0], strain, moment);
     else
-        integrate_points(&tet, elasticity, rule, strain, moment);
+        integrate_points(x, &tet, elasticity, rule, strain, moment);
     find_own_forces(&tet, moment, at_nodes);
     find_surplus_forces(&tet, moment, at_functions);
 }

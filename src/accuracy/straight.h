@@ -16,6 +16,10 @@ int ost_straight_all(const OstSimd *x);
 void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
                          const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions);
 
+/* Local. The stretch tensor at a point of the tets, which may be curved, where only the axes' line is known
+ * (elasticity->about_line). */
+void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6]);
+
 /* Local. The functions' own 3×3 blocks of the stiffness with a uniform C. */
 void ost_straight_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd block[OST_MAX_FUNCTIONS][9]);
 

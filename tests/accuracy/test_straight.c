@@ -2,6 +2,7 @@
 #include "../support.h"
 
 #include "accuracy/straight.h"
+#include "element/shape_functions.h"
 #include "element/strain_batch.h"
 
 #include <math.h>
@@ -139,6 +140,58 @@ static void a_varying_stiffness_is_taken_at_the_points(void **state)
     assert_near(at_functions, expected[1], 3 * FUNCTIONS);
 }
 
+/* C_ijkl = (1 - 2 shear) A_ij A_kl + shear (A_ik A_jl + A_il A_jk) */
+static void spread_stretch(const OstSimd a[6], double shear, OstSimd *c)
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int p = 0; p < 6; p++)
+        for (int q = p; q < 6; q++) {
+            const int i = p % 3, j = p < 3 ? i : (i + 1) % 3, k = q % 3, l = q < 3 ? k : (k + 1) % 3;
+            c[ost_upper[p][q]] = (1.0 - 2.0 * shear) * a[place[i][j]] * a[place[k][l]] +
+                                 shear * (a[place[i][k]] * a[place[j][l]] + a[place[i][l]] * a[place[j][k]]);
+        }
+}
+
+/* Axes about the line x = -1, y = 0.5, along z: stretches 3, 2 and 1 along the radius, around, and along the line. */
+static void axes_about_a_line_need_no_stiffness(void **state)
+{
+    (void)state;
+    unsigned seed = 17U;
+    OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], expected[2][3 * NODES];
+    OstSimd at_nodes[3 * NODES], at_functions[3 * FUNCTIONS];
+    OstElasticity elasticity;
+    make(&seed, 0.1, x, &elasticity);
+    fill(&seed, 3 * NODES, u);
+    fill(&seed, 3 * FUNCTIONS, w);
+    elasticity.points = ost_tet_degree5.count;
+    elasticity.shear = 0.3;
+    for (int q = 0; q < elasticity.points; q++) {
+        double shape[NODES];
+        OstSimd d[2] = {(OstSimd){0} + 1.0, (OstSimd){0} - 0.5}, a[6] = {{0}};
+        ost_shape_values(NODES, ost_tet_degree5.point[q].at, shape);
+        for (int n = 0; n < 2 * NODES; n++)
+            d[n % 2] += shape[n / 2] * x[3 * (n / 2) + n % 2];
+        const OstSimd square = d[0] * d[0] + d[1] * d[1];
+        a[0] = 2.0 + d[0] * d[0] / square;
+        a[1] = 2.0 + d[1] * d[1] / square;
+        a[2] += 1.0;
+        a[3] = d[0] * d[1] / square;
+        spread_stretch(a, elasticity.shear, elasticity.c[q]);
+    }
+    ost_straight_forces(x, &elasticity, &ost_tet_degree5, u, w, expected[0], expected[1]);
+    memset(elasticity.c, 0, sizeof elasticity.c);
+    elasticity.about_line = 1;
+    elasticity.origin[0] -= 4.0; /* fourfold */
+    elasticity.origin[1] += 2.0;
+    elasticity.axis[2] += 1.0;
+    elasticity.radial += 1.0;
+    for (int i = 0; i < 3; i++)
+        elasticity.about_axis[i] += i < 2 ? 2.0 : 1.0;
+    ost_straight_forces(x, &elasticity, &ost_tet_degree5, u, w, at_nodes, at_functions);
+    assert_near(at_nodes, expected[0], 3 * NODES);
+    assert_near(at_functions, expected[1], 3 * FUNCTIONS);
+}
+
 /* A turn of a curved tet as a whole makes no force, and all forces together make none and no moment. */
 static void curved_tets_know_rotations(void **state)
 {
@@ -174,6 +227,7 @@ static void curved_tets_know_rotations(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(straight_tets_are_integrated_without_error),
     cmocka_unit_test(a_varying_stiffness_is_taken_at_the_points),
+    cmocka_unit_test(axes_about_a_line_need_no_stiffness),
     cmocka_unit_test(curved_tets_know_rotations),
 };
 
