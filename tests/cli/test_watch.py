@@ -71,6 +71,23 @@ watch:
     check(all(entry["error"] is None for entry in report["watched"].values()), f"not asked for: {report['watched']}")
 
 
+def what_has_no_error_is_told_in_words():
+    """Under uniform stress linear tets are exact; no support acts on the pulled end."""
+    text = CASE + """  free: {reaction: {boundary: xmax}, component: x}
+  moment: {reaction: {boundary: xmax}, about: [0, 0, 0], component: y}
+  still: {displacement: {nearest: [0, 0, 0]}, component: x}
+"""
+    for residual, words in (("1e-10", "exact but for rounding"), ("1e-3", "exact but for the error of the equations")):
+        finished, report, _ = solve(text.replace("1e-10", residual) + "solver: {method: metric}\n", ranks=2)
+        printed = {line.split()[0]: line for line in finished.output.splitlines() if line.split()}
+        for name in ("tip", "work"):
+            check(words in printed[name] and "+-" not in printed[name], f"{name}, residual {residual}: {printed[name]}")
+        for name in ("free", "moment"):
+            check(report["watched"][name]["value"] == 0 and report["watched"][name]["error"] == 0, f"{name}: {report['watched']}")
+            check("0, as no support acts there along it" in printed[name], f"{name}: {printed[name]}")
+        check("exact but for rounding" in printed["still"], f"a held vertex: {printed['still']}")
+
+
 def reactions_balance_the_loads():
     """Statics alone gives these; summed over its nodes, what a solve that stops early leaves of one is a percent off."""
     heavy = """mesh: {block: {size: [8, 1, 1], divisions: [16, 2, 2]}}
@@ -142,6 +159,7 @@ def main():
     for ranks in (1, 2):
         is_printed_and_in_json(ranks)
     errors_are_stated()
+    what_has_no_error_is_told_in_words()
     reactions_balance_the_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()
     nothing_watched_is_nothing_in_json()
