@@ -21,8 +21,8 @@ static const double near_enough = 0.1;
 static const double worth_words = 1e-3;
 static const double most_off = 0.1;
 
-/* An error of the mesh below the first share is rounding; equations that were solved to the second leave no more. */
-static const double rounding = 1e-12, solved = 1e-8;
+/* An error below this share is rounding, as is a reaction of the body's. */
+static const double rounding = 1e-12;
 
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
 {
@@ -239,17 +239,14 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
                      watch->line);
 }
 
-/* Why there is no error of the mesh, in words. */
-static const char *find_exact(const OstResult *result, const OstWatch *watch, const OstWatched *watched)
+/* Why there is no error of the mesh, in words. What the equations leave is in the estimate's residual: it is then none.
+ */
+static const char *find_exact(const OstWatch *watch, const OstWatched *watched)
 {
-    const OstChecks *checks = &result->checks;
-    const double left = fmax(checks->relative_residual, fmax(checks->displacement_error, checks->force_error));
     if (watched->exact || !(fabs(watched->error) <= rounding * fmax(fabs(watched->value), watched->scale)))
         return watched->exact;
-    if (watched->error == 0.0 && watch->kind == OST_WATCH_REACTION)
-        return "which statics alone gives";
-    return watched->error == 0.0 || left <= solved ? "exact but for rounding"
-                                                   : "exact but for the error of the equations";
+    return watched->error == 0.0 && watch->kind == OST_WATCH_REACTION ? "which statics alone gives"
+                                                                      : "exact but for rounding";
 }
 
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
@@ -260,7 +257,7 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
     watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
-    watched->exact = find_exact(result, watch, watched);
+    watched->exact = find_exact(watch, watched);
     return OST_SUCCESS;
 }
 
