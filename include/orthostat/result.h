@@ -141,7 +141,8 @@ typedef struct OstWatchedValue {
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
     int placed;     /* is it a least or largest value, and `place` where it is? */
     double place[3];
-    const char *why; /* is the error not known although the estimate was asked for; NULL else */
+    const char *why;   /* is the error not known although the estimate was asked for; NULL else */
+    const char *exact; /* why the value has no error of the mesh, in words; NULL: it has one, or it is not known */
 } OstWatchedValue;
 
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or

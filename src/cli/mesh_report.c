@@ -114,7 +114,7 @@ OstStatus ost_mesh_report_make(const OstMesh *mesh, OstMeshReport *counts)
     OST_TRY(add_up(mesh, counts));
     OST_TRY(ost_mesh_bounds(mesh, counts->low, counts->high));
     OST_TRY(ost_mesh_surface_faces(mesh, &counts->surface_faces));
-    OST_TRY(ost_mesh_count_coincident(mesh, &counts->coincident, &counts->tolerance));
+    OST_TRY(ost_mesh_count_coincident(mesh, NULL, &counts->coincident, &counts->tolerance));
     return ost_components_create(mesh, &counts->components);
 }
 

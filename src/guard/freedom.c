@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "guard/guard.h"
 
+#include "assembly/links/links.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "guard/freedom_report.h"
@@ -115,6 +116,20 @@ static OstStatus judge(const Freedom *freedom)
     return OST_SUCCESS;
 }
 
+/* Collective. Vertices that coincide with others, where no link joins them: of two that a tie joins one follows, the
+ * other leads. */
+static OstStatus count_coincident(Freedom *freedom, const OstLinks *links)
+{
+    const OstMesh *mesh = freedom->mesh;
+    unsigned char *joined = NULL;
+    OST_TRY(ost_agree(freedom->ctx, OST_NEW(freedom->ctx, &joined, mesh->owned_nodes)));
+    for (OstLocal n = 0; links && n < mesh->owned_nodes; n++)
+        joined[n] = links->of_node[n] >= 0 || links->leads[n];
+    const OstStatus status = ost_mesh_count_coincident(mesh, joined, &freedom->coincident, &freedom->merge_tolerance);
+    OST_FREE(joined);
+    return status;
+}
+
 static OstStatus check(Freedom *freedom, const OstSupports *supports)
 {
     OstContext *ctx = freedom->ctx;
@@ -122,7 +137,7 @@ static OstStatus check(Freedom *freedom, const OstSupports *supports)
     OST_TRY(ost_agree(ctx, make_frames(freedom)));
     OST_TRY(ost_ties_create(freedom->mesh, supports, freedom->components, freedom->frames, &freedom->ties));
     if (freedom->components->count > 1)
-        OST_TRY(ost_mesh_count_coincident(freedom->mesh, &freedom->coincident, &freedom->merge_tolerance));
+        OST_TRY(count_coincident(freedom, supports->links));
     return ost_agree(ctx, judge(freedom));
 }
 

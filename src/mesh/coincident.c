@@ -206,7 +206,8 @@ static OstStatus find_shortest_edge(const OstMesh *mesh, double *shortest)
     return ost_min(mesh->ctx, 1, shortest);
 }
 
-OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance)
+OstStatus ost_mesh_count_coincident(const OstMesh *mesh, const unsigned char *joined, OstGlobal *count,
+                                    double *tolerance)
 {
     OstContext *ctx = mesh->ctx;
     const OstPoints points = {ctx, mesh->first_node, mesh->owned_nodes, mesh->coordinates};
@@ -220,7 +221,7 @@ OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, doubl
     if (status == OST_SUCCESS)
         status = ost_coincident_find(&points, *tolerance, lowest);
     for (OstLocal i = 0; i < mesh->owned_nodes && status == OST_SUCCESS; i++)
-        *count += lowest[i] != mesh->first_node + i;
+        *count += lowest[i] != mesh->first_node + i && !(joined && joined[i]);
     OST_FREE(lowest);
     OST_TRY(status);
     return ost_sum_numbers(ctx, 1, count);

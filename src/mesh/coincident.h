@@ -17,7 +17,9 @@ typedef struct OstPoints {
 OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlobal *lowest);
 
 /* Collective. The number of vertices that coincide with others to `tolerance`: a hundredth of the shortest edge,
- * rounded down to one digit. Joining them to this tolerance cannot make a tet collapse. */
-OstStatus ost_mesh_count_coincident(const OstMesh *mesh, OstGlobal *count, double *tolerance);
+ * rounded down to one digit. Joining them to this tolerance cannot make a tet collapse. Those that are `joined` in
+ * another way (owned_nodes; NULL: none) do not count. */
+OstStatus ost_mesh_count_coincident(const OstMesh *mesh, const unsigned char *joined, OstGlobal *count,
+                                    double *tolerance);
 
 #endif

@@ -21,6 +21,9 @@ static const double near_enough = 0.1;
 static const double worth_words = 1e-3;
 static const double most_off = 0.1;
 
+/* An error below this share is rounding, as is a reaction of the body's. */
+static const double rounding = 1e-12;
+
 OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
 {
     if (watch->kind != OST_WATCH_DISPLACEMENT)
@@ -90,22 +93,52 @@ static void take_adjoint(const OstScene *scene, const OstResult *result, const O
         }
 }
 
+/* The size of the forces, or moments, that a selection's reaction is the sum of, along what is watched, and that of all
+ * the body's: below a rounding's share of it the first is none. */
+static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal count, const OstLocal *nodes, int *yes)
+{
+    const OstLocal owned = result->mesh->owned_nodes;
+    double sums[2] = {0.0};
+    for (OstLocal n = 0; n < count; n++) {
+        double force[3] = {0.0};
+        if (nodes[n] < owned)
+            add_reaction(result, watch, nodes[n], force);
+        sums[0] += fabs(component_of(force, watch->component));
+    }
+    for (OstLocal n = 0; n < owned; n++) {
+        double force[3] = {0.0};
+        add_reaction(result, watch, n, force);
+        sums[1] += ost_norm3(force);
+    }
+    OST_TRY(ost_sum(result->ctx, 2, sums));
+    *yes = sums[0] > rounding * sums[1];
+    return OST_SUCCESS;
+}
+
 static OstStatus reaction(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     OstContext *ctx = scene->ctx;
     OstLocal *nodes = NULL;
     OstLocal count = 0;
     double sum[3] = {0.0};
+    int does_act = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
     for (OstLocal n = 0; n < count; n++)
         if (nodes[n] < scene->mesh->owned_nodes)
             add_reaction(result, watch, nodes[n], sum);
+    OstStatus status = acts(result, watch, count, nodes, &does_act);
     OST_FREE(nodes);
-    OST_TRY(ost_sum(ctx, 3, sum));
+    OST_THEN(ost_sum(ctx, 3, sum));
+    OST_TRY(status);
     watched->value = component_of(sum, watch->component);
     watched->error = NAN;
     watched->scale = ost_norm3(sum);
     take_adjoint(scene, result, watch, watched);
+    if (does_act || scene->c->free_body) /* which has words of its own */
+        return OST_SUCCESS;
+    watched->value = watched->error = 0.0;
+    watched->exact =
+        watch->component == OST_WATCH_LENGTH ? "as no support acts there" : "as no support acts there along it";
     return OST_SUCCESS;
 }
 
@@ -206,13 +239,25 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
                      watch->line);
 }
 
+/* Why there is no error of the mesh, in words. What the equations leave is in the estimate's residual: it is then none.
+ */
+static const char *find_exact(const OstWatch *watch, const OstWatched *watched)
+{
+    if (watched->exact || !(fabs(watched->error) <= rounding * fmax(fabs(watched->value), watched->scale)))
+        return watched->exact;
+    return watched->error == 0.0 && watch->kind == OST_WATCH_REACTION ? "which statics alone gives"
+                                                                      : "exact but for rounding";
+}
+
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     watched->placed = 0;
+    watched->exact = NULL;
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
     watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
+    watched->exact = find_exact(watch, watched);
     return OST_SUCCESS;
 }
 
@@ -286,7 +331,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
                                          result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY,
                                          watched.placed,
                                          {watched.place[0], watched.place[1], watched.place[2]},
-                                         watched.why};
+                                         watched.why,
+                                         watched.exact};
     }
     return OST_SUCCESS;
 }
@@ -296,11 +342,11 @@ void ost_watch_print(const OstWatchedValue *values, int count)
     for (int w = 0; w < count; w++) {
         const double expected = values[w].expected, error = fabs(values[w].error);
         printf("%-22s %.10g", values[w].name, values[w].value);
-        if (error == 0.0)
-            printf(", which statics alone gives");
+        if (values[w].exact)
+            printf(", %s", values[w].exact);
         else if (!isnan(error))
             printf(" +- %.2g", error);
-        if (error > 0.0 && error <= fabs(values[w].value) && values[w].value != 0.0)
+        if (!values[w].exact && error <= fabs(values[w].value) && values[w].value != 0.0)
             printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
         if (values[w].why)
             printf(", error not known: %s", values[w].why);

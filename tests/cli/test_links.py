@@ -197,6 +197,19 @@ def a_tie_passes_moments_across_a_gap():
     near(values["tip"], 2 * (4.5**3 - 2.5**3 + 2**3) / 300 + shear, 1e-2, "the tip of two bars with a gap")
 
 
+def a_tie_joins_what_coincides():
+    """Vertices of two parts in the same places are no cause for a warning where a tie joins them; without it they are."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 3, 3), "a"), ("b", (2, 0, 0), (2, 1, 1), (2, 3, 3), "b")])
+    tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
+    open_joint = tied.replace("{boundary: b_xmin}, tied_to: {boundary: a_xmax}", "{boundary: b_xmin}, displacement: [0, 0, 0]")
+    for ranks in fewer((1, 2)):
+        finished, _, _ = solve(tied, ranks=ranks, folder=folder)
+        check(finished.exit_code == 0 and "coincide" not in finished.errors, f"tied, on {ranks} ranks: {finished.errors}")
+        finished, _, _ = solve(open_joint, ranks=ranks, folder=folder)
+        check("2 components, and 16 vertices coincide" in finished.errors, f"not tied, on {ranks} ranks: {finished.errors}")
+
+
 CELL = """
 mesh: {file: layers.msh}
 element: {order: ORDER}
@@ -262,5 +275,6 @@ what_lies_elsewhere_does_not_matter()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
+a_tie_joins_what_coincides()
 a_layered_cell_has_the_stiffness_of_a_laminate()
 what_cannot_be_is_refused()

@@ -71,6 +71,24 @@ watch:
     check(all(entry["error"] is None for entry in report["watched"].values()), f"not asked for: {report['watched']}")
 
 
+def what_has_no_error_is_told_in_words():
+    """Under uniform stress linear tets are exact; no support acts on the pulled end."""
+    text = CASE + """  loose: {reaction: {boundary: xmax}, component: x}
+  turned: {reaction: {boundary: xmax}, about: [0, 0, 0], component: y}
+  still: {displacement: {nearest: [0, 0, 0]}, component: x}
+"""
+    finished, report, _ = solve(text, ranks=2)
+    printed = {line.split()[0]: line for line in finished.output.splitlines() if line.split()}
+    for name in ("tip", "work", "still"):
+        check("exact but for rounding" in printed[name] and "+-" not in printed[name], f"{name}: {printed[name]}")
+    for name in ("loose", "turned"):
+        check(report["watched"][name]["value"] == 0 and report["watched"][name]["error"] == 0, f"{name}: {report['watched']}")
+        check("0, as no support acts there along it" in printed[name], f"{name}: {printed[name]}")
+    rough = text.replace("1e-10", "1e-2").replace("[8, 2, 2]", "[16, 4, 4]") + "solver: {method: metric}\n"
+    tip = next(line for line in solve(rough)[0].output.splitlines() if line.startswith("tip"))
+    check("+-" in tip and "exact" not in tip, f"equations that are not solved: {tip}")
+
+
 def reactions_balance_the_loads():
     """Statics alone gives these; summed over its nodes, what a solve that stops early leaves of one is a percent off."""
     heavy = """mesh: {block: {size: [8, 1, 1], divisions: [16, 2, 2]}}
@@ -161,6 +179,7 @@ def main():
     for ranks in (1, 2):
         is_printed_and_in_json(ranks)
     errors_are_stated()
+    what_has_no_error_is_told_in_words()
     reactions_balance_the_loads()
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()

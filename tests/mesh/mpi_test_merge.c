@@ -29,7 +29,7 @@ static void coincident_vertices_are_counted_with_a_tolerance_that_joins_them(voi
         OstMesh *mesh = lattice_mesh(2, side_by_side, scale);
         OstGlobal count = 0;
         double tolerance = 0.0;
-        assert_success(ost_mesh_count_coincident(mesh, &count, &tolerance));
+        assert_success(ost_mesh_count_coincident(mesh, NULL, &count, &tolerance));
         assert_int_equal(count, 4);
         assert_close(tolerance, 0.01 * scale, 1e-12 * scale);
         ost_mesh_destroy(&mesh);
@@ -110,7 +110,7 @@ static void unmerged_the_soup_is_as_many_parts_as_tets(void **state)
     double tolerance = 0.0;
     assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
     assert_int_equal(count_parts(mesh), 6 * N * N * N);
-    assert_success(ost_mesh_count_coincident(mesh, &count, &tolerance));
+    assert_success(ost_mesh_count_coincident(mesh, NULL, &count, &tolerance));
     assert_int_equal(count, 24 * N * N * N - (N + 1) * (N + 1) * (N + 1));
     ost_mesh_destroy(&mesh);
 }
