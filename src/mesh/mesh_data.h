@@ -64,12 +64,13 @@ struct OstMeshChunk {
     int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
 };
 
-/* The file's number of a tet, or of the cell that it is a piece of. */
-enum { OST_PIECE_LABELS = 10 };
+/* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */
+enum { OST_PIECE_LABELS = 10, OST_CELL_WORDS = 64 };
 static inline OstGlobal ost_cell_label(int of_cells, OstGlobal tet_label)
 {
     return of_cells ? tet_label / OST_PIECE_LABELS : tet_label;
 }
+const char *ost_cell_words(const OstMesh *mesh, OstGlobal tet_label, char words[OST_CELL_WORDS]);
 
 /* What the partition kept on one rank each (mesh/distribution/weld.h). */
 enum { OST_WELDED_STIFF = 1, OST_WELDED_CLOSE = 2 };

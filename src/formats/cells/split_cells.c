@@ -108,22 +108,24 @@ static OstStatus split_set(OstCells *cells, int number)
 
 /* --- cells --- */
 
-/* All labels, of which those of cells that are not split are changed. */
-static OstStatus check_labels(OstCells *cells)
+static OstStatus check_labels(const OstCells *cells)
 {
-    for (int k = 0; k < OST_CELL_KINDS; k++) {
-        OstCellList *list = &cells->list[k];
-        for (OstLocal i = 0; i < list->count; i++) {
-            if (list->label[i] >= OST_LARGEST_LABEL / OST_PIECE_LABELS)
+    for (int k = 0; k < OST_CELL_KINDS; k++)
+        for (OstLocal i = 0; i < cells->list[k].count; i++)
+            if (cells->list[k].label[i] >= OST_LARGEST_LABEL / OST_PIECE_LABELS)
                 return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
                                  "%s: element number %" PRId64 " is too large to number the tets of an element by; "
                                  "number elements from 1",
-                                 cells->path, list->label[i]);
-            if (k < OST_CELL_PYRAMID5)
-                list->label[i] = piece_label(list->label[i], 0);
-        }
-    }
+                                 cells->path, cells->list[k].label[i]);
     return OST_SUCCESS;
+}
+
+/* The cells that are not split. */
+static void relabel(OstCells *cells)
+{
+    for (int k = 0; k < OST_CELL_PYRAMID5; k++)
+        for (OstLocal i = 0; i < cells->list[k].count; i++)
+            cells->list[k].label[i] = piece_label(cells->list[k].label[i], 0);
 }
 
 static OstStatus split_list(OstCells *cells, OstSplit *split, OstCellKind kind)
@@ -148,10 +150,11 @@ static OstStatus split_list(OstCells *cells, OstSplit *split, OstCellKind kind)
 /* Solids with nodes of their own in the middle of faces come first. */
 static OstStatus split_all(OstCells *cells, OstSplit *split)
 {
+    OST_TRY(check_labels(cells));
     for (int s = 0; s < cells->set_count; s++)
         if (cells->set[s].kind != OST_SET_OF_NODES)
             OST_TRY(split_set(cells, s));
-    OST_TRY(check_labels(cells));
+    relabel(cells);
     for (int k = OST_CELL_QUAD4 - 1; k >= OST_CELL_PYRAMID5; k--)
         OST_TRY(split_list(cells, split, (OstCellKind)k));
     for (int k = OST_CELL_QUAD4; k < OST_CELL_KINDS; k++)
