@@ -8,6 +8,7 @@
 #include "core/parallel/reduce.h"
 
 #include <math.h>
+#include <stdio.h>
 
 void ost_mesh_destroy(OstMesh **mesh)
 {
