@@ -7,6 +7,7 @@
 #include "formats/cells/shapes.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -201,8 +202,27 @@ static int is_corner(const OstCellShape *shape, int face, int vertex)
     return corner[0] == vertex || corner[1] == vertex || corner[2] == vertex || corner[3] == vertex;
 }
 
+/* Is a face of four straight edges plane? Its diagonals then meet. */
+static int is_plane(const OstSplit *split, const Cell *cell, int face)
+{
+    double diagonal[2][3], normal[3], between = 0.0;
+    const double *corner[4];
+    for (int c = 0; c < 4; c++)
+        corner[c] = place_of(split, cell->nodes[cell->shape->face[face][c]]);
+    for (int d = 0; d < 3; d++) {
+        diagonal[0][d] = corner[2][d] - corner[0][d];
+        diagonal[1][d] = corner[3][d] - corner[1][d];
+    }
+    ost_cross3(diagonal[0], diagonal[1], normal);
+    for (int d = 0; d < 3; d++)
+        between += normal[d] * (corner[1][d] - corner[0][d]);
+    return fabs(between) <= straight_share * ost_norm3(normal) * ost_norm3(diagonal[0]);
+}
+
 /* The centre of a face, or (-1) of the hexahedron, by its shape functions: corners count -1/4, and middles of edges 1/2
- * or, of the hexahedron, 1/4. Where all these edges are straight, x stays: the middle of the diagonal. */
+ * or, of the hexahedron, 1/4. Where all these edges are straight, and the face plane, x stays: the middle of the
+ * diagonal.
+ */
 static void find_centre(const OstSplit *split, const Cell *cell, int face, double x[3])
 {
     const OstCellShape *shape = cell->shape;
@@ -218,7 +238,7 @@ static void find_centre(const OstSplit *split, const Cell *cell, int face, doubl
         for (int d = 0; d < 3; d++)
             sum[d] += of_middle * place_of(split, middle)[d] + of_end * (place_of(split, a)[d] + place_of(split, b)[d]);
     }
-    if (!straight)
+    if (!straight || (face >= 0 && !is_plane(split, cell, face)))
         memcpy(x, sum, sizeof sum);
 }
 

@@ -137,11 +137,12 @@ static const Keyword *quadratic_if_longer(Medit *medit, const Keyword *linear)
 }
 
 /* Labels go on through the solids, so that no two have the same. */
-static OstGlobal label_of(const Medit *medit, const Keyword *keyword, OstGlobal number)
+static OstGlobal first_label(const Medit *medit, const Keyword *keyword)
 {
+    OstGlobal label = 1;
     for (int k = OST_CELL_TET4; k < OST_CELL_QUAD4 && keyword->dimension == 3; k++)
-        number += k == (int)keyword->kind ? 0 : medit->cells.list[k].count;
-    return number;
+        label += medit->cells.list[k].count;
+    return label;
 }
 
 static OstStatus read_cells(Medit *medit, const Keyword *keyword)
@@ -150,7 +151,7 @@ static OstStatus read_cells(Medit *medit, const Keyword *keyword)
     OST_TRY(read_count(medit, keyword->word, &count));
     keyword = quadratic_if_longer(medit, keyword);
     const OstMshCell *gmsh = keyword->code < 0 ? ost_msh_cell(-keyword->code) : NULL;
-    const OstGlobal first = label_of(medit, keyword, 1);
+    const OstGlobal first = first_label(medit, keyword);
     for (OstGlobal i = 0; i < count; i++) {
         for (int k = 0; k < keyword->numbers; k++)
             OST_TRY(read_integer(medit, "a vertex or reference", &read[k]));
