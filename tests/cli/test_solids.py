@@ -2,7 +2,7 @@
 import json
 import os
 
-from program import check, new_folder, run
+from program import SANITIZED, check, fewer, new_folder, run
 
 folder = new_folder()
 FACES = {"S6": 0, "S4": 1}  # at x = 0, at the end
@@ -67,14 +67,14 @@ def tip(mesh, force, **how):
 # Stretched by 2: FL/EA = 0.02, whatever the element.
 bar("linear.inp", 10, 20, 2, False)
 bar("quadratic.inp", 10, 10, 2, True)
-for mesh, ranks in (("linear.inp", 1), ("linear.inp", 2), ("quadratic.inp", 1)):
+for mesh, ranks in fewer((("linear.inp", 1), ("linear.inp", 2), ("quadratic.inp", 1))):
     found = tip(mesh, "[2, 0, 0]", ranks=ranks)
     check(abs(found - 0.02) < 1e-8, f"{mesh} on {ranks} ranks is stretched by {found}, expected 0.02")
 
 # Bent: FL³/3EI + 6FL/5GA (Timoshenko). Linear tets are too stiff, and quadratic ones made of them are not.
 bent = 0.01 * (10**3 / (3 * 1000 / 12) + 1.2 * 10 / 500)
-for mesh, element, low, high in (("quadratic.inp", "", 0.998, 1.001), ("linear.inp", "element: {order: 2}", 0.998, 1.001),
-                                 ("linear.inp", "", 0.5, 0.6)):
+for mesh, element, low, high in () if SANITIZED else (
+        ("quadratic.inp", "", 0.998, 1.001), ("linear.inp", "element: {order: 2}", 0.998, 1.001), ("linear.inp", "", 0.5, 0.6)):
     found = tip(mesh, "[0, 0, 0.01]", component="z", element=element) / bent
     check(low < found < high, f"{mesh} {element}: bent by {found} times what the formula has")
 
@@ -86,7 +86,7 @@ check(done.errors.count("linear.inp: split 80 hexahedra into ") == 1 and "volume
 bar("two.inp", 2, 2, 1, False)
 write("axes.txt", "1 0 0 0 1 0 0 0 1\n0 1 0 -1 0 0 0 0 1\n")
 how = {"modulus": "[1000, 2000, 500]", "axes": ", axes: {cells: axes.txt}", "length": 2}
-for ranks in (1, 2):
+for ranks in fewer((1, 2)):
     found = tip("two.inp", "[1, 0, 0]", ranks=ranks, **how)
     check(abs(found - 1 / 1000 - 1 / 2000) < 1e-9, f"two elements with axes of their own are stretched by {found}")
 write("axes.txt", "1 0 0 0 1 0 0 0 1\n")

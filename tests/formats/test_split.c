@@ -411,6 +411,23 @@ static void surfaces_of_abaqus_are_faces_of_its_cells(void **state)
     check_body(chunk, 16.0);
 }
 
+/* Nodes in the middle of faces come in the order of S1 to S6, behind that of the body. */
+static void full_hexahedra_of_abaqus_are_read(void **state)
+{
+    static const char text[] =
+        "*NODE\n"
+        "1,0,0,0\n2,2,0,0\n3,2,2,0\n4,0,2,0\n5,0,0,2\n6,2,0,2\n7,2,2,2\n8,0,2,2\n9,1,0,0\n"
+        "10,2,1,0\n11,1,2,0\n12,0,1,0\n13,1,0,2\n14,2,1,2\n15,1,2,2\n16,0,1,2\n17,0,0,1\n18,2,0,1\n"
+        "19,2,2,1\n20,0,2,1\n21,1,1,1\n22,1,1,0\n23,1,1,2\n24,1,0,1\n25,2,1,1\n26,1,2,1\n27,0,1,1\n"
+        "*ELEMENT,TYPE=C3D27\n1,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,\n16,17,18,19,20,21,22,23,24,25,26,27\n";
+    OstMeshChunk *chunk = NULL;
+    (void)state;
+    assert_success(read_text("full.inp", text, &chunk));
+    assert_int_equal(chunk->node_count, 27);
+    assert_close(whole_volume(chunk, NULL), 8.0, 1e-14);
+    check_body(chunk, 12.0);
+}
+
 #define VTK_HEAD "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
 
 static void voxels_of_vtk_go_row_by_row(void **state)
@@ -538,6 +555,7 @@ static const struct CMUnitTest tests[] = {cmocka_unit_test(cells_of_all_kinds_be
                                           cmocka_unit_test(straight_cells_stay_straight),
                                           cmocka_unit_test(collapsed_hexahedra_lose_their_flat_tets),
                                           cmocka_unit_test(surfaces_of_abaqus_are_faces_of_its_cells),
+                                          cmocka_unit_test(full_hexahedra_of_abaqus_are_read),
                                           cmocka_unit_test(voxels_of_vtk_go_row_by_row),
                                           cmocka_unit_test(lagrange_hexahedra_are_read_in_both_orders),
                                           cmocka_unit_test(fields_of_elements_are_those_of_their_tets),

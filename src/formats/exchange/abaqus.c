@@ -134,14 +134,20 @@ static OstStatus read_node(OstInp *inp)
     return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, label);
 }
 
-/* Which of C3D27's nodes are VTK's in the middle of faces, and of the body: Abaqus has that first, then S1 to S6. */
-static const int of_c3d27[7] = {26, 24, 23, 25, 21, 22, 20};
+/* Of C3D27's last nodes that of the body comes first, then those of the faces S1 to S6. */
+static void order_c3d27(OstGlobal *nodes)
+{
+    static const int from[7] = {26, 24, 23, 25, 21, 22, 20};
+    OstGlobal last[7];
+    for (int n = 0; n < 7; n++)
+        last[n] = nodes[from[n]];
+    memcpy(nodes + 20, last, sizeof last);
+}
 
 /* A line may end within an element, which the next one then goes on with. */
 static OstStatus read_element(OstInp *inp)
 {
     const int width = 1 + ost_cell_facts[inp->kind].nodes;
-    OstGlobal nodes[27];
     while (inp->filled < width && !ost_lines_ended(inp->lines)) {
         OST_TRY(ost_lines_integer(inp->lines, inp->filled == 0 ? "the number of an element" : "a node of an element",
                                   &inp->element[inp->filled]));
@@ -151,9 +157,9 @@ static OstStatus read_element(OstInp *inp)
         return OST_SUCCESS;
     inp->filled = 0;
     OST_TRY(ost_lines_finish(inp->lines, "the nodes of an element"));
-    for (int n = 0; n + 1 < width; n++)
-        nodes[n] = inp->element[1 + (inp->kind == OST_CELL_HEX27 && n >= 20 ? of_c3d27[n - 20] : n)];
-    OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, nodes));
+    if (inp->kind == OST_CELL_HEX27)
+        order_c3d27(inp->element + 1);
+    OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, inp->element + 1));
     return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, inp->element[0]);
 }
 

@@ -29,7 +29,7 @@ OstStatus ost_msh_check_type(const OstMsh *msh, int type)
 {
     if (type >= 1 && type < OST_MSH_TYPES)
         return OST_SUCCESS;
-    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected tets (types 4 and 11) and what bounds them",
+    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected linear or quadratic ones (types 1 to 19)",
                          type);
 }
 
@@ -113,7 +113,8 @@ OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group
     return OST_SUCCESS;
 }
 
-static OstStatus add_tet(OstMsh *msh, int width, OstGlobal label, const OstGlobal *positions, int group)
+/* Room for one more tet; its nodes are to be filled in. */
+static OstStatus add_tet(OstMsh *msh, int width, OstGlobal label, int group, OstGlobal **nodes)
 {
     OstMeshChunk *chunk = msh->chunk;
     const OstLocal t = chunk->tet_count;
@@ -124,12 +125,24 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal label, const OstGloba
         OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_label, msh->room));
         OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_region, msh->room));
     }
-    memcpy(chunk->tet_nodes + (size_t)t * (size_t)width, positions, (size_t)width * sizeof *positions);
     if (t == 0 || group != chunk->tet_region[t - 1])
         OST_TRY(ost_msh_group(msh, 3, group, &region));
     chunk->tet_label[t] = label;
     chunk->tet_region[t] = group;
     chunk->tet_count++;
+    *nodes = chunk->tet_nodes + (size_t)t * (size_t)width;
+    return OST_SUCCESS;
+}
+
+/* Gmsh has the last two mid-edge nodes of a tet in the opposite order. */
+static OstStatus find_tet(const OstMsh *msh, int width, const OstGlobal *tags, OstGlobal *own)
+{
+    OST_TRY(find_nodes(msh, width, tags, own));
+    if (width == 10) {
+        const OstGlobal ninth = own[8];
+        own[8] = own[9];
+        own[9] = ninth;
+    }
     return OST_SUCCESS;
 }
 
@@ -141,30 +154,22 @@ static OstStatus count_item(OstMsh *msh)
     return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
 }
 
-/* A tet in several physical volumes is added once for each. */
-static OstStatus add_tets(OstMsh *msh, int width, OstGlobal label, const OstGlobal *positions, OstGlobal group_count,
-                          const int *groups)
+/* A tet in several physical volumes is added once for each. Its nodes by their tags, or, of a piece, their positions.
+ */
+static OstStatus add_tets(OstMsh *msh, int width, OstGlobal label, const OstGlobal *tags, const OstGlobal *positions,
+                          OstGlobal group_count, const int *groups)
 {
-    OST_TRY(add_tet(msh, width, label, positions, group_count > 0 ? abs(groups[0]) : 0));
-    for (OstGlobal i = 1; i < group_count; i++) {
-        OST_TRY(count_item(msh));
-        OST_TRY(add_tet(msh, width, label, positions, abs(groups[i])));
+    OstGlobal *own = NULL;
+    for (OstGlobal i = 0; i == 0 || i < group_count; i++) {
+        if (i > 0)
+            OST_TRY(count_item(msh));
+        OST_TRY(add_tet(msh, width, label, group_count > 0 ? abs(groups[i]) : 0, &own));
+        if (positions)
+            memcpy(own, positions, (size_t)width * sizeof *own);
+        else
+            OST_TRY(find_tet(msh, width, tags, own));
     }
     return OST_SUCCESS;
-}
-
-/* Gmsh has the last two mid-edge nodes of a tet in the opposite order. */
-static OstStatus add_whole_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
-                               const int *groups)
-{
-    OstGlobal positions[10];
-    OST_TRY(find_nodes(msh, width, nodes, positions));
-    if (width == 10) {
-        const OstGlobal ninth = positions[8];
-        positions[8] = positions[9];
-        positions[9] = ninth;
-    }
-    return add_tets(msh, width, tag, positions, group_count, groups);
 }
 
 /* The pieces of a cell, which is then counted as split. */
@@ -189,7 +194,7 @@ static OstStatus add_pieces(OstMsh *msh, const OstMshCell *cell, OstGlobal tag, 
     OstPieces pieces;
     OST_TRY(split(msh, cell, tag, nodes, &pieces));
     for (int p = 0; p < pieces.count; p++)
-        OST_TRY(add_tets(msh, msh->tet_type == OST_MSH_TET4 ? 4 : 10, -(OST_PIECE_LABELS * tag + p + 1),
+        OST_TRY(add_tets(msh, msh->tet_type == OST_MSH_TET4 ? 4 : 10, -(OST_PIECE_LABELS * tag + p + 1), NULL,
                          pieces.nodes[p], group_count, groups));
     return OST_SUCCESS;
 }
@@ -252,10 +257,9 @@ static OstStatus add_items(OstMsh *msh, int type, OstGlobal tag, const OstGlobal
 
 int ost_msh_tet_type(int type)
 {
-    const OstMshCell *cell = ost_msh_cell(type);
     if (type == OST_MSH_TET4 || type == OST_MSH_TET10)
         return type;
-    if (!cell || ost_msh_types[type].dimension < 3)
+    if (!ost_msh_cell(type) || ost_msh_types[type].dimension < 3)
         return 0;
     return ost_msh_types[type].nodes <= 8 ? OST_MSH_TET4 : OST_MSH_TET10;
 }
@@ -276,6 +280,6 @@ OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlo
         return OST_SUCCESS; /* refused later */
     msh->tets_out_of_order |= tag < msh->last_tag;
     msh->last_tag = tag;
-    return type == tet_type ? add_whole_tet(msh, facts->nodes, tag, nodes, group_count, groups)
+    return type == tet_type ? add_tets(msh, facts->nodes, tag, nodes, NULL, group_count, groups)
                             : add_pieces(msh, ost_msh_cell(type), tag, nodes, group_count, groups);
 }
