@@ -43,8 +43,8 @@ static OstStatus check_kinds(const OstCells *cells)
             cells->path, cells->solids, cells->solid);
     if (linear > 0 && quadratic > 0)
         return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                         "%s: holds %" PRId64 " linear and %" PRId64 " quadratic solid elements (tets of 4 and of 10 "
-                         "nodes, say), expected one kind; mesh the whole body in one order",
+                         "%s: holds %" PRId64 " linear and %" PRId64
+                         " quadratic solid elements, expected one kind; mesh the whole body in one order",
                          cells->path, linear, quadratic);
     if (cells->chunk->node_count == 0)
         return OST_RAISE(

@@ -31,8 +31,8 @@ static OstStatus check_volume_elements(const OstMsh *msh)
     }
     if (linear > 0 && quadratic > 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "%s: holds %" PRId64 " linear and %" PRId64 " quadratic solid elements (tets of 4 and of 10 "
-                         "nodes, say), expected one kind; mesh the whole body in one order",
+                         "%s: holds %" PRId64 " linear and %" PRId64
+                         " quadratic solid elements, expected one kind; mesh the whole body in one order",
                          msh->cursor.path, linear, quadratic);
     if (msh->tet_type == 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
@@ -144,10 +144,8 @@ static OstStatus check_group(const OstMsh *msh, const OstMshGroup *group, const 
     static const int types[2][3] = {{OST_MSH_POINT, OST_MSH_LINE2, OST_MSH_TRIANGLE3},
                                     {OST_MSH_POINT, OST_MSH_LINE3, OST_MSH_TRIANGLE6}};
     const int expected = types[msh->tet_type == OST_MSH_TET10][group->dimension];
-    const int bounds_none = group->quad && msh->split.tets == 0;
-    const int found = (group->type != expected || bounds_none) && group->quad ? group->quad
-                      : group->type != expected                               ? group->type
-                                                                              : group->other_type;
+    const int quad = msh->split.tets == 0 || group->type != expected ? group->quad : 0;
+    const int found = quad ? quad : group->type != expected ? group->type : group->other_type;
     if (found == 0)
         return OST_SUCCESS;
     return OST_RAISE(msh->cursor.ctx, OST_INVALID_INPUT,
