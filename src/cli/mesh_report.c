@@ -126,7 +126,7 @@ static const char *const items[] = {"points", "curves", "faces"};
 
 static void print_histogram(const OstMesh *mesh, const OstMeshReport *counts)
 {
-    char cell[OST_CELL_WORDS];
+    char cell[64] = "";
     OstGlobal most = 1;
     for (int b = 0; b < OST_QUALITY_BINS; b++)
         most = counts->bins[b] > most ? counts->bins[b] : most;
@@ -136,8 +136,10 @@ static void print_histogram(const OstMesh *mesh, const OstMeshReport *counts)
         printf("  %.1f to %.1f %12lld  %.*s\n", 0.1 * b, 0.1 * (b + 1), (long long)counts->bins[b], length,
                "########################################");
     }
-    printf("  least %.3g (tet %lld%s), mean %.3g\n", counts->least_quality, (long long)counts->worst_tet,
-           ost_cell_words(mesh, counts->worst_tet, cell), counts->mean_quality);
+    if (mesh->of_cells)
+        snprintf(cell, sizeof cell, " of element %lld", (long long)ost_cell_label(1, counts->worst_tet));
+    printf("  least %.3g (tet %lld%s), mean %.3g\n", counts->least_quality, (long long)counts->worst_tet, cell,
+           counts->mean_quality);
 }
 
 static void print_parts(const OstMeshReport *counts)
